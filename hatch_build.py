@@ -17,7 +17,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-SOURCES = ("tftool/frames/_kernel.c", "tftool/wire/_scan.c")
+SOURCES = ("tftool/buffer/_kernel.c", "tftool/messages/_scan.c")
 
 # The same operations in the same order as in Python: nothing fused, nothing reordered.
 EXACT = ("-O3", "-std=c11", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math")

@@ -13,8 +13,8 @@ from docutils.parsers.rst import Directive
 from sphinx.application import Sphinx
 
 import tftool
-from tftool.cli.app import main
-from tftool.cli.index import COMMANDS
+from tftool.app.index import COMMANDS
+from tftool.app.main import main
 
 project = "tftool"
 author = "the tftool maintainers"

@@ -5,7 +5,7 @@ import io
 import re
 import shlex
 
-from tftool.cli.app import main
+from tftool.app.main import main
 
 
 def blocks(page):

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.pages import blocks, follow, said_by
-from tftool.cli.app import main
+from tftool.app.main import main
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"

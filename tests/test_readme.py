@@ -8,8 +8,8 @@ import pytest
 
 import tftool
 from tests.pages import blocks, follow, said_by
-from tftool.cli.index import COMMANDS
-from tftool.interfaces.schema import Schema
+from tftool.app.index import COMMANDS
+from tftool.messages.schema import Schema
 from tftool.ros.host import import_table
 
 ROOT = Path(__file__).parents[1]

@@ -1,6 +1,6 @@
 """The same package twice in one process: as it runs here, and in plain Python.
 
-The second copy of `tftool.frames` is imported under TFTOOL_PURE=1. Both share everything else,
+The second copy of `tftool.buffer` is imported under TFTOOL_PURE=1. Both share everything else,
 `TransformStamped` and the exceptions included, so that their answers can be compared.
 """
 
@@ -11,9 +11,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import tftool
-from tftool.frames.native import IS_NATIVE, SWITCH
+from tftool.base.native import SWITCH
+from tftool.buffer.native_kernel import IS_NATIVE
 
-SHARED = {"tftool.frames.sample", "tftool.frames._kernel"}
+SHARED = {"tftool.buffer.sample", "tftool.buffer._kernel"}
 
 REASON = "no native kernel is built here, or TFTOOL_PURE is set: there is one path only"
 
@@ -27,22 +28,22 @@ def is_native() -> bool:
 
 @contextmanager
 def pure() -> Iterator[None]:
-    """Inside, `tftool.frames` is the plain copy, for what imports it and for what it imports."""
+    """Inside, `tftool.buffer` is the plain copy, for what imports it and for what it imports."""
     ours = {name: module for name, module in sys.modules.items() if _is_twin(name)}
-    package, switch = tftool.frames, os.environ.get(SWITCH)
+    package, switch = tftool.buffer, os.environ.get(SWITCH)
     for name in ours:
         del sys.modules[name]
     sys.modules.update(_copies)
     os.environ[SWITCH] = "1"
     try:
-        tftool.frames = importlib.import_module("tftool.frames")
+        tftool.buffer = importlib.import_module("tftool.buffer")
         yield
     finally:
         _copies.update((name, module) for name, module in sys.modules.items() if _is_twin(name))
         for name in _copies:
             sys.modules.pop(name, None)
         sys.modules.update(ours)
-        tftool.frames = package
+        tftool.buffer = package
         if switch is None:
             del os.environ[SWITCH]
         else:
@@ -66,10 +67,10 @@ class Twins:
 
             if plain:
                 with pure():
-                    module = importlib.import_module("tftool.frames.buffer")
+                    module = importlib.import_module("tftool.buffer.buffer")
                     self.pair.append(module.Buffer(*arguments, log=note, **options))
             else:
-                module = importlib.import_module("tftool.frames.buffer")
+                module = importlib.import_module("tftool.buffer.buffer")
                 self.pair.append(module.Buffer(*arguments, log=note, **options))
 
     def ask(self, call: str, *words: object, **options: object) -> tuple[object, object]:

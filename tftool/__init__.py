@@ -7,12 +7,7 @@ import sys
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
-    from tftool.comparing.asking import diff
-    from tftool.comparing.compare import Differences
-    from tftool.diagnostics.asking import diagnose, explain
-    from tftool.diagnostics.explanation import Explanation
-    from tftool.diagnostics.findings import Finding
-    from tftool.errors import (
+    from tftool.base.errors import (
         BackwardExtrapolationException,
         ConnectivityException,
         ExtrapolationException,
@@ -27,23 +22,28 @@ if TYPE_CHECKING:
         TransformException,
         UsageError,
     )
-    from tftool.frames.batch.arrays import TransformArray
-    from tftool.frames.buffer import Buffer
-    from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
+    from tftool.base.stamps import LATEST, as_seconds, seconds
+    from tftool.buffer.batch.transform_array import TransformArray
+    from tftool.buffer.buffer import Buffer
+    from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
+    from tftool.doctor.diagnose import diagnose, explain
+    from tftool.doctor.explanation import Explanation
+    from tftool.doctor.findings import Finding
+    from tftool.drawing.figure import plot
+    from tftool.frames.diff import diff
+    from tftool.frames.differences import Differences
+    from tftool.frames.export.export import Exported, export
     from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
     from tftool.geometry.rigid import Quaternion, Transform, Vector3
     from tftool.notebook import PageView, view
-    from tftool.runtime.clock import Clock, Phase, SimClock, WallClock, run
-    from tftool.runtime.node import Node
-    from tftool.runtime.supervisor import live
-    from tftool.runtime.world import World
-    from tftool.sinks.export import Exported, export
-    from tftool.sources.joint_states import JointStates
-    from tftool.sources.recording import Recording, open_recording
-    from tftool.sources.robot import Robot, load_urdf
-    from tftool.sources.writing.recording import RecordingWriter, write_recording
-    from tftool.stamps import LATEST, as_seconds, seconds
-    from tftool.views.figure import plot
+    from tftool.recordings.recording import Recording, open_recording
+    from tftool.recordings.recording_writer import RecordingWriter, write_recording
+    from tftool.robots.joint_states import JointStates
+    from tftool.robots.robot_model import Robot, load_urdf
+    from tftool.world.clock import Clock, Phase, SimClock, WallClock, run
+    from tftool.world.node import Node
+    from tftool.world.supervisor import live
+    from tftool.world.world import World
 
 __version__ = "0.1.0"
 
@@ -105,7 +105,7 @@ __all__ = [
 # Where each name lives. It is imported when it is first asked for, so that `import tftool`
 # costs nothing, and a command pays for what it uses.
 _HOMES = {
-    "tftool.errors": (
+    "tftool.base.errors": (
         "BackwardExtrapolationException",
         "ConnectivityException",
         "ExtrapolationException",
@@ -120,28 +120,28 @@ _HOMES = {
         "TransformException",
         "UsageError",
     ),
-    "tftool.frames.batch.arrays": ("TransformArray",),
-    "tftool.frames.buffer": ("Buffer",),
-    "tftool.frames.sample": ("FrameInfo", "Snapshot", "TransformStamped"),
+    "tftool.buffer.batch.transform_array": ("TransformArray",),
+    "tftool.buffer.buffer": ("Buffer",),
+    "tftool.buffer.sample": ("FrameInfo", "Snapshot", "TransformStamped"),
     "tftool.geometry.conversions": ("quaternion_from_rpy", "rpy_from_quaternion"),
     "tftool.geometry.rigid": ("Quaternion", "Transform", "Vector3"),
-    "tftool.runtime.clock": ("Clock", "Phase", "SimClock", "WallClock", "run"),
-    "tftool.runtime.node": ("Node",),
-    "tftool.runtime.supervisor": ("live",),
-    "tftool.runtime.world": ("World",),
-    "tftool.comparing.asking": ("diff",),
-    "tftool.comparing.compare": ("Differences",),
-    "tftool.diagnostics.asking": ("diagnose", "explain"),
-    "tftool.diagnostics.explanation": ("Explanation",),
-    "tftool.diagnostics.findings": ("Finding",),
+    "tftool.world.clock": ("Clock", "Phase", "SimClock", "WallClock", "run"),
+    "tftool.world.node": ("Node",),
+    "tftool.world.supervisor": ("live",),
+    "tftool.world.world": ("World",),
+    "tftool.frames.diff": ("diff",),
+    "tftool.frames.differences": ("Differences",),
+    "tftool.doctor.diagnose": ("diagnose", "explain"),
+    "tftool.doctor.explanation": ("Explanation",),
+    "tftool.doctor.findings": ("Finding",),
     "tftool.notebook": ("PageView", "view"),
-    "tftool.sinks.export": ("Exported", "export"),
-    "tftool.sources.recording": ("Recording", "open_recording"),
-    "tftool.sources.joint_states": ("JointStates",),
-    "tftool.sources.robot": ("Robot", "load_urdf"),
-    "tftool.sources.writing.recording": ("RecordingWriter", "write_recording"),
-    "tftool.views.figure": ("plot",),
-    "tftool.stamps": ("LATEST", "as_seconds", "seconds"),
+    "tftool.frames.export.export": ("Exported", "export"),
+    "tftool.recordings.recording": ("Recording", "open_recording"),
+    "tftool.robots.joint_states": ("JointStates",),
+    "tftool.robots.robot_model": ("Robot", "load_urdf"),
+    "tftool.recordings.recording_writer": ("RecordingWriter", "write_recording"),
+    "tftool.drawing.figure": ("plot",),
+    "tftool.base.stamps": ("LATEST", "as_seconds", "seconds"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -2,6 +2,6 @@
 
 import sys
 
-from tftool.cli.app import main
+from tftool.app.main import main
 
 sys.exit(main())

@@ -11,16 +11,16 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tftool.views.escaping import visible
-from tftool.views.short_numbers import short_size
+from tftool.base.escaping import visible
+from tftool.base.short_numbers import short_size
 
 if TYPE_CHECKING:
-    from tftool.diagnostics.findings import Finding
-    from tftool.frames.batch.arrays import TransformArray
-    from tftool.frames.buffer import Buffer
-    from tftool.frames.sample import Snapshot
-    from tftool.sources.recording import Recording
-    from tftool.sources.robot import Robot
+    from tftool.buffer.batch.transform_array import TransformArray
+    from tftool.buffer.buffer import Buffer
+    from tftool.buffer.sample import Snapshot
+    from tftool.doctor.findings import Finding
+    from tftool.recordings.recording import Recording
+    from tftool.robots.robot_model import Robot
 
 ROWS: Final = 10
 """How many rows of a long array are shown, half of them from its end."""
@@ -48,7 +48,7 @@ def buffer_picture(buffer: "Buffer") -> str:
 
 def snapshot_picture(snapshot: "Snapshot") -> str:
     """The frames of a snapshot as SVG, as `tftool tree -o` draws them."""
-    from tftool.views import picture, svg
+    from tftool.drawing import picture, svg
 
     return svg.render(picture.lay_out(snapshot))
 
@@ -79,7 +79,7 @@ def _row(poses: "TransformArray", index: int | None) -> Sequence[str]:
 
 def recording_table(recording: "Recording") -> str:
     """What a recording holds, as `tftool info` says it."""
-    from tftool.views import info
+    from tftool.drawing import recording_view as info
 
     return f"<pre>{escape(info.as_text(recording))}</pre>"
 
@@ -125,7 +125,7 @@ class PageView:
             UsageError: If something has that name and `force` is not given.
             InputError: If it cannot be written.
         """
-        from tftool.sinks.trajectory_files import whole_file
+        from tftool.frames.export.trajectory_files import whole_file
 
         with whole_file(Path(path), force=force) as file:
             file.write(self.html.encode())
@@ -153,14 +153,14 @@ def view(
         InputError: If nothing of the recording can be read.
         TypeError: If it is neither a buffer nor a recording.
     """
-    from tftool.errors import without_frames
-    from tftool.frames.buffer import Buffer
-    from tftool.screens.beginning import first_moment
+    from tftool.base.errors import without_frames
+    from tftool.buffer.buffer import Buffer
+    from tftool.recordings.recording import Recording
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.protocol import reach
     from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.standalone import StandaloneData, standalone_page
-    from tftool.sources.recording import Recording
+    from tftool.screens.first_moment import first_moment
 
     if isinstance(shown, Recording):
         name, buffer, robot = f"recording '{shown.name}'", shown.buffer, robot or shown.robot
@@ -190,9 +190,9 @@ def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> s
 
 
 _SHOWN: Final[tuple[tuple[str, str, str, Callable[[Any], str]], ...]] = (
-    ("image/svg+xml", "tftool.frames.buffer", "Buffer", buffer_picture),
-    ("image/svg+xml", "tftool.frames.sample", "Snapshot", snapshot_picture),
-    ("text/html", "tftool.frames.batch.arrays", "TransformArray", array_table),
-    ("text/html", "tftool.sources.recording", "Recording", recording_table),
-    ("text/html", "tftool.diagnostics.findings", "Finding", finding_table),
+    ("image/svg+xml", "tftool.buffer.buffer", "Buffer", buffer_picture),
+    ("image/svg+xml", "tftool.buffer.sample", "Snapshot", snapshot_picture),
+    ("text/html", "tftool.buffer.batch.transform_array", "TransformArray", array_table),
+    ("text/html", "tftool.recordings.recording", "Recording", recording_table),
+    ("text/html", "tftool.doctor.findings", "Finding", finding_table),
 )

@@ -16,11 +16,11 @@ import numpy as np
 
 from tests.benchmarks import noetic
 from tests.benchmarks.batch_peers import PEERS
-from tftool.frames.batch.arrays import TransformArray
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.stamps import seconds
 
 ROUNDS = 5
 MANY = 1_000_000

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from tftool.frames.batch.arrays import TransformArray
+from tftool.buffer.batch.transform_array import TransformArray
 
 Work = Callable[[], object]
 

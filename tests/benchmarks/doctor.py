@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from tests.benchmarks.recordings import SECOND
-from tftool.frames.sample import TransformStamped
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.wire.transforms import encode_transforms
+from tftool.messages.transforms import encode_transforms
 
 TRANSFORMS = 1_000_000
 HEADERS = 100_000
@@ -25,7 +25,7 @@ _STAMP = struct.Struct("<II")
 
 def write_long(path: Path, transforms: int = TRANSFORMS, headers: int = HEADERS) -> Path:
     """A robot that drives and turns its joints, five transforms a message, and a sensor."""
-    from tests.sources import writers
+    from tests.recordings import writers
 
     pairs = [("odom", "base_link")] + [("base_link", f"joint_{k}_link") for k in range(1, 5)]
     count = transforms // 5
@@ -68,9 +68,9 @@ def _seconds(work) -> float:
 
 def compare_reading() -> str:
     """A million transforms and 100 000 headers: judged in how many times the reading."""
-    from tftool.diagnostics.judge import judge
-    from tftool.diagnostics.scope import Scope
-    from tftool.sources.recording import open_recording
+    from tftool.doctor.judge import judge
+    from tftool.doctor.scope import Scope
+    from tftool.recordings.recording import open_recording
 
     with tempfile.TemporaryDirectory() as folder:
         path = write_long(Path(folder) / "long.mcap")
@@ -95,9 +95,9 @@ def compare_reading() -> str:
 
 def compare_processes() -> str:
     """Small recordings, two processes against one."""
-    from tftool.cli import fleet
-    from tftool.diagnostics.model import Settings
-    from tftool.diagnostics.scope import Scope
+    from tftool.commands.fleet import fleet
+    from tftool.doctor.model import Settings
+    from tftool.doctor.scope import Scope
 
     with tempfile.TemporaryDirectory() as folder:
         whole = write_long(Path(folder) / "0.mcap", 40_000, 1_000)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tftool.frames.batch.arrays import TransformArray
-from tftool.sinks.export import Style, write_trajectories
-from tftool.sinks.formats import Format
-from tftool.trajectories.sampling import Trajectory
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.frames.export.export import Style, write_trajectories
+from tftool.frames.export.export_formats import Format
+from tftool.frames.pair_samples import Trajectory
 
 POSES = 1_000_000
 ROUNDS = 3

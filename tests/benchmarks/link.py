@@ -15,16 +15,16 @@ import threading
 import time
 from pathlib import Path
 
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.link.graph import Role
-from tftool.link.options import Options
-from tftool.link.session import Link
-from tftool.runtime.clock import WallClock, run
-from tftool.runtime.world import World
-from tftool.stamps import seconds
-from tftool.wire.transforms import decode_columns, decode_transforms, encode_transforms
+from tftool.messages.transforms import decode_columns, decode_transforms, encode_transforms
+from tftool.world.clock import WallClock, run
+from tftool.world.link.graph import Role
+from tftool.world.link.link_options import Options
+from tftool.world.link.session import Link
+from tftool.world.world import World
 
 STEADY = 5.0
 """Seconds of the steady stream."""
@@ -150,8 +150,8 @@ def paths(size=20_000):
 
 ALONE = """
 import sys
-from tftool.cli.app import main
-from tftool.cli.connection import Providers
+from tftool.app.main import main
+from tftool.commands.shared.connection import Providers
 class Alone(Providers):
     def link(self, options):
         return None

@@ -8,11 +8,11 @@ import time
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.runtime.clock import Phase
-from tftool.runtime.world import World
-from tftool.stamps import seconds
+from tftool.world.clock import Phase
+from tftool.world.world import World
 
 FRAMES = 300
 WANTED = 30.0

@@ -23,11 +23,11 @@ from pathlib import Path
 
 import numpy as np
 
-from tftool.frames.sample import TransformStamped
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.wire.layouts import CDR, ROS1
-from tftool.wire.rows import walk
-from tftool.wire.transforms import encode_transforms
+from tftool.messages.layouts import CDR, ROS1
+from tftool.messages.transform_rows import walk
+from tftool.messages.transforms import encode_transforms
 
 SECOND = 10**9
 TRANSFORMS = 1_000_000
@@ -78,7 +78,7 @@ def _payload(layout: str, frames: list) -> bytes:
 
 
 def _write(kind: str, path: Path, per_message: int) -> None:
-    from tests.sources import writers
+    from tests.recordings import writers
 
     messages = _messages("ros1" if kind.startswith("ros1") else "cdr", per_message, TRANSFORMS)
     if kind.startswith("mcap"):
@@ -109,7 +109,7 @@ def _write(kind: str, path: Path, per_message: int) -> None:
 
 def _write_big(path: Path, method: str) -> None:
     """2 GB of images, of which a thousandth is transforms."""
-    from tests.sources import writers
+    from tests.recordings import writers
 
     image = np.random.default_rng(3).integers(0, 255, 500_000, dtype=np.uint8).tobytes()
     compression = getattr(writers.CompressionType, method.upper())
@@ -130,7 +130,7 @@ def _write_big(path: Path, method: str) -> None:
 
 
 def _ours(path: Path, most: int) -> int:
-    from tftool.sources.recording import open_recording
+    from tftool.recordings.recording import open_recording
 
     with open_recording(path) as recording:
         assert recording.buffer.frames()
@@ -141,7 +141,7 @@ def _rosbags(path: Path, most: int) -> int:
     """Decode with rosbags, up to so many transforms: it is slow."""
     from rosbags.highlevel import AnyReader
 
-    from tests.sources import writers
+    from tests.recordings import writers
 
     count = 0
     with AnyReader([path], default_typestore=writers.ROS2) as reader:
@@ -205,7 +205,7 @@ def _unpacking(path: Path, most: int) -> int:
         for packed, _ in pieces:
             assert unpack(packed)
 
-    # As tftool.sources.compressed says of lz4.
+    # As tftool.recordings.decompression says of lz4.
     np.empty(31 << 20, dtype=np.uint8)
     pieces, workers = _packed(path), len(os.sched_getaffinity(0))
     with ThreadPoolExecutor(workers) as pool:
@@ -230,7 +230,7 @@ def _side(name: str, path: str, most: str) -> None:
     import rosbags.highlevel  # noqa: F401
     import zstandard  # noqa: F401
 
-    import tftool.sources.recording  # noqa: F401
+    import tftool.recordings.recording  # noqa: F401
 
     before, used, least = _peak(), 0.0, [9e9, 9e9]
     for turn in range(READINGS):
@@ -321,8 +321,8 @@ def _big(folder: Path) -> list[str]:
     for one in ("ours", "rosbags", "mcap"):
         took, _, _, count = _measured(one, path)
         lines.append(f"  2 GB uncompressed, 0.1 % tf, {one}: {took * count:.2f} s")
-    from tftool.sources.mcap import Mcap
-    from tftool.sources.reading import Recorded
+    from tftool.recordings.container_reader import Recorded
+    from tftool.recordings.mcap.read import Mcap
 
     container = Mcap(path)
     Recorded("big", container).transforms()
@@ -340,8 +340,8 @@ def _big(folder: Path) -> list[str]:
 
 def _asked(path: Path, kept: Path) -> float:
     """Processor seconds of a question to a recording whose columns are kept."""
-    from tftool.sources.cache import ColumnCache
-    from tftool.sources.recording import open_recording
+    from tftool.recordings.column_cache import ColumnCache
+    from tftool.recordings.recording import open_recording
 
     begin = time.process_time()
     with open_recording(path, cache=ColumnCache(kept)) as recording:

@@ -6,12 +6,12 @@ from collections.abc import Awaitable
 import numpy as np
 
 from tests.benchmarks import page
-from tftool.nodes.joints import MovingRobot
-from tftool.runtime.world import World
-from tftool.sources.joint_states import JointStates
-from tftool.sources.robot import Robot
-from tftool.sources.urdf import parse_description
-from tftool.stamps import seconds
+from tftool.base.stamps import seconds
+from tftool.robots.joint_states import JointStates
+from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import parse_description
+from tftool.world.nodes.joints import MovingRobot
+from tftool.world.world import World
 
 LINKS = 130
 ARMS = 10

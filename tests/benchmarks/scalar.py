@@ -17,7 +17,8 @@ from tests.benchmarks import batch, growth, noetic
 from tests.benchmarks.batch_peers import transform_tree_plan
 from tests.benchmarks.sides import Side
 from tests.differential.compare import PYTHON, missing
-from tftool.frames.native import IS_NATIVE, SWITCH
+from tftool.base.native import SWITCH
+from tftool.buffer.native_kernel import IS_NATIVE
 
 SIDE = Path(__file__).with_name("scalar_side.py")
 ROOT = Path(__file__).parents[2]

@@ -19,8 +19,8 @@ class Ours:
     """tftool."""
 
     def __init__(self):
-        from tftool.frames.buffer import Buffer
-        from tftool.frames.sample import TransformStamped
+        from tftool.buffer.buffer import Buffer
+        from tftool.buffer.sample import TransformStamped
         from tftool.geometry.rigid import Transform
 
         self.buffer, self.stamped, self.pose = Buffer, TransformStamped, Transform

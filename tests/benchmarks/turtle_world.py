@@ -3,18 +3,18 @@
 import statistics
 import time
 
-from tftool.messages import Color
-from tftool.nodes.broadcasters import Broadcaster
-from tftool.nodes.follower import Follower
-from tftool.nodes.squares import DrawSquare
-from tftool.nodes.turtlesim import Turtlesim
-from tftool.runtime.clock import SimClock, run
-from tftool.runtime.node import Node
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
+from tftool.base.stamps import as_seconds, seconds
+from tftool.messages.turtle_values import Color
 from tftool.scenario import builtin, load
 from tftool.scenario.play import run_scenario
-from tftool.stamps import as_seconds, seconds
+from tftool.world.clock import SimClock, run
+from tftool.world.node import Node
+from tftool.world.nodes.broadcasters import Broadcaster
+from tftool.world.nodes.follower import Follower
+from tftool.world.nodes.squares import DrawSquare
+from tftool.world.nodes.turtlesim import Turtlesim
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
 SIMULATED = 60.0
 """Seconds that each round lives through."""

@@ -3,8 +3,8 @@
 import statistics
 import time
 
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 
 WAITING = 10_000

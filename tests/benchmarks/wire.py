@@ -6,8 +6,8 @@ import tracemalloc
 
 import numpy as np
 
-from tftool.interfaces.classes import INTERFACES
-from tftool.wire.codec import codec
+from tftool.messages.classes import INTERFACES
+from tftool.messages.codec import codec
 
 PIXELS = 640 * 480 * 3
 """Bytes of the image."""

@@ -14,16 +14,16 @@ from pathlib import Path
 
 import numpy as np
 
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.sources.editing.changes import Edits
-from tftool.sources.editing.rewriting import edit
-from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.mcap import McapWriter
-from tftool.sources.writing.rolling import RollingRecording
-from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
-from tftool.stamps import seconds
-from tftool.wire.transforms import encode_transforms
+from tftool.messages.transforms import encode_transforms
+from tftool.recordings.channel import Channel
+from tftool.recordings.edit.changes import Edits
+from tftool.recordings.edit.rewrite import edit
+from tftool.recordings.mcap.write import McapWriter
+from tftool.recordings.rolling_writer import RollingRecording
+from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 
 START = seconds(1_750_000_000)
 TURNS = 3

@@ -16,14 +16,14 @@ import math
 from typing import Any
 
 from tests.differential.worlds import World
-from tftool.errors import (
+from tftool.base.errors import (
     ConnectivityException,
     ExtrapolationException,
     LookupException,
     TransformException,
 )
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry import rigid
 
 AGES_AGO = -(10**18)

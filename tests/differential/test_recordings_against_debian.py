@@ -13,9 +13,9 @@ from rosbags.highlevel import AnyReader
 from tests.differential import compare
 from tests.differential.ours import difference
 from tests.differential.worlds import SECOND, World
-from tests.sources.writers import ROS2, Sent, numbers, write_mcap, write_rosbag1
+from tests.recordings.writers import ROS2, Sent, numbers, write_mcap, write_rosbag1
 from tftool import open_recording
-from tftool.errors import TransformException
+from tftool.base.errors import TransformException
 
 QUESTIONS = 1000
 
@@ -80,7 +80,7 @@ def test_a_recording_answers_as_compiled_tf2_does(tmp_path, write, name):
                 kind = next(
                     one
                     for one in type(refused).__mro__
-                    if one.__module__ == "tftool.errors"
+                    if one.__module__ == "tftool.base.errors"
                     and not one.__name__.startswith(("Backward", "Forward", "NoData"))
                 )
                 mine.append(["refused", kind.__name__])

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.strategies import rotations, vectors
-from tftool.geometry import batch, quaternions
+from tftool.geometry import quaternions
+from tftool.geometry import rigid_arrays as batch
 
 several = st.lists(rotations, min_size=1, max_size=5)
 ODD = [

@@ -3,7 +3,8 @@ import pytest
 from hypothesis import given
 
 from tests.strategies import transforms, vectors
-from tftool.geometry import carry, quaternions
+from tftool.geometry import quantities as carry
+from tftool.geometry import quaternions
 from tftool.geometry.rigid import Transform, transform
 
 

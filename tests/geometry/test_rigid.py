@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 
 from tests.strategies import transforms, vectors
-from tftool.frames.sample import TransformStamped
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry import quaternions, rigid
 from tftool.geometry.rigid import IDENTITY, Quaternion, Transform, Vector3
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tftool.cli.app import main
+from tftool.app.main import main
 
 LOOP = """
 import asyncio

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tests.ros.tutorial import start
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 
 
 def begin(runtime, package, executable, *words):
@@ -48,7 +48,7 @@ def test_the_square_is_drawn_and_mimicked(ros_runtime):
         ros_runtime, "turtlesim", "mimic", "--ros-args",
         "-r", "/input/pose:=/s1/turtle1/pose", "-r", "/output/cmd_vel:=/s2/turtle1/cmd_vel",
     )  # fmt: skip
-    from tftool.messages import Twist2D
+    from tftool.geometry.motion.twist import Twist2D
 
     def drive():
         ros_runtime.world.topic("s1/turtle1/cmd_vel", Twist2D).publish(Twist2D(1.0))
@@ -177,7 +177,7 @@ def test_where_packages_are_can_be_asked():
 
 
 def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, capsys, monkeypatch):
-    from tftool.cli.app import main
+    from tftool.app.main import main
 
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "session"))
@@ -226,7 +226,7 @@ def test_a_commands_lines_may_be_of_any_length(monkeypatch):
 
 
 def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
-    from tftool.cli.app import main
+    from tftool.app.main import main
     from tftool.ros.launch import ending
 
     monkeypatch.delenv("ROS_DISTRO", raising=False)
@@ -277,7 +277,7 @@ def test_a_nodes_file_imports_its_own_package_by_name(ros_runtime, tmp_path):
 
 
 def test_a_file_with_zero_bytes_is_no_python_text(tmp_path):
-    from tftool.errors import InputError
+    from tftool.base.errors import InputError
     from tftool.ros.host.user_code import compile_file
 
     file = tmp_path / "node.pyc"

@@ -151,7 +151,7 @@ def test_a_multi_threaded_executor_whose_threads_were_all_busy_goes_on_in_its_ne
 
 
 def test_a_failing_callback_of_a_multi_threaded_executor_fails_its_program():
-    from tftool.errors import NodeFailed
+    from tftool.base.errors import NodeFailed
     from tftool.ros.testing import RosRuntime
 
     def main():

@@ -4,11 +4,11 @@ import threading
 import pytest
 
 from tests.patience import PATIENCE
-from tftool.errors import TftoolError
+from tftool.base.errors import TftoolError
+from tftool.base.stamps import seconds
 from tftool.ros.host import fibers
 from tftool.ros.host.fibers import Fiber, StuckError
-from tftool.runtime.clock import SimClock, WallClock, run
-from tftool.stamps import seconds
+from tftool.world.clock import SimClock, WallClock, run
 
 
 def drive(clock, *bodies, strict=True, **settings):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from tftool.messages import KeyPress
-from tftool.nodes.turtlesim import Turtlesim
+from tftool.messages.turtle_values import KeyPress
+from tftool.world.nodes.turtlesim import Turtlesim
 
 
 def test_every_node_is_named_with_its_place(node, ros_runtime):

@@ -68,10 +68,10 @@ def test_a_packages_modules_are_there_after_no_more_than_importing_it(use):
 
 
 def test_our_own_modules_are_no_package_of_interfaces(ros_runtime):
-    from tftool.interfaces.classes import INTERFACES
+    from tftool.messages.classes import INTERFACES
 
     # The simulator of the turtles brings interfaces of its own with it.
-    from tftool.nodes.drawings import KIND
+    from tftool.world.nodes.drawings import KIND
 
     assert KIND.interface__.startswith("tftool_interfaces/srv/")
     assert "tftool" not in INTERFACES.packages()

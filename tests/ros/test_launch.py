@@ -3,7 +3,7 @@
 import pytest
 
 from tests.ros.tutorial import TUTORIAL, Launched, launch
-from tftool.errors import InputError, NodeFailed, UsageError
+from tftool.base.errors import InputError, NodeFailed, UsageError
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.running import show_arguments
@@ -585,12 +585,12 @@ def test_every_element_of_xml_has_its_meaning(tmp_path):
 def test_the_tutorial_runs_live_too():
     import asyncio
 
-    from tftool.messages import Twist2D
+    from tftool.geometry.motion.twist import Twist2D
     from tftool.ros.launch import packages
     from tftool.ros.launch.engine import Launch
-    from tftool.runtime.clock import WallClock, run
-    from tftool.runtime.supervisor import live
-    from tftool.runtime.world import World
+    from tftool.world.clock import WallClock, run
+    from tftool.world.supervisor import live
+    from tftool.world.world import World
 
     async def until_driven(world):
         driven = asyncio.Event()

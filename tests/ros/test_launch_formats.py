@@ -7,7 +7,7 @@ import pytest
 
 from tests.ros.test_launch import described
 from tests.ros.tutorial import TUTORIAL, launch
-from tftool.errors import InputError, NodeFailed, TftoolError
+from tftool.base.errors import InputError, NodeFailed, TftoolError
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.running import show_arguments
@@ -267,7 +267,7 @@ def test_an_encoding_that_does_not_exist_is_named(tmp_path):
 
 
 def test_a_launch_file_that_is_run_as_a_node_names_the_command_for_it(tmp_path):
-    from tftool.errors import UsageError
+    from tftool.base.errors import UsageError
     from tftool.ros.host.workspace import Workspace
     from tftool.ros.running import check_program
 

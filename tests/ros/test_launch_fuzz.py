@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.ros.tutorial import TUTORIAL, launch
-from tftool.errors import TftoolError
+from tftool.base.errors import TftoolError
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.running import show_arguments

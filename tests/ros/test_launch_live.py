@@ -7,9 +7,9 @@ from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
 from tftool.ros.launch.engine import Launch
-from tftool.runtime.clock import WallClock, run
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
+from tftool.world.clock import WallClock, run
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
 
 def launch_live(file, start) -> Launched:

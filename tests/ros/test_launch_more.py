@@ -4,7 +4,7 @@ import pytest
 
 from tests.ros.test_launch import described
 from tests.ros.tutorial import launch
-from tftool.errors import InputError, NodeFailed, TftoolError, UsageError
+from tftool.base.errors import InputError, NodeFailed, TftoolError, UsageError
 from tftool.ros.host.importing import ros_free
 
 ECHO = "ExecuteProcess(cmd=['echo', 'hello there'])"

@@ -8,7 +8,7 @@ import pytest
 from tests.ros.test_launch import described
 from tests.ros.test_launch_live import launch_live, package
 from tests.ros.tutorial import launch
-from tftool.errors import NodeFailed
+from tftool.base.errors import NodeFailed
 from tftool.ros.host.importing import ros_free
 
 

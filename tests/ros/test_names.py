@@ -1,6 +1,6 @@
 import pytest
 
-from tftool.errors import InputError, UsageError
+from tftool.base.errors import InputError, UsageError
 from tftool.ros.host import names
 
 

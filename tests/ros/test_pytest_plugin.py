@@ -4,8 +4,8 @@ from pathlib import Path
 import pytest
 
 import tftool
-from tftool.errors import NodeFailed
-from tftool.nodes.turtlesim import Turtlesim
+from tftool.base.errors import NodeFailed
+from tftool.world.nodes.turtlesim import Turtlesim
 
 
 def test_a_test_is_a_node_program_and_time_passes_only_when_it_waits(ros_runtime):
@@ -231,7 +231,7 @@ def test_an_import_of_rclpy_that_fails_names_the_option_it_needs(pytester):
 
 
 def test_tests_know_the_workspaces_own_interfaces_with_ros_free(pytester):
-    from tftool.interfaces.classes import INTERFACES
+    from tftool.messages.classes import INTERFACES
 
     shapes = pytester.mkdir("my_balls")
     (shapes / "package.xml").write_text("<package><name>my_balls</name></package>")

@@ -180,7 +180,7 @@ def test_levels_of_loggers_have_messages_and_can_be_forgotten(node, monkeypatch,
 
 
 def test_with_verbose_a_run_says_what_of_the_workspace_it_skips(tmp_path, monkeypatch, capsys):
-    from tftool.cli.app import main
+    from tftool.app.main import main
 
     (tmp_path / "odd").mkdir()
     (tmp_path / "odd" / "setup.cfg").write_text("x = 1\n")

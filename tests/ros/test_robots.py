@@ -2,9 +2,9 @@
 
 import pytest
 
-from tests.nodes.test_joints import FIXED
 from tests.ros.tutorial import launch, start
-from tftool.errors import InputError, UsageError
+from tests.world.nodes.test_joints import FIXED
+from tftool.base.errors import InputError, UsageError
 
 LAUNCH = """
 from launch import LaunchDescription

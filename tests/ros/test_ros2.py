@@ -3,11 +3,11 @@
 import pytest
 
 from tests.ros.test_launch import described
-from tftool.errors import NodeFailed, UsageError
-from tftool.nodes.turtlesim import Turtlesim
+from tftool.base.errors import NodeFailed, UsageError
 from tftool.ros import ros2
 from tftool.ros.host import ros2_words, user_code
 from tftool.ros.host.workspace import Workspace
+from tftool.world.nodes.turtlesim import Turtlesim
 
 SIM = "Node(package='turtlesim', executable='turtlesim_node', name='sim')"
 

@@ -125,7 +125,7 @@ def test_our_own_nodes_may_ask_a_users_service(node, ros_runtime):
 
     from turtlesim.srv import Spawn as RosSpawn
 
-    from tftool.messages import Spawn
+    from tftool.messages.turtle_values import Spawn
 
     def spawn(request, response):
         response.name = f"{request.name} at {request.x}"
@@ -168,7 +168,7 @@ def test_the_simulators_services_take_ros_requests(node, ros_runtime):
     from std_srvs.srv import Empty
     from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
 
-    from tftool.nodes.turtlesim import Turtlesim
+    from tftool.world.nodes.turtlesim import Turtlesim
 
     ros_runtime.ask(lambda: Turtlesim(ros_runtime.world))
 

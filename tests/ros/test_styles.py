@@ -171,7 +171,7 @@ main()
     ],
 )
 def test_a_file_runs_as_it_is_written(ros_runtime, tmp_path, text, status, said):
-    from tftool.nodes.turtlesim import Turtlesim
+    from tftool.world.nodes.turtlesim import Turtlesim
 
     file = tmp_path / "node.py"
     file.write_text(text)

@@ -2,9 +2,9 @@ import math
 
 import pytest
 
-from tftool.frames.sample import TransformStamped as Sample
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped as Sample
 from tftool.geometry.rigid import Transform
-from tftool.stamps import seconds
 
 
 def transform(parent, child, stamp=None, xyz=(0.0, 0.0, 0.0), xyzw=(0.0, 0.0, 0.0, 1.0)):

@@ -113,7 +113,7 @@ executor.spin()
 def test_a_pool_may_ask_and_log_but_not_wait_on_simulated_time(node, ros_runtime):
     from concurrent.futures import ThreadPoolExecutor
 
-    from tftool.errors import TftoolError
+    from tftool.base.errors import TftoolError
 
     with ThreadPoolExecutor() as pool:
         assert pool.submit(node.get_topic_names_and_types).result()

@@ -123,7 +123,7 @@ def test_what_is_no_type_or_callback_is_refused(node, make, told):
 def test_points_travel_as_our_own_nodes_send_them(node, ros_runtime):
     from geometry_msgs.msg import PointStamped as RosPoint
 
-    from tftool.messages import PointStamped
+    from tftool.messages.turtle_values import PointStamped
 
     heard = []
     node.create_subscription(RosPoint, "points", heard.append, 1)

@@ -6,9 +6,9 @@ import pytest
 import yaml
 
 from tests.ros.tutorial import TUTORIAL, start
-from tftool.messages import Twist2D
-from tftool.nodes.turtlesim import Turtlesim
+from tftool.geometry.motion.twist import Twist2D
 from tftool.ros.testing import RosRuntime
+from tftool.world.nodes.turtlesim import Turtlesim
 
 VECTORS = yaml.safe_load(
     (Path(__file__).parent.parent / "reference" / "turtlesim_vectors.yaml").read_text()

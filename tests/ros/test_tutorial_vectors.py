@@ -4,18 +4,19 @@ import math
 
 import pytest
 
-from tests.nodes.harness import After, At, Before, log_texts, new_world, play
-from tests.nodes.loop import Loop
-from tests.nodes.vectors import VECTORS, close, ids, rows
 from tests.ros.tutorial import TUTORIAL, start
-from tftool.messages import Kill, Spawn, TeleportAbsolute, Twist2D
-from tftool.nodes.squares import DrawSquare
-from tftool.nodes.turtlesim import Turtlesim
+from tests.world.nodes.harness import After, At, Before, log_texts, new_world, play
+from tests.world.nodes.loop import Loop
+from tests.world.nodes.vectors import VECTORS, close, ids, rows
+from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_values import Kill, Spawn, TeleportAbsolute
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
 from tftool.ros.launch.engine import Launch
-from tftool.runtime.world import TransformMessage
+from tftool.world.nodes.squares import DrawSquare
+from tftool.world.nodes.turtlesim import Turtlesim
+from tftool.world.world import TransformMessage
 
 HEAD_START = 8.0
 """Seconds before t = 0: 500 whole ticks, more than three of the slowest follower's periods."""
@@ -40,7 +41,7 @@ ELSEWHERE = {
     "tree_statistics": "the viewers'",
     "stale_fade": "the viewers'",
 }
-"""Sections that no file of the tutorial's answers, and whose they are; tests/nodes runs them."""
+"""Sections that no file of the tutorial's answers, and their owners; see tests/world/nodes."""
 
 HERE = {
     "launch_timeline",

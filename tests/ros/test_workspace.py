@@ -1,7 +1,7 @@
 import pytest
 
-from tftool.errors import UsageError
-from tftool.interfaces.classes import INTERFACES
+from tftool.base.errors import UsageError
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.testing import RosRuntime
 

@@ -4,8 +4,8 @@ import random
 
 import pytest
 
-from tftool.errors import TftoolError
-from tftool.interfaces.classes import INTERFACES
+from tftool.base.errors import TftoolError
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import names
 from tftool.ros.host.workspace import Workspace
 

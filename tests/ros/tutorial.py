@@ -3,17 +3,17 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tftool.nodes.turtlesim import Turtlesim
+from tftool.base.stamps import seconds as stamp
 from tftool.ros.host import executables, names
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
 from tftool.ros.launch.engine import Launch
 from tftool.ros.running import until
-from tftool.runtime.clock import SimClock, run
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
-from tftool.stamps import seconds as stamp
+from tftool.world.clock import SimClock, run
+from tftool.world.nodes.turtlesim import Turtlesim
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
 TUTORIAL = Path(__file__).parent.parent / "tutorial" / "pkg_tf"
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tftool.errors import InputError
+from tftool.base.errors import InputError
 from tftool.scenario import builtin
 from tftool.scenario.load import load
 from tftool.scenario.play import run_scenario

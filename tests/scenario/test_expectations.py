@@ -2,9 +2,9 @@
 
 import pytest
 
+from tftool.base.stamps import seconds
 from tftool.scenario.load import parse
 from tftool.scenario.play import run_scenario
-from tftool.stamps import seconds
 
 WORLD = """\
 duration: 10 s

@@ -6,12 +6,12 @@ import yaml
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from tftool.errors import InputError, ScenarioError
+from tftool.base.errors import InputError, ScenarioError
+from tftool.base.escaping import visible
 from tftool.scenario import builtin, load
-from tftool.scenario.actions import ACTIONS
 from tftool.scenario.kinds import KINDS
 from tftool.scenario.questions import SUBJECTS
-from tftool.views.escaping import visible
+from tftool.scenario.script_actions import ACTIONS
 
 TEXTS = [path.read_text(encoding="utf-8") for path in sorted(builtin.folder().glob("*.yaml"))]
 

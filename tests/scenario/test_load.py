@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from tftool.errors import InputError, ScenarioError, UsageError
-from tftool.motion.pid import Gains
+from tftool.base.errors import InputError, ScenarioError, UsageError
+from tftool.base.stamps import seconds
+from tftool.geometry.motion.pid import Gains
 from tftool.scenario import document, load
-from tftool.scenario.schema import When
-from tftool.stamps import seconds
+from tftool.scenario.scenario import When
 
 SMALLEST = "duration: 1 s\n"
 

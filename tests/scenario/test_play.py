@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 import tftool
-from tftool.errors import NodeFailed, ScenarioError, TftoolError, UsageError
-from tftool.messages import Pose2D
-from tftool.runtime.clock import SimClock, run
-from tftool.runtime.node import Node
-from tftool.runtime.world import TransformMessage
+from tftool.base.errors import NodeFailed, ScenarioError, TftoolError, UsageError
+from tftool.base.stamps import seconds
+from tftool.messages.turtle_values import Pose2D
 from tftool.scenario import builtin
 from tftool.scenario.load import load, parse
 from tftool.scenario.play import build, left_to_a_person, run_scenario
-from tftool.stamps import seconds
+from tftool.world.clock import SimClock, run
+from tftool.world.node import Node
+from tftool.world.world import TransformMessage
 
 
 def play(text, *, by_hand=False):

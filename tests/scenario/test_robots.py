@@ -2,10 +2,10 @@
 
 import pytest
 
-from tests.nodes.test_joints import FIXED
-from tests.sources.writers import SECOND, Sent, write_mcap
-from tftool.cli.app import main
-from tftool.errors import ScenarioError
+from tests.recordings.writers import SECOND, Sent, write_mcap
+from tests.world.nodes.test_joints import FIXED
+from tftool.app.main import main
+from tftool.base.errors import ScenarioError
 from tftool.scenario.load import load
 
 

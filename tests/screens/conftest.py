@@ -1,16 +1,16 @@
 import pytest
 
+from tftool.base.stamps import seconds
 from tftool.geometry.rigid import Transform
-from tftool.nodes.broadcasters import Broadcaster
-from tftool.nodes.follower import Follower
-from tftool.nodes.teleop import Teleop
-from tftool.nodes.turtlesim import Turtlesim
-from tftool.runtime.clock import Phase, SimClock, run
-from tftool.runtime.node import Node
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
-from tftool.screens.scene import Scene
-from tftool.stamps import seconds
+from tftool.screens.terminal.scene import Scene
+from tftool.world.clock import Phase, SimClock, run
+from tftool.world.node import Node
+from tftool.world.nodes.broadcasters import Broadcaster
+from tftool.world.nodes.follower import Follower
+from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtlesim import Turtlesim
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
 
 class Looker(Node):
@@ -78,7 +78,7 @@ def frames():
     """Make a world with nothing but frames: name -> (parent, x, y), all static."""
 
     def make(links):
-        from tftool.frames.sample import TransformStamped
+        from tftool.buffer.sample import TransformStamped
 
         world = World(SimClock())
         for name, (parent, x, y) in links.items():

@@ -3,10 +3,10 @@
 import pytest
 
 from tftool import Buffer, Transform, TransformStamped, seconds
-from tftool.cli.naming import scenario_named
-from tftool.runtime.clock import SimClock, run
+from tftool.commands.shared.from_kind import scenario_named
 from tftool.scenario.play import build
-from tftool.screens.beginning import first_moment
+from tftool.screens.first_moment import first_moment
+from tftool.world.clock import SimClock, run
 
 BEGIN, END = seconds(100), seconds(160)
 

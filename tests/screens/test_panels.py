@@ -3,17 +3,17 @@ import math
 import pytest
 from rich.cells import cell_len
 
-from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.drawing import theme
+from tftool.drawing.plane import PlanePicture
 from tftool.geometry.rigid import Transform
-from tftool.runtime.log import LogRecord
-from tftool.screens import panels
-from tftool.screens.journal import Journal
-from tftool.screens.look import Look, wrapped
-from tftool.screens.panels import Hint
-from tftool.screens.scene import Pair, SceneMoment
-from tftool.stamps import seconds
-from tftool.views import theme
-from tftool.views.plane import PlanePicture
+from tftool.screens.terminal import panel_text as panels
+from tftool.screens.terminal.log_lines import Journal
+from tftool.screens.terminal.panel_text import Hint
+from tftool.screens.terminal.scene import Pair, SceneMoment
+from tftool.screens.terminal.text_style import Look, wrapped
+from tftool.world.log import LogRecord
 
 NASTY = ["[bold]x[/]", "\x1b[31mred", "a\nb", "x" * 500, "שלום", "🐢🐢", "\u202eevil"]
 PLAIN = Look()

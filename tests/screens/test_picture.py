@@ -9,17 +9,17 @@ from pathlib import Path
 import pytest
 
 from tests.screens.moving_picture import animated
-from tftool.cli.naming import scenario_named
-from tftool.cli.onscreen import simulator_of
-from tftool.nodes.idle_drawing import IdleDrawing
-from tftool.runtime.clock import Phase, SimClock, run
-from tftool.runtime.node import Node
+from tftool.base.stamps import NANOSECONDS, seconds
+from tftool.commands.shared.from_kind import scenario_named
+from tftool.commands.shared.on_screen import simulator_of
+from tftool.drawing import theme
 from tftool.scenario.play import build, left_to_a_person
-from tftool.screens.scene import Scene
-from tftool.screens.setting import Setting
-from tftool.screens.terminal import TurtleApp
-from tftool.stamps import NANOSECONDS, seconds
-from tftool.views import theme
+from tftool.screens.terminal.scene import Scene
+from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.turtle_app import TurtleApp
+from tftool.world.clock import Phase, SimClock, run
+from tftool.world.node import Node
+from tftool.world.nodes.idle_drawing import IdleDrawing
 
 PICTURES = Path(__file__).parents[1] / "pictures"
 STILL, MOVING = PICTURES / "demo.svg", PICTURES / "demo-moving.svg"

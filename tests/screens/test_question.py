@@ -1,10 +1,10 @@
 """Which pair of frames a screen begins with, where the one it would show is not there."""
 
 from tftool import Transform, TransformStamped, seconds
-from tftool.runtime.clock import SimClock, run
-from tftool.runtime.world import World
-from tftool.screens.question import SceneQuestion
-from tftool.screens.scene import Scene
+from tftool.screens.terminal.question import SceneQuestion
+from tftool.screens.terminal.scene import Scene
+from tftool.world.clock import SimClock, run
+from tftool.world.world import World
 
 
 def pairs_shown(*links):

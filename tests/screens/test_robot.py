@@ -3,13 +3,13 @@ import asyncio
 import pytest
 from rich.cells import cell_len
 
-from tests.nodes.harness import new_world
-from tests.sources.test_robot import TEXT
-from tftool.screens.robot import RobotApp
-from tftool.screens.setting import Setting
-from tftool.screens.sliders import Sliders, tip_of
-from tftool.sources.robot import Robot
-from tftool.sources.urdf import parse_description
+from tests.robots.test_robot import TEXT
+from tests.world.nodes.harness import new_world
+from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import parse_description
+from tftool.screens.terminal.robot_app import RobotApp
+from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.sliders import Sliders, tip_of
 
 
 class Mover:

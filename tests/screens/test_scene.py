@@ -2,16 +2,16 @@ import math
 
 import pytest
 
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.drawing import theme
 from tftool.geometry.planar import heading
 from tftool.geometry.rigid import Transform
-from tftool.messages import Clear, Color
-from tftool.runtime.clock import run
-from tftool.runtime.node import Node
-from tftool.screens import frames_seen
-from tftool.screens.scene import Scene
-from tftool.stamps import seconds
-from tftool.views import theme
+from tftool.messages.turtle_values import Clear, Color
+from tftool.screens.terminal import frames_picture as frames_seen
+from tftool.screens.terminal.scene import Scene
+from tftool.world.clock import run
+from tftool.world.node import Node
 
 
 class At(Node):
@@ -220,10 +220,10 @@ def test_trees_that_nothing_joins_are_apart(frames):
 
 
 def test_two_trees_that_are_joined_are_one_picture_that_agrees_with_the_lookup():
-    from tftool.cli.naming import scenario_named
-    from tftool.cli.onscreen import simulator_of
-    from tftool.runtime.clock import SimClock
+    from tftool.commands.shared.from_kind import scenario_named
+    from tftool.commands.shared.on_screen import simulator_of
     from tftool.scenario.play import build, left_to_a_person
+    from tftool.world.clock import SimClock
 
     play = build(left_to_a_person(scenario_named("two_trees")), SimClock())
     scene = Scene(play.world, simulator_of(play.world))

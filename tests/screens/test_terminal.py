@@ -5,18 +5,18 @@ import asyncio
 import pytest
 from rich.cells import cell_len
 
-from tests.nodes.vectors import VECTORS
 from tests.screens.visiting import screen, settled, shown, told, visit
-from tftool.errors import UsageError
-from tftool.frames.sample import TransformStamped
+from tests.world.nodes.vectors import VECTORS
+from tftool.base.errors import UsageError
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.drawing import theme
 from tftool.geometry.rigid import Transform
-from tftool.nodes.idle_drawing import IdleDrawing
-from tftool.screens.keyboard import events
-from tftool.screens.panel import Panel
-from tftool.screens.setting import Setting, setting_from
-from tftool.screens.terminal import TurtleApp
-from tftool.stamps import seconds
-from tftool.views import theme
+from tftool.screens.terminal.keyboard import events
+from tftool.screens.terminal.panel import Panel
+from tftool.screens.terminal.screen_options import Setting, setting_from
+from tftool.screens.terminal.turtle_app import TurtleApp
+from tftool.world.nodes.idle_drawing import IdleDrawing
 
 BANNER = ("Reading from keyboard", "'q' to quit.")
 

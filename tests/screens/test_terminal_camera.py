@@ -1,7 +1,7 @@
 """What of the picture the screen of the turtles shows."""
 
 from tests.screens.visiting import screen, settled, shown, visit
-from tftool.screens.keyboard import events
+from tftool.screens.terminal.keyboard import events
 
 
 def test_the_picture_is_drawn_in_the_frame_that_is_chosen(danced):

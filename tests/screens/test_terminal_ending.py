@@ -5,15 +5,15 @@ import asyncio
 import pytest
 
 from tests.screens.visiting import visit
-from tftool.errors import NodeFailed, TftoolError
-from tftool.runtime.clock import WallClock, run
-from tftool.runtime.node import Node
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
-from tftool.screens.scene import Scene
-from tftool.screens.showing import show
-from tftool.screens.terminal import TurtleApp
-from tftool.stamps import seconds
+from tftool.base.errors import NodeFailed, TftoolError
+from tftool.base.stamps import seconds
+from tftool.screens.terminal.run_screen import show
+from tftool.screens.terminal.scene import Scene
+from tftool.screens.terminal.turtle_app import TurtleApp
+from tftool.world.clock import WallClock, run
+from tftool.world.node import Node
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
 
 def test_q_ends_it(danced):

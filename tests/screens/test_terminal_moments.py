@@ -3,7 +3,7 @@
 import pytest
 
 from tests.screens.visiting import shown, told
-from tftool.stamps import seconds
+from tftool.base.stamps import seconds
 
 
 def test_time_travel_shows_everything_at_that_moment(danced):

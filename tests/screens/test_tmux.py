@@ -6,8 +6,8 @@ import signal
 
 import pytest
 
-from tests.link.processes import Process
 from tests.terminals import Terminal
+from tests.world.link.processes import Process
 
 pytestmark = pytest.mark.skipif(
     shutil.which("tmux") is None, reason="needs tmux, a terminal that can be asked"
@@ -15,8 +15,8 @@ pytestmark = pytest.mark.skipif(
 
 CRASH = """\
 import sys
-from tftool.cli.app import main
-from tftool.nodes.broadcasters import Broadcaster
+from tftool.app.main import main
+from tftool.world.nodes.broadcasters import Broadcaster
 
 async def run(self):
     await self.clock.sleep(500_000_000)

@@ -6,13 +6,13 @@ import shutil
 import pytest
 from rich.cells import cell_len
 
-from tests.nodes.harness import new_world
 from tests.terminals import Terminal
-from tftool.frames.sample import TransformStamped
+from tests.world.nodes.harness import new_world
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.screens.setting import Setting
-from tftool.screens.tree_watch import TreeWatch
-from tftool.stamps import seconds
+from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.tree_app import TreeWatch
 
 
 def shown(*keys, frames=60, size=(80, 24), news="", **setting):

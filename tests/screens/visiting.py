@@ -2,8 +2,8 @@
 
 import asyncio
 
-from tftool.screens.setting import Setting
-from tftool.screens.terminal import TurtleApp
+from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.turtle_app import TurtleApp
 
 
 def screen(app):

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from tests.tf2.loader import CACHE, VELOCITY, Unknown, close, fields
-from tftool.errors import ExtrapolationException, TransformException
-from tftool.frames.buffer import NEVER, Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.base.errors import ExtrapolationException, TransformException
+from tftool.buffer.buffer import NEVER, Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform, transform
 
 Step = Mapping[str, Any]

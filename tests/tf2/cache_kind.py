@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from tests.tf2.loader import CACHE, Unknown, close, fields
-from tftool.frames import refusals
-from tftool.frames.history import BACKWARD, FORWARD, NO_DATA, TOO_OLD, History, StaticLink
+from tftool.buffer import refusals
+from tftool.buffer.history import BACKWARD, FORWARD, NO_DATA, TOO_OLD, History, StaticLink
 
 Step = Mapping[str, Any]
 

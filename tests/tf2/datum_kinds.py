@@ -11,7 +11,7 @@ import numpy as np
 
 from tests.tf2.loader import Unknown, close, fields, negated
 from tftool.geometry import quaternions
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import values
 from tftool.ros.tf2 import do_transform as tf2
 

@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from tests.tf2.loader import DEFAULT, Unknown, close, fields, negated
+from tftool.base.stamps import as_seconds, display, seconds
 from tftool.geometry import conversions, quaternions
 from tftool.ros.tf2 import euler
-from tftool.stamps import as_seconds, display, seconds
 
 Step = Mapping[str, Any]
 

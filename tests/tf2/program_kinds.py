@@ -7,15 +7,17 @@ import pytest
 import yaml
 
 from tests.tf2.loader import Unknown, close, fields
-from tftool.errors import UsageError
-from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
-from tftool.frames.traffic import NetDelay, Traffic
+from tftool.base.errors import UsageError
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.buffer.traffic import NetDelay, Traffic
+from tftool.drawing import echo_view as echo
+from tftool.drawing import traffic_view as monitor
+from tftool.drawing import tree_picture as drawing
+from tftool.geometry.notation.static_arguments import parse
 from tftool.geometry.rigid import IDENTITY, Transform
-from tftool.notation.static_arguments import parse
-from tftool.runtime.clock import SimClock
-from tftool.runtime.world import World
-from tftool.stamps import seconds
-from tftool.views import drawing, echo, monitor
+from tftool.world.clock import SimClock
+from tftool.world.world import World
 
 Step = Mapping[str, Any]
 

@@ -8,11 +8,11 @@ import pytest
 
 from tests.tf2 import buffer_kind
 from tests.tf2.loader import Unknown, fields
-from tftool.errors import TransformException
-from tftool.frames.jumps import LEAST_FALL, Watch, must_clear
-from tftool.frames.sample import TransformStamped
-from tftool.runtime.clock import SimClock, run
-from tftool.runtime.world import World
+from tftool.base.errors import TransformException
+from tftool.buffer.clock_jumps import LEAST_FALL, Watch, must_clear
+from tftool.buffer.sample import TransformStamped
+from tftool.world.clock import SimClock, run
+from tftool.world.world import World
 
 Step = Mapping[str, Any]
 

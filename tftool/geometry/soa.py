@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy import add, multiply, subtract
 
-from tftool.geometry.batch import Floats
+from tftool.geometry.rigid_arrays import Floats
 
 # tan(x)/x = 1 + x²/3 + 2x⁴/15 + …
 _SERIES = (

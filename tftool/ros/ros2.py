@@ -10,10 +10,11 @@ import statistics
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from tftool.errors import UsageError
-from tftool.interfaces.classes import INTERFACES
-from tftool.interfaces.parameters import value_of
-from tftool.interfaces.values import interface_name
+from tftool.base.errors import UsageError
+from tftool.base.stamps import seconds
+from tftool.messages.classes import INTERFACES
+from tftool.messages.parameter_values import value_of
+from tftool.messages.turtle_messages import interface_name
 from tftool.ros.host import names, program, ros2_words
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.rclpy import core
@@ -23,7 +24,6 @@ from tftool.ros.rclpy.parameter_client import AsyncParameterClient
 from tftool.ros.rclpy.parameters import Parameter
 from tftool.ros.rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from tftool.ros.rclpy.validation import topic_or_service_is_hidden
-from tftool.stamps import seconds
 
 Print = Callable[[str], object]
 

@@ -4,7 +4,8 @@ import asyncio
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from tftool.errors import InputError, NodeFailed, UsageError
+from tftool.base.errors import InputError, NodeFailed, UsageError
+from tftool.base.stamps import Duration
 from tftool.ros.host import executables, importing, names, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import StuckError
@@ -16,9 +17,8 @@ from tftool.ros.launch.arguments import declared, shown_arguments
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.engine import Launch
 from tftool.ros.launch.files import load_file
-from tftool.runtime.clock import Phase
-from tftool.runtime.world import World
-from tftool.stamps import Duration
+from tftool.world.clock import Phase
+from tftool.world.world import World
 
 KEYBOARD_NODE = "teleop_turtle"
 """What turtlesim calls the node that reads keys."""

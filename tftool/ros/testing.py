@@ -9,16 +9,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from tftool.base.stamps import seconds
 from tftool.ros.host import names, user_code
 from tftool.ros.host.fibers import EndedError
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.program import Program
 from tftool.ros.running import ProgramFailed
-from tftool.runtime.clock import Phase, SimClock, run
-from tftool.runtime.log import LogRecord
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
-from tftool.stamps import seconds
+from tftool.world.clock import Phase, SimClock, run
+from tftool.world.log import LogRecord
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
 
 class RosRuntime:

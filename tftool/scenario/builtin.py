@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from tftool.errors import InputError
-from tftool.near_names import near_names
-from tftool.views.escaping import visible
+from tftool.base.errors import InputError
+from tftool.base.escaping import visible
+from tftool.base.near_names import near_names
 
 PACKAGE = Path(__file__).resolve().parents[1]
 """Where tftool is; its scenarios and examples are in it or, in a checkout, beside it."""

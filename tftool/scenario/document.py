@@ -11,8 +11,8 @@ from typing import NoReturn
 
 import yaml
 
-from tftool import yaml_guard
-from tftool.errors import Mistake, ScenarioError, showable
+from tftool.base import yaml_guard
+from tftool.base.errors import Mistake, ScenarioError, showable
 
 LARGEST = 256 * 1024
 """Characters a scenario may have."""

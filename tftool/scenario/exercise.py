@@ -10,19 +10,19 @@ from collections.abc import Callable, Sequence
 from contextlib import nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
 
-from tftool.errors import InputError, NodeFailed, UsageError
-from tftool.near_names import did_you_mean
+from tftool.base.errors import InputError, NodeFailed, UsageError
+from tftool.base.escaping import visible
+from tftool.base.near_names import did_you_mean
 from tftool.ros import running
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch.engine import Launch
-from tftool.runtime.clock import SimClock, run
-from tftool.runtime.log import LogRecord
-from tftool.runtime.world import World
 from tftool.scenario.play import Play, StandIn, Watch
-from tftool.scenario.schema import Scenario
+from tftool.scenario.scenario import Scenario
 from tftool.scenario.verdict import Verdict
-from tftool.views.escaping import visible
+from tftool.world.clock import SimClock, run
+from tftool.world.log import LogRecord
+from tftool.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,15 +4,15 @@ import asyncio
 from collections.abc import Sequence
 from typing import ClassVar
 
-from tftool.errors import TransformException
-from tftool.runtime.clock import Phase
-from tftool.runtime.node import Node
-from tftool.runtime.world import World
-from tftool.scenario.checks import Judged
-from tftool.scenario.doctoring import NO_RULES, DoctorRules, heard_in
+from tftool.base.errors import TransformException
+from tftool.scenario.answer_checks import Judged
+from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, heard_in
 from tftool.scenario.questions import Diagnosed, Logged, ScenarioWorld
-from tftool.scenario.schema import Expectation
+from tftool.scenario.scenario import Expectation
 from tftool.scenario.verdict import Outcome
+from tftool.world.clock import Phase
+from tftool.world.node import Node
+from tftool.world.world import World
 
 
 def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:

@@ -9,24 +9,31 @@ from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Any
 
-from tftool.frames.sample import TransformStamped
-from tftool.frames.tree import stripped
+from tftool.buffer.forest import stripped
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.geometry.motion.pid import Gains
 from tftool.geometry.rigid import Transform
-from tftool.messages import Color, Spawn
-from tftool.motion.pid import Gains
-from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
-from tftool.nodes.follower import Follower
-from tftool.nodes.noise import Noise
-from tftool.nodes.points import MessageBroadcaster, PointDrawer
-from tftool.nodes.robot import LaserPoint, MapCorrection, RobotOdometry
-from tftool.nodes.squares import DrawSquare, Mimic
-from tftool.nodes.teleop import Teleop
-from tftool.nodes.turtlesim import Turtlesim
-from tftool.runtime.node import Node
-from tftool.runtime.world import World
-from tftool.scenario import document, robots, values
-from tftool.scenario.reading import Key, Reader, Reading
+from tftool.messages.turtle_values import Color, Spawn
+from tftool.scenario import document
+from tftool.scenario import robot_node as robots
+from tftool.scenario import units as values
+from tftool.scenario.fields import Key, Reader, Reading
+from tftool.world.node import Node
+from tftool.world.nodes.broadcasters import (
+    Broadcaster,
+    DynamicCarrot,
+    FixedCarrot,
+    StaticBroadcaster,
+)
+from tftool.world.nodes.follower import Follower
+from tftool.world.nodes.mobile_robot import LaserPoint, MapCorrection, RobotOdometry
+from tftool.world.nodes.noise import Noise
+from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
+from tftool.world.nodes.squares import DrawSquare, Mimic
+from tftool.world.nodes.turtle_teleop import Teleop
+from tftool.world.nodes.turtlesim import Turtlesim
+from tftool.world.world import World
 
 
 class NodeKind:

@@ -11,15 +11,13 @@ from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
-from tftool.errors import Mistake, ScenarioError, TftoolError, UsageError
-from tftool.runtime.clock import SimClock
-from tftool.runtime.world import World
-from tftool.scenario import doctoring, document, values
-from tftool.scenario.actions import ACTIONS, StopNode
+from tftool.base.errors import Mistake, ScenarioError, TftoolError, UsageError
+from tftool.base.stamps import CACHE_TIME, Duration, as_seconds, seconds
+from tftool.scenario import doctor_expectations as doctoring
+from tftool.scenario import document
+from tftool.scenario import units as values
 from tftool.scenario.document import Document, Node, Scalar
-from tftool.scenario.kinds import KINDS, link_of
-from tftool.scenario.questions import SUBJECTS
-from tftool.scenario.reading import (
+from tftool.scenario.fields import (
     UNREAD,
     Key,
     Reading,
@@ -28,10 +26,14 @@ from tftool.scenario.reading import (
     quoted,
     suggest,
 )
-from tftool.scenario.schema import Expectation, NodeEntry, Scenario, Step, When
+from tftool.scenario.kinds import KINDS, link_of
+from tftool.scenario.questions import SUBJECTS
+from tftool.scenario.scenario import Expectation, NodeEntry, Scenario, Step, When
+from tftool.scenario.script_actions import ACTIONS, StopNode
 from tftool.scenario.tagged import tagged
 from tftool.scenario.text_file import text_of
-from tftool.stamps import CACHE_TIME, Duration, as_seconds, seconds
+from tftool.world.clock import SimClock
+from tftool.world.world import World
 
 NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
 

@@ -6,19 +6,19 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import TypeAlias
 
-from tftool.errors import NodeFailed
-from tftool.runtime.clock import Clock, SimClock, run
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
+from tftool.base.errors import NodeFailed
+from tftool.base.stamps import Stamp
 from tftool.scenario import load
-from tftool.scenario.actions import Drive, Press
 from tftool.scenario.expectations import Expectations
 from tftool.scenario.kinds import KINDS
 from tftool.scenario.load import NO_ARGUMENTS
-from tftool.scenario.schema import Expectation, Scenario
+from tftool.scenario.scenario import Expectation, Scenario
 from tftool.scenario.script import Script
+from tftool.scenario.script_actions import Drive, Press
 from tftool.scenario.verdict import Outcome, Verdict
-from tftool.stamps import Stamp
+from tftool.world.clock import Clock, SimClock, run
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
 StandIn: TypeAlias = Callable[[World], object]
 """Starts in a world what takes the place of one of a scenario's nodes."""

@@ -5,18 +5,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tftool import errors
-from tftool.errors import TransformException
+from tftool.base import errors
+from tftool.base.errors import TransformException
+from tftool.base.escaping import visible
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.planar import wrap
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid import Quaternion, Transform
-from tftool.messages import Pose2D
-from tftool.scenario import document, values
-from tftool.scenario.checks import NEAR, AnswerCheck, Form, Judged
+from tftool.messages.turtle_values import Pose2D
+from tftool.scenario import document
+from tftool.scenario import units as values
+from tftool.scenario.answer_checks import NEAR, AnswerCheck, Form, Judged
 from tftool.scenario.document import Node, TextPlace
-from tftool.scenario.reading import Key, Reading, listed
-from tftool.views.escaping import visible
+from tftool.scenario.fields import Key, Reading, listed
 
 SHORT = 30
 """Up to how many characters a value is repeated inside an advice."""

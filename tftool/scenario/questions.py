@@ -12,17 +12,16 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from tftool.errors import LookupException
-from tftool.frames.sample import FrameInfo
-from tftool.frames.velocity import Velocity
+from tftool.base.errors import LookupException
+from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.buffer.sample import FrameInfo
+from tftool.buffer.velocity import Velocity
 from tftool.geometry import planar
 from tftool.geometry.rigid import Transform
-from tftool.interfaces.values import message_class
-from tftool.messages import Pose2D
-from tftool.runtime.log import LEVELS, LogRecord
-from tftool.runtime.world import World
-from tftool.scenario import values
-from tftool.scenario.checks import (
+from tftool.messages.turtle_messages import message_class
+from tftool.messages.turtle_values import Pose2D
+from tftool.scenario import units as values
+from tftool.scenario.answer_checks import (
     CleanForm,
     CountForm,
     Form,
@@ -32,10 +31,10 @@ from tftool.scenario.checks import (
     RangeCheck,
     RangeForm,
 )
-from tftool.scenario.doctoring import NO_RULES, DoctorRules, check_or_area
+from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, check_or_area
+from tftool.scenario.fields import reads
 from tftool.scenario.pose_checks import PoseForm, TurtlePoseForm
-from tftool.scenario.reading import reads
-from tftool.scenario.values import (
+from tftool.scenario.units import (
     ANGLE,
     DURATION,
     LENGTH,
@@ -45,10 +44,11 @@ from tftool.scenario.values import (
     TURN_RATE,
     RelativeMoment,
 )
-from tftool.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.world.log import LEVELS, LogRecord
+from tftool.world.world import World
 
 if TYPE_CHECKING:
-    from tftool.diagnostics.hearing import Hearing
+    from tftool.doctor.session_evidence import Hearing
 
 
 class ScenarioWorld:
@@ -490,9 +490,9 @@ class Diagnosed(Subject):
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
         """Find the answer, now."""
-        from tftool.diagnostics.findings import Severity
-        from tftool.diagnostics.judge import judge
-        from tftool.diagnostics.model import Settings
+        from tftool.doctor.findings import Severity
+        from tftool.doctor.judge import judge
+        from tftool.doctor.model import Settings
 
         if scene.hearing is None:
             return []

@@ -4,12 +4,12 @@ import asyncio
 from collections.abc import Sequence
 from typing import Any
 
-from tftool.errors import TftoolError
-from tftool.runtime.node import Node
-from tftool.runtime.world import World
-from tftool.scenario.schema import Step
+from tftool.base.errors import TftoolError
+from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.scenario.scenario import Step
 from tftool.scenario.verdict import Outcome
-from tftool.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.world.node import Node
+from tftool.world.world import World
 
 PATIENCE: Duration = seconds(1)
 """How long before the end a service must have been asked for its silence to count."""

@@ -6,17 +6,17 @@ from collections.abc import Mapping, Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 
-from tftool.errors import NodeFailed
-from tftool.frames.sample import Snapshot
+from tftool.base.counts import count
+from tftool.base.errors import NodeFailed
+from tftool.base.escaping import visible
+from tftool.base.stamps import Duration, as_seconds
+from tftool.buffer.sample import Snapshot
 from tftool.geometry.planar import heading
 from tftool.geometry.rigid import distance
-from tftool.runtime.clock import SimClock, run
 from tftool.scenario.play import Watch, build
-from tftool.scenario.schema import Scenario
+from tftool.scenario.scenario import Scenario
 from tftool.scenario.verdict import Verdict
-from tftool.stamps import Duration, as_seconds
-from tftool.views.counts import count
-from tftool.views.escaping import visible
+from tftool.world.clock import SimClock, run
 
 MOST_FRAMES = 20
 """Of how many frames the ends, and the distances to each other, are told."""

@@ -5,7 +5,7 @@ from typing import Any
 
 from tftool.scenario import document
 from tftool.scenario.document import Node, Scalar
-from tftool.scenario.reading import (
+from tftool.scenario.fields import (
     UNREAD,
     Key,
     Reader,

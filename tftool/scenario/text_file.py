@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from tftool.errors import InputError
-from tftool.named_files import open_named
+from tftool.base.errors import InputError
+from tftool.base.escaping import visible
+from tftool.base.named_files import open_named
 from tftool.scenario import document
-from tftool.views.escaping import visible
 
 
 def text_of(path: Path | str) -> str:

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from tftool.messages import Judgement, Report
-from tftool.stamps import Duration, as_seconds
+from tftool.base.report import Judgement, Report
+from tftool.base.stamps import Duration, as_seconds
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,14 +3,14 @@
 import asyncio
 import math
 
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.nodes.joints import MovingRobot
-from tftool.runtime.world import World
+from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import parse_description
 from tftool.screens.browser.robots import ShownRobot
-from tftool.sources.robot import Robot
-from tftool.sources.urdf import parse_description
-from tftool.stamps import seconds
+from tftool.world.nodes.joints import MovingRobot
+from tftool.world.world import World
 
 PERIOD = 0.05
 """Seconds between two steps of the drive."""

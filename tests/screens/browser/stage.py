@@ -4,15 +4,15 @@ import asyncio
 import threading
 
 from tests.patience import PATIENCE
-from tftool.cli.connection import Connection
-from tftool.cli.hosting import open_session
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import open_session
 from tftool.geometry.rigid import Transform
-from tftool.runtime.clock import WallClock, run
-from tftool.runtime.world import World
-from tftool.screens.browser.live import LiveDisplays
+from tftool.screens.browser.live_messages import LiveDisplays
 from tftool.screens.browser.server import PageServer
-from tftool.stamps import seconds
+from tftool.world.clock import WallClock, run
+from tftool.world.world import World
 
 
 class Stage:

@@ -11,10 +11,10 @@ from selenium.webdriver.support.ui import Select
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
 from tests.screens.browser.test_file import file_of, opened
 from tests.screens.browser.test_standalone import EPOCH
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.stamps import seconds
 
 pytestmark = pytest.mark.skipif(
     not (CHROMIUM and CHROMEDRIVER),

@@ -14,18 +14,18 @@ import pytest
 
 import tftool
 from tests.patience import PATIENCE
-from tftool.cli.app import main
-from tftool.frames.sample import TransformStamped
+from tftool.app.main import main
+from tftool.base.stamps import NANOSECONDS, seconds
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.interfaces.classes import INTERFACES
-from tftool.messages import PointStamped
-from tftool.runtime.clock import SimClock
-from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
-from tftool.runtime.world import World
+from tftool.messages.classes import INTERFACES
+from tftool.messages.turtle_values import PointStamped
 from tftool.screens.browser.displays import cloud, path, point, scan
-from tftool.screens.browser.live import LiveDisplays
-from tftool.screens.browser.tracks import Limits, recorded_tracks
-from tftool.stamps import NANOSECONDS, seconds
+from tftool.screens.browser.live_messages import LiveDisplays
+from tftool.screens.browser.recorded_messages import Limits, recorded_tracks
+from tftool.world.clock import SimClock
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.world.world import World
 
 EPOCH = 1_700_000_000 * NANOSECONDS
 CLASSES = SimpleNamespace(new_message=lambda name: INTERFACES.message(name)())
@@ -312,10 +312,10 @@ def test_a_file_shows_them_where_they_were(chromium, run, tmp_path):
 def test_a_server_shows_them_where_they_were(chromium, run):
     pytest.importorskip("websockets", reason="the extra `view` is not installed")
     from tests.screens.browser.driving import Page
-    from tftool.cli.connection import Connection
-    from tftool.cli.hosting import open_session
+    from tftool.commands.shared.connection import Connection
+    from tftool.commands.shared.hosting import open_session
+    from tftool.screens.browser.recorded_messages import tracks_named
     from tftool.screens.browser.server import PageServer
-    from tftool.screens.browser.tracks import tracks_named
 
     connection = Connection()
     session = open_session(connection, str(run))

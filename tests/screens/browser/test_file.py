@@ -18,14 +18,14 @@ from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
 from tests.screens.browser.mesh_files import write_package
 from tests.screens.browser.test_robots import ROBOT
 from tests.screens.browser.test_standalone import EPOCH, WILD, drawn_world
-from tftool.cli.app import main
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.app.main import main
+from tftool.base.stamps import seconds
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.standalone import StandaloneData, standalone_page
-from tftool.stamps import seconds
 
 pytestmark = pytest.mark.skipif(
     not (CHROMIUM and CHROMEDRIVER),

@@ -11,8 +11,8 @@ pytest.importorskip("websockets", reason="the extra `view` is not installed")
 
 from websockets.asyncio.client import connect
 
-from tests.link.processes import Process
 from tests.patience import PATIENCE
+from tests.world.link.processes import Process
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals as POSIX has them")
 

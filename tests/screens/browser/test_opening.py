@@ -7,7 +7,7 @@ pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
 from tests.screens.browser.stage import Stage
-from tftool.frames.sample import TransformStamped
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 
 pytestmark = pytest.mark.skipif(

@@ -6,10 +6,10 @@ import math
 import pytest
 
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.runtime.clock import Phase
-from tftool.stamps import seconds
+from tftool.world.clock import Phase
 
 pytestmark = pytest.mark.skipif(
     CHROMIUM is None or CHROMEDRIVER is None, reason="no chromium with a driver here"

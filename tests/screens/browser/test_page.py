@@ -17,7 +17,7 @@ from selenium.webdriver.support.ui import Select
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page, Resized
 from tests.screens.browser.rover import drive, rover
 from tests.screens.browser.stage import Stage
-from tftool.stamps import display, seconds
+from tftool.base.stamps import display, seconds
 
 pytestmark = pytest.mark.skipif(
     not (CHROMIUM and CHROMEDRIVER),

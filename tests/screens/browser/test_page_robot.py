@@ -20,10 +20,10 @@ pytestmark = pytest.mark.skipif(
 def robot(tmp_path):
     """A robot of two links whose meshes are of every kind, some of them missing."""
     from tests.screens.browser.test_robots import ROBOT
+    from tftool.robots.robot_model import Robot
+    from tftool.robots.urdf import parse_description
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
-    from tftool.sources.robot import Robot
-    from tftool.sources.urdf import parse_description
 
     package = write_package(tmp_path)
     broken = '<visual><geometry><mesh filename="../meshes/broken.stl"/></geometry></visual></link>'
@@ -69,7 +69,7 @@ def test_switches_show_what_links_collide_with_and_where_joints_turn(chromium, s
 
 
 def test_a_slider_moves_its_joint(chromium, stage, robot):
-    from tftool.nodes.joints import JointStatePublisher
+    from tftool.world.nodes.joints import JointStatePublisher
 
     robot.mover = stage.do(lambda world: JointStatePublisher(world, robot=robot.robot))
     stage.show(robot)

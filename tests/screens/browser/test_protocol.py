@@ -7,9 +7,10 @@ import struct
 
 import pytest
 
-from tftool.errors import InputError
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.base.errors import InputError
+from tftool.base.stamps import seconds
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
 from tftool.screens.browser.protocol import (
@@ -22,7 +23,6 @@ from tftool.screens.browser.protocol import (
     TrailsRequest,
     parse,
 )
-from tftool.stamps import seconds
 
 EPOCH = seconds(1000)
 

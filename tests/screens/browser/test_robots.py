@@ -6,16 +6,16 @@ import pytest
 
 websockets = pytest.importorskip("websockets", reason="the extra `view` is not installed")
 
-from tests.nodes.harness import new_world  # noqa: E402
 from tests.screens.browser.mesh_files import write_package  # noqa: E402
 from tests.screens.browser.test_server import Page, fetch, open_page, put, serve  # noqa: E402
-from tftool.errors import InputError  # noqa: E402
-from tftool.nodes.joints import JointStatePublisher  # noqa: E402
+from tests.world.nodes.harness import new_world  # noqa: E402
+from tftool.base.errors import InputError  # noqa: E402
+from tftool.robots.robot_model import Robot  # noqa: E402
+from tftool.robots.urdf import parse_description  # noqa: E402
 from tftool.screens.browser import protocol  # noqa: E402
 from tftool.screens.browser.meshes import MeshFolders  # noqa: E402
 from tftool.screens.browser.robots import ShownRobot  # noqa: E402
-from tftool.sources.robot import Robot  # noqa: E402
-from tftool.sources.urdf import parse_description  # noqa: E402
+from tftool.world.nodes.joints import JointStatePublisher  # noqa: E402
 
 ROBOT = """<robot name="arm">
   <material name="blue"><color rgba="0 0 1 0.5"/></material>

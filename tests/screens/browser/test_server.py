@@ -17,14 +17,14 @@ from websockets.asyncio.client import connect  # noqa: E402
 from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
 
 from tests.patience import PATIENCE  # noqa: E402
-from tftool.errors import TftoolError  # noqa: E402
-from tftool.frames.sample import TransformStamped  # noqa: E402
+from tftool.base.errors import TftoolError  # noqa: E402
+from tftool.base.stamps import seconds  # noqa: E402
+from tftool.buffer.sample import TransformStamped  # noqa: E402
 from tftool.geometry.rigid import Transform  # noqa: E402
-from tftool.runtime.clock import WallClock, run  # noqa: E402
-from tftool.runtime.world import World  # noqa: E402
 from tftool.screens.browser import server  # noqa: E402
 from tftool.screens.browser.server import PageServer  # noqa: E402
-from tftool.stamps import seconds  # noqa: E402
+from tftool.world.clock import WallClock, run  # noqa: E402
+from tftool.world.world import World  # noqa: E402
 
 
 def serve(test, *, port=0, rate=500.0):

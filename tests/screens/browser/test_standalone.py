@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tftool.cli.app import main
-from tftool.frames.buffer import NO_LIMIT, Buffer
-from tftool.frames.sample import TransformStamped
+from tftool.app.main import main
+from tftool.base.stamps import seconds
+from tftool.buffer.buffer import NO_LIMIT, Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
 from tftool.screens.browser.standalone import (
@@ -21,7 +22,6 @@ from tftool.screens.browser.standalone import (
     StandaloneData,
     standalone_page,
 )
-from tftool.stamps import seconds
 
 NODE = shutil.which("node")
 ANSWERS = Path(__file__).parent / "answers.mjs"

@@ -2,7 +2,7 @@
 
 import linecache
 
-from tftool.errors import InputError, UsageError
+from tftool.base.errors import InputError, UsageError
 from tftool.ros.host.fibers import StuckError, user_line_of_error
 from tftool.ros.host.missing_names import missing_package
 

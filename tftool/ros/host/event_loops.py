@@ -5,8 +5,8 @@ import selectors
 from collections.abc import Callable, Coroutine
 from typing import Any
 
+from tftool.base.stamps import NANOSECONDS, Duration, seconds
 from tftool.ros.host.locks import running_program
-from tftool.stamps import NANOSECONDS, Duration, seconds
 
 SLICE: Duration = seconds(0.01)
 """How long a loop waits at once: by then it sees what came by socket or from another thread."""

@@ -6,27 +6,32 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tftool.errors import UsageError
-from tftool.frames.sample import TransformStamped
-from tftool.messages import BACKGROUND, Color
-from tftool.near_names import did_you_mean
-from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
-from tftool.nodes.follower import Follower
-from tftool.nodes.points import MessageBroadcaster, PointDrawer
-from tftool.nodes.squares import DrawSquare, Mimic
-from tftool.nodes.static_turtle import static_turtle
-from tftool.nodes.turtlesim import Turtlesim
-from tftool.notation import static_arguments
+from tftool.base.errors import UsageError
+from tftool.base.near_names import did_you_mean
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.notation import static_arguments
+from tftool.messages.turtle_values import BACKGROUND, Color
 from tftool.ros.host import importing, user_code
 from tftool.ros.host.missing_names import undeclared
 from tftool.ros.host.names import RosOptions, expand, join, named_twice
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace, missing_package
-from tftool.runtime.node import Node
-from tftool.runtime.world import World
+from tftool.world.node import Node
+from tftool.world.nodes.broadcasters import (
+    Broadcaster,
+    DynamicCarrot,
+    FixedCarrot,
+    StaticBroadcaster,
+)
+from tftool.world.nodes.follower import Follower
+from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
+from tftool.world.nodes.squares import DrawSquare, Mimic
+from tftool.world.nodes.static_turtle import static_turtle
+from tftool.world.nodes.turtlesim import Turtlesim
+from tftool.world.world import World
 
 if TYPE_CHECKING:
-    from tftool.sources.robot import Robot
+    from tftool.robots.robot_model import Robot
 
 
 class HasItsOwnCommand(UsageError):
@@ -150,8 +155,8 @@ def _robot_of(asked: Asked) -> "Robot | None":
         UsageError: If neither is one; the mistakes are told.
     """
     # numpy comes with it, which other nodes do without.
-    from tftool.sources.robot import Robot, load_urdf
-    from tftool.sources.urdf import parse_description
+    from tftool.robots.robot_model import Robot, load_urdf
+    from tftool.robots.urdf import parse_description
 
     text = asked.text("robot_description", "")
     if text:
@@ -163,7 +168,7 @@ def _robot_of(asked: Asked) -> "Robot | None":
 
 def _joint_topics(asked: Asked) -> tuple[str, str]:
     """Where joint states and the description travel for a node."""
-    from tftool.nodes.joints import DESCRIPTION, JOINT_STATES
+    from tftool.world.nodes.joints import DESCRIPTION, JOINT_STATES
 
     joint_states, description = (
         asked.options.remapped(join(asked.namespace, name), asked.name, asked.namespace)
@@ -173,7 +178,7 @@ def _joint_topics(asked: Asked) -> tuple[str, str]:
 
 
 def _robot_state_publisher(asked: Asked) -> Node:
-    from tftool.nodes.joints import RobotStatePublisher
+    from tftool.world.nodes.joints import RobotStatePublisher
 
     robot = _robot_of(asked)
     if robot is None:
@@ -193,7 +198,7 @@ def _robot_state_publisher(asked: Asked) -> Node:
 
 
 def _joint_state_publisher(asked: Asked) -> Node:
-    from tftool.nodes.joints import JointStatePublisher
+    from tftool.world.nodes.joints import JointStatePublisher
 
     positions = {
         name.removeprefix("zeros."): asked.number(name, 0.0)

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from types import FrameType, TracebackType
 from typing import Any, TypeVar
 
-from tftool.errors import TftoolError, is_users_file
+from tftool.base.errors import TftoolError, is_users_file
 
 T = TypeVar("T")
 

@@ -15,8 +15,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from tftool.errors import UsageError
-from tftool.interfaces.classes import INTERFACES
+from tftool.base.errors import UsageError
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import fibers, import_table
 from tftool.ros.host.missing_names import missing_module, missing_name
 from tftool.ros.host.shims import IMPORTING, builtins_for_users

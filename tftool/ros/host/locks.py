@@ -10,8 +10,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from tftool.base.stamps import seconds
 from tftool.ros.host import fibers
-from tftool.stamps import seconds
 
 T = TypeVar("T")
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable, Sequence
 
-from tftool.interfaces.classes import INTERFACES
-from tftool.near_names import did_you_mean, near_names
+from tftool.base.near_names import did_you_mean, near_names
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import import_table
 
 FEW = 12

@@ -10,9 +10,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tftool.errors import InputError, UsageError
-from tftool.named_files import read_named_text
-from tftool.near_names import did_you_mean, near_names
+from tftool.base.errors import InputError, UsageError
+from tftool.base.named_files import read_named_text
+from tftool.base.near_names import did_you_mean, near_names
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_]")
 _STRANGE_IN_TOPIC = re.compile(r"[^A-Za-z0-9_/~{}]")
@@ -320,7 +320,7 @@ def strict_yaml_value(text: str) -> Any:
     """
     import yaml
 
-    from tftool import yaml_guard
+    from tftool.base import yaml_guard
 
     try:
         return yaml_guard.load(text, _loader()) if text else ""
@@ -369,7 +369,7 @@ def read_parameters(
     """
     import yaml
 
-    from tftool import yaml_guard
+    from tftool.base import yaml_guard
 
     try:
         text = read_named_text(path)
@@ -396,7 +396,7 @@ def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
     """Each (node, name, value) of a tree of YAML's nodes, in which a key may come several times."""
     import yaml
 
-    from tftool import yaml_guard
+    from tftool.base import yaml_guard
 
     if not isinstance(tree, yaml.MappingNode):
         return

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from tftool.errors import InputError
-from tftool.named_files import read_named_text
+from tftool.base.errors import InputError
+from tftool.base.named_files import read_named_text
 
 MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
 """One of these in a folder makes it a package."""

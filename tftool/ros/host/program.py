@@ -11,15 +11,15 @@ import threading
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, ClassVar, TypeVar
 
-from tftool.errors import TftoolError
+from tftool.base.errors import TftoolError
+from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.ros.host import fibers
 from tftool.ros.host.fibers import CodeLine, Fiber
 from tftool.ros.host.names import RosOptions
-from tftool.runtime.clock import Phase, SimClock
-from tftool.runtime.log import Level
-from tftool.runtime.node import Node
-from tftool.runtime.world import World
-from tftool.stamps import Duration, Stamp, seconds
+from tftool.world.clock import Phase, SimClock
+from tftool.world.log import Level
+from tftool.world.node import Node
+from tftool.world.world import World
 
 T = TypeVar("T")
 

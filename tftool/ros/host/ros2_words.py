@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import Any, NoReturn
 
-from tftool.errors import InputError, UsageError
-from tftool.interfaces.classes import INTERFACES, Message
-from tftool.interfaces.schema import FLOATS
-from tftool.near_names import did_you_mean
+from tftool.base.errors import InputError, UsageError
+from tftool.base.near_names import did_you_mean
+from tftool.messages.classes import INTERFACES, Message
+from tftool.messages.schema import FLOATS
 
 
 class _Parser(argparse.ArgumentParser):

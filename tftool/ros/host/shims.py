@@ -18,11 +18,11 @@ from functools import cache
 from types import ModuleType
 from typing import Any
 
+from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.ros.host import event_loops, locks
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import Fiber
 from tftool.ros.host.locks import running_program
-from tftool.stamps import NANOSECONDS, seconds
 
 _REAL_SLEEP = time.sleep  # noqa: TID251
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from types import CodeType, ModuleType
 from typing import Any
 
-from tftool.errors import InputError, UsageError
-from tftool.named_files import open_regular
+from tftool.base.errors import InputError, UsageError
+from tftool.base.named_files import open_regular
 from tftool.ros.host import importing, program
 from tftool.ros.host.error_text import syntax_sentence
 from tftool.ros.host.shims import builtins_for_users

@@ -6,12 +6,12 @@ the older one, which the world knows. tf's topics carry tuples of samples.
 
 from typing import Any
 
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import transform
-from tftool.interfaces.classes import INTERFACES, Message
-from tftool.interfaces.values import as_message, plain_name, recast
-from tftool.runtime.world import TransformMessage
-from tftool.stamps import NANOSECONDS, Stamp
+from tftool.messages.classes import INTERFACES, Message
+from tftool.messages.turtle_messages import as_message, plain_name, recast
+from tftool.world.world import TransformMessage
 
 TF_TOPICS = ("tf", "tf_static")
 

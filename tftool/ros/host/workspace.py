@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from itertools import chain
 from pathlib import Path
 
-from tftool.errors import InputError, UsageError
-from tftool.interfaces.classes import INTERFACES
-from tftool.near_names import near_names
+from tftool.base.errors import InputError, UsageError
+from tftool.base.near_names import near_names
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host.package_files import MARKS, Package, read_package, read_text
 from tftool.ros.host.share_folder import ShareFolder
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tftool.errors import TftoolError, UsageError
-from tftool.near_names import near_names
+from tftool.base.errors import TftoolError, UsageError
+from tftool.base.near_names import near_names
 from tftool.ros.launch.composition import IncludeLaunchDescription
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionEntity

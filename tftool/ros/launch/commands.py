@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 
 LONGEST_LINE: Final = 1 << 20
 """Bytes of a command's output after which a line is shown though it has not ended."""

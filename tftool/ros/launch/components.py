@@ -9,8 +9,8 @@ from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
-from tftool.errors import TftoolError, UsageError
-from tftool.interfaces.classes import INTERFACES
+from tftool.base.errors import TftoolError, UsageError
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host.names import RosOptions
 from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.substitutions import describe, is_true, perform
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.host.workspace import Workspace
 
 DEEPEST = 50

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.substitutions import perform
 

@@ -8,10 +8,10 @@ from xml.parsers import expat
 
 import yaml
 
-from tftool import yaml_guard
-from tftool.errors import InputError
-from tftool.named_files import read_named
-from tftool.near_names import did_you_mean
+from tftool.base import yaml_guard
+from tftool.base.errors import InputError
+from tftool.base.named_files import read_named
+from tftool.base.near_names import did_you_mean
 
 DEEPEST = 100
 """How many levels of elements, or of `$(…)`, may lie in each other."""

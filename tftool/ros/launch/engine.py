@@ -8,7 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
-from tftool.errors import InputError, TftoolError, UsageError
+from tftool.base.errors import InputError, TftoolError, UsageError
+from tftool.base.stamps import seconds
 from tftool.ros import ros2
 from tftool.ros.host import executables, program, user_code
 from tftool.ros.host.error_text import error_sentence
@@ -32,11 +33,10 @@ from tftool.ros.launch.events import (
 from tftool.ros.launch.files import load_file
 from tftool.ros.launch.processes import Executable
 from tftool.ros.rclpy.exceptions import NotInitializedException
-from tftool.runtime.clock import SimClock
-from tftool.runtime.log import LogRecord
-from tftool.runtime.node import Node
-from tftool.runtime.world import World
-from tftool.stamps import seconds
+from tftool.world.clock import SimClock
+from tftool.world.log import LogRecord
+from tftool.world.node import Node
+from tftool.world.world import World
 
 Say = Callable[[str, str, str], object]
 """Is told level, who speaks ("launch", "listener-4") and a line."""

@@ -4,7 +4,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.launch.events import Event
 
 MOST_EVENTS = 1000

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.launch import elements, parsing
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.elements import Element

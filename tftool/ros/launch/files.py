@@ -3,7 +3,7 @@
 from pathlib import Path
 from types import ModuleType
 
-from tftool.errors import InputError
+from tftool.base.errors import InputError
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.launch.description import LaunchDescription

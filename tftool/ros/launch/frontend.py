@@ -6,7 +6,7 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.launch import (
     components,

@@ -4,8 +4,8 @@ import itertools
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from tftool.errors import UsageError
-from tftool.interfaces.classes import INTERFACES
+from tftool.base.errors import UsageError
+from tftool.messages.classes import INTERFACES
 from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.events import Event, EventHandler

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from logging import FileHandler, Handler, StreamHandler
 from pathlib import Path
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.rclpy.logging import get_logging_directory
 
 __all__ = ["FileHandler", "Handler", "LaunchConfig", "StreamHandler", "get_logger", "reset"]

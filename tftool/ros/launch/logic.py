@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.substitutions import Substitution, SubstitutionFailure, is_true, perform
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Final
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.host import names
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parameters import normalize_parameters, read_all

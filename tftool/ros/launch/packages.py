@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.host.workspace import Workspace
 
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, get_args
 
-from tftool.errors import UsageError
-from tftool.named_files import read_named_text
+from tftool.base.errors import UsageError
+from tftool.base.named_files import read_named_text
 from tftool.ros.host import names
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parsing import parsed

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from tftool.errors import InputError
-from tftool.near_names import near_names
+from tftool.base.errors import InputError
+from tftool.base.near_names import near_names
 from tftool.ros.launch import logic, substitutions
 from tftool.ros.launch.elements import DEEPEST
 from tftool.ros.launch.substitutions import TextSubstitution

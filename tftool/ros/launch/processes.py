@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.host import names
 from tftool.ros.host.names import RosOptions
 from tftool.ros.launch.action import Action

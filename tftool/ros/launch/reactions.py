@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.events import Event, EventHandler, OnExecutionComplete

@@ -6,7 +6,7 @@ As in ROS 2 they are kept among the launch configurations, where a scope begins 
 from collections.abc import Iterable
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.base.errors import UsageError
 from tftool.ros.host import names
 from tftool.ros.launch import parsing
 from tftool.ros.launch.action import Action

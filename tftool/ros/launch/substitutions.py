@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from tftool.errors import UsageError
-from tftool.named_files import read_named_text
-from tftool.near_names import did_you_mean
+from tftool.base.errors import UsageError
+from tftool.base.named_files import read_named_text
+from tftool.base.near_names import did_you_mean
 from tftool.ros.launch import commands, packages
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.logging import launch_config
@@ -356,8 +356,8 @@ def _expanded(words: list[str]) -> str:
     Raises:
         SubstitutionFailure: If it is no such command line, or the file cannot be expanded.
     """
-    from tftool.errors import InputError, UsageError
-    from tftool.sources.urdf import expand_xacro
+    from tftool.base.errors import InputError, UsageError
+    from tftool.robots.urdf import expand_xacro
 
     rest = [word for word in words[1:] if word != "--inorder"]
     files = [word for word in rest if ":=" not in word and not word.startswith("-")]

@@ -4,17 +4,17 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
-from tftool.errors import TftoolError
-from tftool.interfaces.classes import INTERFACES, duplicate
+from tftool.base.errors import TftoolError
+from tftool.messages.classes import INTERFACES, duplicate
 from tftool.ros.host import values
 from tftool.ros.rclpy.action_goals import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import Requester
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
-from tftool.runtime.action_parts import goal_id_message
-from tftool.runtime.topics import GoalHandle as WorldGoal
-from tftool.runtime.topics import new_goal_id
+from tftool.world.action_parts import goal_id_message
+from tftool.world.topics import GoalHandle as WorldGoal
+from tftool.world.topics import new_goal_id
 
 
 class _Result:

@@ -2,7 +2,7 @@
 
 from enum import IntEnum
 
-from tftool.runtime.action_parts import ENDED
+from tftool.world.action_parts import ENDED
 
 
 class GoalStatus(IntEnum):

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
 
-from tftool.errors import TftoolError
-from tftool.interfaces.classes import duplicate
+from tftool.base.errors import TftoolError
+from tftool.messages.classes import duplicate
 from tftool.ros.host import values
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.rclpy.action_goals import STATUS, GoalStatus
@@ -19,9 +19,9 @@ from tftool.ros.rclpy.qos import (
 )
 from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.topics import Publisher
-from tftool.runtime.action_parts import ActionParts, goal_id_message
-from tftool.runtime.topics import GoalHandle as WorldGoal
-from tftool.runtime.topics import Status
+from tftool.world.action_parts import ActionParts, goal_id_message
+from tftool.world.topics import GoalHandle as WorldGoal
+from tftool.world.topics import Status
 
 
 class GoalResponse(IntEnum):

@@ -12,7 +12,7 @@ from tftool.ros.rclpy.qos import (
     profile_from,
 )
 from tftool.ros.rclpy.time import Duration, Infinite
-from tftool.runtime.endpoints import PUBLISHER, Endpoint
+from tftool.world.endpoints import PUBLISHER, Endpoint
 
 
 class TopicEndpointTypeEnum(IntEnum):

@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Iterator
 from typing import Any
 
+from tftool.base.stamps import Stamp, seconds
 from tftool.ros.host import program
 from tftool.ros.rclpy.context import Context, context_of
 from tftool.ros.rclpy.entities import NodeEntity, Work
@@ -18,7 +19,6 @@ from tftool.ros.rclpy.exceptions import ExternalShutdownException, ShutdownExcep
 from tftool.ros.rclpy.futures import Future, Task
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.rclpy.timers import Timer
-from tftool.stamps import Stamp, seconds
 
 THREADS = 4
 """How many callbacks a MultiThreadedExecutor runs at once unless told; the same everywhere."""

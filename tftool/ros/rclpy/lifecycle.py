@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, TypeVar
 
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 from tftool.ros.rclpy.lifecycle_states import (
     CALLBACKS,
     GRAPH,

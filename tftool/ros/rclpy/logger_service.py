@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import program
 from tftool.ros.rclpy.logging import LoggingSeverity, set_logger_level
 

@@ -7,9 +7,9 @@ from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
 
+from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.ros.host import program
-from tftool.runtime.log import Level
-from tftool.stamps import Duration, Stamp, seconds
+from tftool.world.log import Level
 
 
 class LoggingSeverity(IntEnum):

@@ -4,8 +4,7 @@ import copy
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tftool.interfaces.classes import Message
-from tftool.nodes.parameter_services import parameter_services
+from tftool.messages.classes import Message
 from tftool.ros.host import names, program
 from tftool.ros.rclpy import parameter_events
 from tftool.ros.rclpy.context import Context, context_of
@@ -27,6 +26,7 @@ from tftool.ros.rclpy.time import Clock, Rate, ROSClock
 from tftool.ros.rclpy.timers import Timer, period_of
 from tftool.ros.rclpy.topics import Publisher, Subscription
 from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
+from tftool.world.nodes.parameter_services import parameter_services
 
 E = TypeVar("E", bound=NodeEntity)
 

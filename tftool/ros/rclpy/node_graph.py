@@ -3,13 +3,13 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
-from tftool.interfaces.values import interface_name
+from tftool.messages.turtle_messages import interface_name
 from tftool.ros.host.program import Program
 from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.endpoints import TopicEndpointInfo, endpoint_info
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.rclpy.services import Client
-from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Role
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Role
 
 T = TypeVar("T")
 

@@ -5,8 +5,8 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
-from tftool.interfaces.parameters import list_result, value_of
+from tftool.messages.classes import INTERFACES
+from tftool.messages.parameter_values import list_result, value_of
 from tftool.ros.host.missing_names import undeclared
 from tftool.ros.rclpy.exceptions import (
     InvalidParameterTypeException,

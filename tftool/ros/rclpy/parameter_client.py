@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.parameters import Parameter, parameter_dict_from_yaml_file
 from tftool.ros.rclpy.qos import (

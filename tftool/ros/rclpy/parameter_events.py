@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import names, values
 from tftool.ros.rclpy.parameters import Parameter
 from tftool.ros.rclpy.qos import QoSProfile, qos_profile_parameter_events

@@ -5,8 +5,8 @@ from enum import IntEnum
 from pathlib import Path
 from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
-from tftool.interfaces.parameters import value_message, value_of
+from tftool.messages.classes import INTERFACES
+from tftool.messages.parameter_values import value_message, value_of
 from tftool.ros.host import names
 
 

@@ -4,7 +4,7 @@ from enum import Enum, IntEnum
 from typing import Any
 
 from tftool.ros.rclpy.time import Duration, Infinite
-from tftool.runtime.endpoints import Quality, Timing, conflict
+from tftool.world.endpoints import Quality, Timing, conflict
 
 
 class _Policy(IntEnum):

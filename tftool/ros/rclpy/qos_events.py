@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 from tftool.ros.rclpy.entities import WorkQueue
 from tftool.ros.rclpy.qos import QoSPolicyKind
 from tftool.ros.rclpy.seat import NodeSeat
-from tftool.runtime.clock import Phase
-from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
+from tftool.world.clock import Phase
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 
 
 class UnsupportedEventTypeError(Exception):

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import values
 from tftool.ros.rclpy.qos import QoSProfile, qos_profile_rosout_default
 from tftool.ros.rclpy.seat import NodeSeat

@@ -9,14 +9,14 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
+from tftool.base.stamps import Stamp
 from tftool.ros.host import names
 from tftool.ros.host.program import Program, ProgramNode
 from tftool.ros.rclpy.exceptions import InvalidHandle
 from tftool.ros.rclpy.validation import validate_topic_name
-from tftool.runtime.clock import Phase
-from tftool.runtime.endpoints import PUBLISHER, Endpoint
-from tftool.runtime.world import TransformMessage, World
-from tftool.stamps import Stamp
+from tftool.world.clock import Phase
+from tftool.world.endpoints import PUBLISHER, Endpoint
+from tftool.world.world import TransformMessage, World
 
 
 class NodeSeat:

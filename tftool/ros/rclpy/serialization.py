@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from tftool.interfaces.classes import Message
-from tftool.wire.codec import codec
+from tftool.messages.classes import Message
+from tftool.messages.codec import codec
 
 
 def serialize_message(message: Any) -> bytes:

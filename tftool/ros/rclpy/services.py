@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable
 from enum import IntEnum
 from typing import Any
 
-from tftool.errors import TftoolError
-from tftool.interfaces.classes import duplicate
+from tftool.base.errors import TftoolError
+from tftool.messages.classes import duplicate
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import MOST_WAITING, Requester, WorkQueue
 from tftool.ros.rclpy.executors import wait_for

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
 
+from tftool.base.stamps import NANOSECONDS
 from tftool.ros.host import program, values
 from tftool.ros.rclpy.exceptions import NotInitializedException, ROSInterruptException
-from tftool.stamps import NANOSECONDS
 
 S_TO_NS = NANOSECONDS
 

@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, TypedDict
 
-from tftool.interfaces.classes import Message
+from tftool.messages.classes import Message
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work
 from tftool.ros.rclpy.exceptions import InvalidHandle
@@ -13,8 +13,8 @@ from tftool.ros.rclpy.qos import HistoryPolicy, QoSProfile, quality_of
 from tftool.ros.rclpy.qos_events import EndpointWatch, Silence
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.serialization import deserialize_message, serialize_message
-from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
-from tftool.runtime.world import TransformMessage
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
+from tftool.world.world import TransformMessage
 
 
 class Publisher(NodeEntity):

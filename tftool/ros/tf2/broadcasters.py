@@ -6,15 +6,15 @@ A listener's transforms go straight into its buffer, whether its node spins or n
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from tftool.frames.jumps import Watch
-from tftool.frames.sample import TransformStamped
-from tftool.interfaces.classes import INTERFACES
+from tftool.buffer.clock_jumps import Watch
+from tftool.buffer.sample import TransformStamped
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.tf2.buffer import Buffer
-from tftool.runtime.world import TransformMessage
+from tftool.world.world import TransformMessage
 
 _TOLERANCE = 10e-3
 """How far the square of a quaternion's length may be from 1 for tf2 to take it."""

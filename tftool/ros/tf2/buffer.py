@@ -8,8 +8,8 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
-from tftool.errors import TransformException
-from tftool.interfaces.classes import INTERFACES
+from tftool.base.errors import TransformException
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import values
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node import Node
@@ -23,7 +23,7 @@ from tftool.ros.tf2.lookup_requests import (
     length,
     question,
 )
-from tftool.runtime.clock import Phase
+from tftool.world.clock import Phase
 
 
 class Buffer(BufferCore, BufferInterface):

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from typing import Any
 
-from tftool.errors import LookupException
-from tftool.frames.buffer import Buffer as Frames
+from tftool.base.errors import LookupException
+from tftool.buffer.buffer import Buffer as Frames
 from tftool.ros.host import program, values
 from tftool.ros.rclpy.time import Duration, Time
 from tftool.ros.tf2.lookup_requests import (

@@ -1,16 +1,16 @@
 """tf2_geometry_msgs and tf2_sensor_msgs: messages moved into another frame.
 
 The message that is passed is never changed, nor is the transform. What a transform does to
-each kind of thing is in `tftool.geometry.carry`.
+each kind of thing is in `tftool.geometry.quantities`.
 """
 
 import array
 from collections.abc import Iterable
 from typing import Any
 
-from tftool.geometry import carry
+from tftool.geometry import quantities as carry
 from tftool.geometry.rigid import Transform, Vector3, transform
-from tftool.interfaces.classes import INTERFACES, duplicate
+from tftool.messages.classes import INTERFACES, duplicate
 from tftool.ros.tf2.registry import ConvertRegistration, TransformRegistration
 
 _FLOATS = {7: "f4", 8: "f8"}

@@ -1,6 +1,6 @@
 """tf2's exceptions under the names a node imports."""
 
-from tftool.errors import (
+from tftool.base.errors import (
     ConnectivityException,
     ExtrapolationException,
     InvalidArgumentException,

@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from typing import Any
 
-from tftool.frames.buffer import Buffer as Frames
-from tftool.frames.sample import TransformStamped
+from tftool.base.stamps import Stamp
+from tftool.buffer.buffer import Buffer as Frames
+from tftool.buffer.sample import TransformStamped
 from tftool.ros.host import values
 from tftool.ros.rclpy.time import Duration, Time
-from tftool.runtime import waiting
-from tftool.runtime.clock import Clock
-from tftool.stamps import Stamp
+from tftool.world import transform_wait as waiting
+from tftool.world.clock import Clock
 
 
 @dataclass(frozen=True, slots=True)

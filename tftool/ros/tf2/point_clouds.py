@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
 """What a field without a name is called."""

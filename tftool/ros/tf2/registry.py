@@ -4,7 +4,7 @@ import copy
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from tftool.errors import TransformException
+from tftool.base.errors import TransformException
 
 T = TypeVar("T")
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
+from tftool.messages.classes import INTERFACES
 from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.action_server import ActionServer
 from tftool.ros.rclpy.executors import wait_for

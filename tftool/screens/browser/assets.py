@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 
-from tftool.errors import TftoolError
+from tftool.base.errors import TftoolError
 
 # Where each lies: what is built has a folder of its own.
 _FILES = {

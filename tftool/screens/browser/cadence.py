@@ -1,6 +1,6 @@
 """When to take the next snapshot, so that many of them leave time for everything else."""
 
-from tftool.stamps import Duration, Stamp, seconds
+from tftool.base.stamps import Duration, Stamp, seconds
 
 FORGIVEN = seconds(1)
 """Turns that came later than this in all are not made up for."""

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from websockets.asyncio.server import ServerConnection
 
-from tftool.frames.sample import FrameInfo, Snapshot
+from tftool.base.stamps import Stamp
+from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.screens.browser import protocol
-from tftool.stamps import Stamp
 
 IN_FLIGHT = 2
 """Poses a page may be sent before it says it has drawn the first of them."""

@@ -2,14 +2,14 @@
 
 from typing import Any, Final
 
-from tftool.diagnostics.buffered import of_buffer
-from tftool.diagnostics.catalogue import CHECKS
-from tftool.diagnostics.coverage import holes
-from tftool.diagnostics.judge import judge
-from tftool.diagnostics.model import Settings
-from tftool.frames.buffer import Buffer
+from tftool.base.stamps import Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.doctor.buffer_evidence import of_buffer
+from tftool.doctor.catalogue import CHECKS
+from tftool.doctor.coverage_checks import holes
+from tftool.doctor.judge import judge
+from tftool.doctor.model import Settings
 from tftool.screens.browser.protocol import since
-from tftool.stamps import Stamp
 
 MOST_GAPS: Final = 2000
 """Gaps that are told; the longest of more."""

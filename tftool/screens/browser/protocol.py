@@ -39,12 +39,12 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from tftool.errors import InputError, TransformException
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import FrameInfo, Snapshot
+from tftool.base.errors import InputError, TransformException
+from tftool.base.stamps import LAST_STAMP, NANOSECONDS, Stamp, display
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import FrameInfo, Snapshot
+from tftool.drawing.drawn_forest import grow
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.stamps import LAST_STAMP, NANOSECONDS, Stamp, display
-from tftool.views.forest import grow
 
 MAGIC = b"TFP1"
 HEADER = struct.Struct("<4sIIIdddd")

@@ -6,11 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tftool.geometry.rigid import Transform
-from tftool.screens.browser.meshes import SHAPES, MeshFolders, MeshRefused
-from tftool.screens.sliders import Positions, slide_range
-from tftool.sources.described import prefix_of
-from tftool.sources.robot import Robot
-from tftool.sources.robot_description import (
+from tftool.recordings.description_frames import prefix_of
+from tftool.robots.description import (
     BoxShape,
     CapsuleShape,
     CylinderShape,
@@ -19,6 +16,9 @@ from tftool.sources.robot_description import (
     SphereShape,
     Surface,
 )
+from tftool.robots.robot_model import Robot
+from tftool.screens.browser.meshes import SHAPES, MeshFolders, MeshRefused
+from tftool.screens.terminal.sliders import Positions, slide_range
 
 MOST_SHAPES = 5000
 """Shapes of one robot that are drawn."""

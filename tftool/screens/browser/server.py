@@ -25,26 +25,26 @@ from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from tftool.errors import InputError, TftoolError
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import Snapshot
-from tftool.runtime.clock import Clock, Phase, pace_of
+from tftool.base.errors import InputError, TftoolError
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import Snapshot
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.cadence import Cadence
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
-from tftool.screens.browser.live import LiveDisplays
+from tftool.screens.browser.live_messages import LiveDisplays
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import PackedBlock
+from tftool.screens.browser.recorded_messages import IN_A_FILE, DrawnTopic, Limits, pack_tracks
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.standalone import (
     StandaloneData,
     StandalonePage,
     standalone_page,
 )
-from tftool.screens.browser.tracks import IN_A_FILE, DrawnTopic, Limits, pack_tracks
-from tftool.screens.sliders import slide_range
-from tftool.stamps import NANOSECONDS, Stamp
+from tftool.screens.terminal.sliders import slide_range
+from tftool.world.clock import Clock, Phase, pace_of
 
 HOST = "127.0.0.1"
 PORT = 8765

@@ -17,15 +17,15 @@ from urllib.parse import quote, urljoin
 
 import numpy as np
 
-from tftool.frames.buffer import Buffer
-from tftool.frames.sample import FrameInfo
+from tftool.base.stamps import Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import FrameInfo
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Progress, TooLarge
+from tftool.screens.browser.recorded_messages import DrawnTopic, pack_tracks
 from tftool.screens.browser.robots import ShownRobot
-from tftool.screens.browser.tracks import DrawnTopic, pack_tracks
-from tftool.stamps import Stamp
 
 MOST_BYTES: Final = 10_000_000
 """How large a file may become before numbers lose digits that no robot's sensors have."""

@@ -4,7 +4,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tftool.errors import InputError
+from tftool.base.errors import InputError
 from tftool.screens.browser.displays.shapes import DrawnMessage, drawn
 
 TYPE: Final = "sensor_msgs/msg/PointCloud2"

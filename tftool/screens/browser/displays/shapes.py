@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from tftool.stamps import NANOSECONDS, Stamp
+from tftool.base.stamps import NANOSECONDS, Stamp
 
 Places = npt.NDArray[np.float32]
 """Metres in the frame of the message, shape (n, 3)."""

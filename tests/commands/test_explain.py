@@ -1,0 +1,106 @@
+import json
+import re
+
+import pytest
+
+from tests.recordings.writers import SECOND, Sent, numbers, write_mcap
+
+
+def test_a_lookup_between_two_samples_is_refused_with_the_wait_it_needs(tftool):
+    result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "5")
+    assert result.status == 4
+    lines = result.out.splitlines()
+    assert lines[0] == ("turtle1 in turtle2 at 1005.000000000: refused, would answer 8 ms later")
+    assert "REFUSES: newest is 8 ms too old" in result.out
+    assert "cure   a timeout of 10 ms (least: 8.0)" in result.out
+
+
+def test_what_answers_is_status_0(tftool):
+    result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "5", "--timeout", "0.01")
+    assert result.status == 0
+    assert result.out.startswith("turtle1 in turtle2 at 1005.000000000: answers\n")
+    assert tftool("explain", "turtle2", "turtle1", "turtles").status == 0
+
+
+def test_the_links_of_a_recording_count_from_where_the_moment_asked_for_does(tftool, tmp_path):
+    start = 1_750_000_000 * SECOND + SECOND // 2
+    run = [
+        Sent(start + at, "/tf", ((start + at, "map", "base", numbers(1)),))
+        for at in range(0, 3 * SECOND, SECOND)
+    ]
+
+    told = tftool("explain", "map", "base", write_mcap(tmp_path / "a.mcap", run), "--at", "7").out
+
+    assert re.search(r"held, s since the start +at 7\.000\n", told)
+    assert "0.000 … 2.000, 3" in told
+
+
+def test_programs_get_whole_nanoseconds(tftool):
+    result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "5", "--json")
+    found = json.loads(result.out)
+    assert found["schema"] == "tftool.explain/1"
+    assert (found["stamp"], found["asked"]) == (1_005_000_000_000, 1_005_000_000_000)
+    assert [link["publisher"] for link in found["links"]] == ["broadcaster1", "broadcaster2"]
+    assert found["remedies"][0]["least"] == 8_000_000
+
+
+def test_a_name_that_is_none_is_explained_too(tftool):
+    result = tftool("explain", "turtle2", "turtle9", "turtles", "--at", "5")
+    assert result.status == 4
+    assert "no transform names turtle9" in result.out
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["a", "b", "turtles", "--message", "/scan@4", "--at", "4"], 2, "leave out --at"),
+        (["a", "b", "turtles", "--message", "/scan@x"], 2, "'x' is no moment"),
+        (["a", "b", "turtles", "--message", "/scan"], 3, "No message with a header"),
+        (["a", "b", "nothing.mcap"], 3, "There is no file"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(tftool, words, status, told):
+    result = tftool("explain", *words)
+    assert result.status == status
+    assert told in result.err
+
+
+ARM = """<robot name="arm"><link name="base"/><link name="tool"/><link name="ball"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="tool"/></joint>
+  <joint name="free" type="floating"><parent link="tool"/><child link="ball"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def arm(tmp_path):
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM)
+    return str(path)
+
+
+def test_a_description_is_explained_joint_by_joint(tftool, arm):
+    result = tftool("explain", "base", "tool", arm, "--joint", "turn=90deg")
+    assert result.status == 0
+    assert result.out.startswith("tool in base: answers\n")
+    assert "1.571 rad" in result.out
+
+    refused = tftool("explain", "base", "ball", arm)
+    assert refused.status == 4
+    assert "REFUSES: its pose is not known" in refused.out
+
+
+def test_programs_get_the_joints_of_a_description(tftool, arm):
+    found = json.loads(tftool("explain", "base", "ball", arm, "--json").out)
+    assert found["schema"] == "tftool.explain/1"
+    assert found["available"] is False
+    assert found["refusing"] == ["tool", "ball"]
+    assert [link["joint"] for link in found["links"]] == ["free", "turn"]
+
+
+def test_what_a_description_has_not_is_refused(tftool, arm):
+    result = tftool("explain", "base", "tool", arm, "--message", "/scan")
+    assert result.status == 2
+    assert "leave out --message" in result.err
+    result = tftool("explain", "turtle1", "turtle2", "turtles", "--joint", "turn=1")
+    assert result.status == 2
+    assert "leave out --joint turn=1" in result.err

@@ -1,0 +1,115 @@
+"""The tutorial live: the learner's own files in real processes, on real time, in one session."""
+
+import re
+import shutil
+import tempfile
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+from tests.patience import PATIENCE
+from tests.terminals import Terminal
+from tests.world.link.processes import Process, run
+
+LOOKS = 2000
+"""How many answers are looked at before what is waited for is given up."""
+
+TUTORIAL = Path(__file__).parent.parent / "tutorial"
+
+
+@pytest.fixture(scope="module")
+def launched():
+    """`tftool launch pkg_tf turtle_following.launch.py`, which all others join."""
+    # Not pytest's own folder: a unix socket's name has about a hundred letters.
+    with (
+        pytest.MonkeyPatch.context() as environment,
+        tempfile.TemporaryDirectory(prefix="tf") as folder,
+    ):
+        environment.setenv("TFTOOL_SESSION_DIR", folder)
+        environment.delenv("ROS_DISTRO", raising=False)
+        environment.delenv("AMENT_PREFIX_PATH", raising=False)
+        words = ["launch", "pkg_tf", "turtle_following.launch.py"]
+        with Process(*words, cwd=TUTORIAL) as process:
+            process.says("[listener]: Successfully spawned turtle2")
+            yield process
+            status = process.interrupt()
+    assert status == 130
+    assert "user interrupted with ctrl-c (SIGINT)" in process.text
+    assert "Traceback" not in process.text
+
+
+def told(process, pattern, condition):
+    """Wait until what a process says last in a pattern's brackets is as it should be."""
+    seen = 0
+    for _ in range(LOOKS):
+        seen = process.says(pattern.partition("(")[0], after=seen)
+        found = re.search(pattern, process.lines[seen - 1])
+        if found and condition(float(found[1])):
+            return
+    raise AssertionError(f"it never was; it said:\n{process.text}")
+
+
+@pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux, a terminal to press keys in")
+def test_turtle2_follows_where_the_keys_drive_turtle1(launched, tmp_path):
+    # Looked at from the world, where a turtle that has been driven stays: between two looks of a
+    # busy machine it may be driven off and caught up with.
+    far = ["echo", "world", "turtle2", "--distance", "--rate", "5"]
+    with (
+        Process("echo", "turtle2", "turtle1", "--distance", "--rate", "5") as echo,
+        Process(*far) as place,
+    ):
+        echo.says("Joined the session of 'tftool launch")
+        told(echo, r"Distance: ([\d.]+)", lambda distance: distance < 0.5)
+        teleop = Terminal(tmp_path, 80, 24, ["-m", "tftool", "teleop"], {})
+        try:
+            teleop.shows("q quit")
+            teleop.press("Up")
+            # It is followed there, by the learner's own listener.
+            told(place, r"Distance: ([\d.]+)", lambda distance: distance > 8.5)
+            teleop.press("q")
+            teleop.shows("ended with 0")
+        finally:
+            teleop.tmux("kill-server")
+        assert echo.interrupt() == 130
+        assert place.interrupt() == 130
+
+
+def test_a_static_frame_from_the_command_line_is_there_for_all(launched):
+    words = ["run", "pkg_tf", "static_turtle", "mystaticturtle", "0", "0", "1", "0", "0", "0"]
+    with Process(*words, cwd=TUTORIAL) as static:
+        static.says("Joined the session of 'tftool launch")
+        found = run("echo", "world", "mystaticturtle", "--once")
+
+        assert found.returncode == 0
+        assert "- Translation: [0.000, 0.000, 1.000]" in found.stdout
+        assert static.interrupt() == 130
+
+
+def test_a_launch_file_that_cannot_be_read_leaves_the_session_at_once(launched, tmp_path):
+    file = tmp_path / "bad.launch.py"
+    file.write_text("from launch import Nope\n")
+    done = run("launch", file)
+
+    assert done.returncode == 3
+    assert "'Nope' of launch is not covered" in done.stderr
+
+
+def test_an_action_client_of_another_process_turns_the_turtle(launched):
+    done = run("run", "pkg_tf", "rotate", "0.7854", cwd=TUTORIAL)
+
+    assert done.returncode == 0
+    assert "[rotate]: Goal accepted" in done.stderr
+    assert re.search(r"\[rotate\]: Result: -0\.7\d\d\d after \d+ feedbacks", done.stderr)
+
+
+def test_the_page_shows_the_learners_frames(launched):
+    pytest.importorskip("websockets", reason="the extra `view` is not installed")
+    with Process("view") as view:
+        line = view.says(" are at http://127.0.0.1:")
+        address = re.search(r"http://\S+", view.lines[line - 1])[0]
+        with urllib.request.urlopen(address, timeout=PATIENCE) as page:
+            text = page.read().decode()
+
+        assert view.interrupt() == 130
+    assert "<title>" in text

@@ -1,0 +1,113 @@
+"""`tftool play`, as it is typed."""
+
+import shutil
+
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+pytest.importorskip("mcap", reason="writes the test files")
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+
+from tests.recordings.writers import content, write_mcap
+from tests.terminals import Terminal
+from tftool.commands.shared.keypresses import keys_in
+
+
+@pytest.fixture
+def run(tmp_path):
+    return write_mcap(tmp_path / "run.mcap", content(20))
+
+
+def test_it_plays_to_the_end_without_a_word(tftool, simulated, run):
+    result = tftool("play", run)
+
+    assert (result.status, result.out, result.err) == (0, "", "")
+
+
+def test_over_and_over_it_tells_of_every_jump_back(tftool, simulated, run):
+    # The recording lasts 0.4 s, too short for a fall that matters at less than three rounds.
+    result = tftool("play", run, "--loop", "--for", "1", "--rate", "0.1")
+    assert (result.status, result.err) == (0, "")
+
+    long = write_mcap(run.with_name("long.mcap"), content(90))
+    told = tftool("play", long, "--loop", "--for", "5", "--rate", "1").err.splitlines()
+    assert len(told) == 2
+    assert all(
+        line.endswith("[player]: Detected jump back in time. Clearing tf buffer.") for line in told
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--from", "99"], "The recording lasts 0."),
+        (["--to", "99"], "99 s lies outside it"),
+        (["--from", "0.3", "--to", "0.1"], "--from 0.3 s lies after --to 0.1 s"),
+        (["--rate", "0"], "is not between 0.01 and 100"),
+        (["--restamp", "yesterday"], "yesterday"),
+        (["--read-only"], "--read-only publishes nothing"),
+        (["--join"], "is always hosted"),
+        (["--from", "soon"], "'soon' is no moment"),
+    ],
+)
+def test_what_cannot_be_played_is_a_sentence(tftool, simulated, run, words, sentence):
+    result = tftool("play", run, *words)
+
+    assert result.status == 2
+    assert sentence in result.err
+    assert "Traceback" not in result.err
+
+
+def test_a_scenario_is_no_recording(tftool, simulated):
+    result = tftool("play", "turtles")
+
+    assert result.status == 2
+    assert "'turtles' is a scenario: a recording is needed here" in result.err
+
+
+def test_a_recording_without_a_message_is_over_at_once(tftool, simulated, tmp_path):
+    assert tftool("play", write_mcap(tmp_path / "empty.mcap", [])).status == 0
+
+
+def test_where_no_one_can_join_the_other_topics_go_nowhere(tftool, simulated, run):
+    result = tftool("play", run, "--all")
+
+    assert result.status == 0
+    assert "--all sends nothing else" in result.err
+
+
+@pytest.mark.parametrize(
+    ("typed", "keys"),
+    [
+        (b" ", ["space"]),
+        (b"\x1b[C\x1b[C", ["right", "right"]),
+        (b"\x1bOA\x1b[B[", ["up", "down", "["]),
+        (b"q", ["q"]),
+        (b"\x1b[1~0", ["home", "0"]),
+        (b"\x1b[17~", []),
+        (b"\xc3\xa4\x00\x07", []),
+    ],
+)
+def test_keys_are_known_by_their_bytes(typed, keys):
+    assert keys_in(typed) == keys
+
+
+@pytest.mark.skipif(shutil.which("tmux") is None, reason="tmux is not installed")
+def test_on_a_terminal_keys_steer_it(tmp_path):
+    file = write_mcap(tmp_path / "long.mcap", content(1000))
+    words = ("-m", "tftool", "play", str(file), "--host", "--paused", "--loop")
+    terminal = Terminal(tmp_path, 80, 12, words, {})
+    try:
+        terminal.shows("⏸  0.00 / ")
+        terminal.press("]", "]", "]")
+        terminal.shows("⏸  3.00 / ")
+        terminal.press("{")
+        terminal.shows("⏸  0.00 / ")
+        terminal.press("Up")
+        terminal.shows("×1.1")
+        terminal.press("Space")
+        terminal.shows("▶ ")
+        terminal.press("q")
+        terminal.ended(0)
+    finally:
+        terminal.tmux("kill-server")

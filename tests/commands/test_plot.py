@@ -1,0 +1,192 @@
+"""`tftool plot`: in the terminal, live, and as a picture."""
+
+import re
+import sys
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+import tftool as library
+from tests.commands.conftest import Simulated
+from tests.frames.test_series import SECOND, circling
+from tftool.app.main import main
+
+
+@pytest.fixture
+def run(tmp_path):
+    library.export(circling(np.arange(1.0, 21.0, 0.05)), tmp_path / "run.mcap")
+    return tmp_path / "run.mcap"
+
+
+def test_a_recording_is_drawn_at_eighty_columns(tftool, run):
+    result = tftool("plot", "map", "car", run)
+
+    lines = result.out.splitlines()
+    assert result.status == 0
+    assert result.err == ""
+    assert max(map(len, lines)) <= 80
+    assert [line for line in lines if "│" not in line][:3] == [
+        "position, m  x  y  z",
+        "rotation, °  roll  pitch  yaw",
+        "distance, m",
+    ]
+    assert lines[1].startswith("     2.000│")
+    assert lines[-1].split() == ["0", "9.975", "19.95", "s"]
+
+
+def test_a_line_rises_where_the_value_does(tftool, tmp_path):
+    from tftool import Buffer, Transform, TransformStamped, seconds
+
+    buffer = Buffer(seconds(1000))
+    for n in range(101):
+        pose = Transform((0.1 * n, 0.0, 0.0))
+        buffer.set_transform(TransformStamped(SECOND + n * SECOND // 10, "map", "car", pose))
+    library.export(buffer, tmp_path / "ramp.mcap")
+
+    out = tftool("plot", "map", "car", tmp_path / "ramp.mcap", "--only", "x", "--ascii").out
+
+    rows = [line.partition("|")[2] for line in out.splitlines() if "|" in line]
+    starts = [len(row) - len(row.lstrip()) for row in rows]
+    assert out.isascii()
+    assert starts == sorted(starts, reverse=True)
+    assert rows[-1][0] != " "
+    assert len(rows[0]) == 69
+
+
+def test_what_is_refused_is_shaded_and_told(tftool, run):
+    out = tftool("plot", "map", "car", run, "--every", "0.5", "--to", "40", "--only", "x").out
+
+    shaded = [line.rstrip().count("░") for line in out.splitlines() if "│" in line]
+    assert min(shaded) > 30
+    assert "No pose from 20.00 s to 40.00 s: Lookup would require extrapolation" in out
+
+
+def test_the_path_from_above_is_round(tftool, run):
+    out = tftool("plot", "map", "car", run, "--xy").out
+
+    rows = [line.partition("│")[2] for line in out.splitlines() if "│" in line]
+    inked = [row for row in rows if row.strip()]
+    across = max(map(len, inked)) - min(len(row) - len(row.lstrip()) for row in inked)
+    assert "car in map begins at 1.618" in out
+    # A cell is twice as high as wide.
+    assert 0.9 < across / (2 * len(inked)) < 1.1
+
+
+def test_several_pairs_share_a_panel(tftool, run):
+    out = tftool("plot", run, "--pair", "map:car", "--pair", "car:map", "--only", "distance").out
+
+    assert out.splitlines()[0] == "distance, m  car in map  map in car"
+
+
+def test_a_scenario_is_drawn_whole(tftool, simulated):
+    result = tftool("plot", "world", "turtle1", "turtles", "--only", "x", "--for", "5")
+
+    assert result.status == 0
+    axis = next(line for line in result.out.splitlines() if line.endswith(" s"))
+    assert 4.9 < float(axis.split()[-2]) <= 5.0
+
+
+def test_a_live_plot_ends_with_for(monkeypatch, capsys):
+    class Terminal(Simulated):
+        """A world of simulated time, so that a live plot takes no time."""
+
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("LINES", "30")
+
+    status = main(["plot", "turtle2", "turtle1", "--for", "2", "--only", "x"], Terminal())
+
+    out = capsys.readouterr().out
+    assert status == 0
+    assert "position, m" in out
+    assert "\x1b[?1049l" in out  # the screen is given back
+
+
+@pytest.mark.parametrize("form", ["svg", "pdf", "png"])
+def test_a_picture_is_written(tftool, run, tmp_path, form):
+    pytest.importorskip("matplotlib", reason="the extra 'plot' is not installed")
+    path = tmp_path / f"plot.{form}"
+
+    result = tftool("plot", "map", "car", run, "-o", path, "--dark")
+
+    assert result.status == 0
+    assert "Drew 400 moments" in result.err
+    magic = {"svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG"}[form]
+    assert path.read_bytes().startswith(magic)
+
+
+def test_a_picture_names_its_axes_and_what_was_refused(tftool, tmp_path):
+    pytest.importorskip("matplotlib", reason="the extra 'plot' is not installed")
+    buffer = circling(np.arange(1.0, 3.0, 0.1))
+    still = library.TransformStamped(0, "car", r"_$\frac{<b>$", library.Transform())
+    buffer.set_transform_static(still)
+    library.export(buffer, tmp_path / "run.mcap")
+    words = ("plot", "map", r"_$\frac{<b>$", tmp_path / "run.mcap", "--every", "0.1", "--to", "3")
+
+    first = tftool(*words, "-o", tmp_path / "a.svg")
+    tftool(*words, "-o", tmp_path / "b.svg")
+
+    text = (tmp_path / "a.svg").read_text()
+    told = " ".join(re.sub(r"<[^>]*>", " ", text).split())
+    assert first.status == 0, first.err
+    assert ET.fromstring(text).tag.endswith("svg")
+    for wanted in ("position, m", "turn rate, °/s", "time, s", "roll", "No pose from"):
+        assert wanted in told
+    assert r"$\frac{&lt;b&gt;$" in text
+    assert text == (tmp_path / "b.svg").read_text()
+
+
+def test_without_matplotlib_the_extra_is_named(tftool, run, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+
+    result = tftool("plot", "map", "car", run, "-o", tmp_path / "a.svg")
+
+    assert result.status == 2
+    assert "pip install 'tftool-tf2[plot]'" in result.err
+    assert not (tmp_path / "a.svg").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["RUN"], 2, "TARGET SOURCE"),
+        (["map", "car", "RUN", "--only", "wobble"], 2, "nothing to plot"),
+        (["map", "car", "RUN", "--only", "x", "--xy"], 2, "leave one out"),
+        (["map", "car", "RUN", "--dark"], 2, "-o FILE"),
+        (["map", "car", "RUN", "-o", "a.gif"], 2, ".svg, .pdf or .png"),
+        (["map", "car", "RUN", "-o", "run.mcap"], 2, ".svg, .pdf or .png"),
+        (["map", "nope", "RUN"], 4, "nope"),
+        (["map", "car", "nope.mcap"], 3, "nope.mcap"),
+        (["map", "car", "RUN", "--rate", "1", "--every", "1"], 2, "give one"),
+    ],
+)
+def test_what_does_not_fit_is_said(tftool, run, tmp_path, monkeypatch, words, status, told):
+    monkeypatch.chdir(tmp_path)
+
+    result = tftool("plot", *[run if word == "RUN" else word for word in words])
+
+    assert (result.status, told in result.err) == (status, True), result.err
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["run.mcap"]
+
+
+def test_in_python_it_draws_into_axes_of_ones_own():
+    matplotlib = pytest.importorskip("matplotlib", reason="the extra 'plot' is not installed")
+    from matplotlib.figure import Figure
+
+    buffer = circling(np.arange(1.0, 3.0, 0.1))
+    path = buffer.lookup_transforms("map", "car", buffer.samples("car").stamps)
+    above, below = Figure().subplots(2)
+
+    assert library.plot(path, above, what="yaw") is above
+    assert library.plot([path, path.inverse()], below, xy=True) is below
+
+    assert above.get_ylabel() == "rotation, °"
+    assert above.get_xlabel() == "time, s"
+    assert np.allclose(above.lines[0].get_ydata()[0], 126.0)
+    assert (below.get_xlabel(), below.get_ylabel()) == ("x, m", "y, m")
+    with pytest.raises(library.UsageError, match="one panel, and these are 5"):
+        library.plot(path, above, what=["position", "yaw", "distance", "speed", "turn rate"])
+    assert matplotlib

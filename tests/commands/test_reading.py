@@ -1,0 +1,98 @@
+"""What a person sees while a recording is read, and how that ends."""
+
+import io
+import re
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+pytest.importorskip("mcap", reason="writes the test files")
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+
+from tests.patience import PATIENCE
+from tests.recordings.writers import content, write_mcap
+from tests.terminals import ROOT, Terminal
+
+SLOW = """
+import sys
+from tftool.commands import app
+from tftool.recordings.mcap.read import Mcap
+
+FILE, TIMES = sys.argv[1:]
+
+
+def batches(self, wanted, progress=None, head=None):
+    times = iter(int, 1) if TIMES == "for_ever" else range(int(TIMES))
+    for _ in times:
+        progress(25_000_000, 100_000_000)
+    return iter(())
+
+Mcap.batches = batches
+sys.argv = ["tftool", "tree", FILE]
+sys.exit(app.main())
+"""
+
+
+@pytest.fixture
+def file(tmp_path):
+    return write_mcap(tmp_path / "run.mcap", content(20))
+
+
+@pytest.mark.skipif(shutil.which("tmux") is None, reason="tmux is not installed")
+def test_reading_that_takes_long_shows_a_bar_and_ends_at_ctrl_c(tmp_path, file):
+    words = ("-c", SLOW, str(file), "for_ever")
+    terminal = Terminal(tmp_path, 120, 10, words, {"TERM": "xterm-256color"})
+    try:
+        shown = terminal.until(lambda screen: "Reading" in screen and "MB" in screen, "a bar")
+        assert "25.0/100.0 MB" in shown
+        terminal.press("C-c")
+        screen = terminal.ended(130)
+        assert "Reading" not in screen
+        assert "Traceback" not in screen
+    finally:
+        terminal.tmux("kill-server")
+
+
+def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
+    from tftool.commands.shared.recorded import Bar
+
+    class Screen(io.StringIO):
+        def isatty(self):
+            return True
+
+    screen = Screen()
+    monkeypatch.setattr("sys.stderr", screen)
+    monkeypatch.setattr("tftool.commands.shared.recorded.PATIENCE", 0)
+    bar = Bar("Reading run.mcap")
+    while not screen.getvalue():
+        bar(25_000_000, 100_000_000)
+    bar.stop()
+
+    shown = re.findall(r"[\d.]+/[\d.]+ MB", screen.getvalue())
+    assert set(shown) == {"25.0/100.0 MB"}
+
+
+def test_without_a_terminal_there_is_no_bar(file):
+    words = [sys.executable, "-c", SLOW, str(file), "5"]
+    done = subprocess.run(
+        words, cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
+
+    assert done.returncode == 0
+    assert "Reading" not in done.stderr
+
+
+def test_a_file_that_is_gone_while_it_is_read_is_a_sentence(tftool, file, monkeypatch):
+    from tftool.recordings.mcap.read import Mcap
+
+    def shortened(self, wanted, progress=None, head=None):
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr(Mcap, "batches", shortened)
+    result = tftool("tree", file)
+
+    assert result.status == 3
+    assert "Input/output error" in result.err

@@ -1,0 +1,56 @@
+import pytest
+
+from tests.commands.test_described import ROBOT
+
+
+@pytest.fixture
+def robot(tmp_path):
+    path = tmp_path / "post.urdf"
+    path.write_text(ROBOT)
+    return path
+
+
+def test_a_robot_is_published_without_a_screen(tftool, simulated, robot):
+    result = tftool("robot", robot, "--no-screen", "--joint", "turn=0.5", "--for", "2")
+
+    assert result.status == 0
+    assert result.out == "Publishing robot 'post': 3 links, 1 moving joint; --joint says where.\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        ([], 2, "The sliders need a terminal, and stdin is none: add --no-screen."),
+        (["--no-screen", "--follow", "--joint", "turn=1"], 2, "leave out --joint"),
+        (["--no-screen", "--joint", "turm=1"], 2, "did you mean 'turn'?"),
+        (["--no-screen", "--link", "lmap"], 2, "has no link 'lmap'; did you mean 'lamp'?"),
+        (["--no-screen", "--read-only"], 2, "--read-only publishes nothing"),
+    ],
+)
+def test_what_it_cannot_do_is_said(tftool, simulated, robot, words, status, told):
+    result = tftool("robot", robot, *words)
+
+    assert result.status == status
+    assert told in result.err
+
+
+@pytest.mark.parametrize(
+    ("name", "status", "told"),
+    [
+        ("turtles", 2, "'turtles' is a scenario: a robot description is needed here"),
+        ("none.urdf", 3, "no file or folder 'none.urdf'"),
+    ],
+)
+def test_only_descriptions_are_taken(tftool, simulated, name, status, told):
+    result = tftool("robot", name, "--no-screen")
+
+    assert result.status == status
+    assert told in result.err
+
+
+def test_the_publisher_runs_by_its_ros_name_without_turtles(tftool, robot):
+    words = ["robot_state_publisher", "robot_state_publisher", robot]
+    result = tftool("run", "--simulated", "--for", "1", *words)
+
+    assert result.status == 0
+    assert "turtles" not in result.err

@@ -1,0 +1,125 @@
+from functools import partial
+
+import pytest
+
+from tftool.base.errors import UsageError
+from tftool.commands.shared import on_screen as onscreen
+from tftool.commands.teleop import press_there
+from tftool.messages.turtle_values import Pose2D
+from tftool.screens.terminal import run_screen as showing
+from tftool.world.clock import SimClock, run
+from tftool.world.nodes.turtle_teleop import BANNER
+from tftool.world.world import World
+
+
+def test_without_a_terminal_teleop_asks_for_keys(tftool):
+    result = tftool("teleop")
+
+    assert result.status == 2
+    assert result.err == (
+        "tftool: teleop reads keys from a terminal, and stdin is none. "
+        'Give the keys on the command line instead: --keys "up up left".\n'
+    )
+
+
+@pytest.mark.parametrize(
+    ("keys", "place"),
+    [
+        ("up", "x 7.560, y 5.544, heading 0.0°"),
+        ("up down", "x 5.544, y 5.544, heading 0.0°"),
+        ("left", "x 5.544, y 5.544, heading 115.5°"),
+        ("RIGHT", "x 5.544, y 5.544, heading -115.5°"),
+        ("t", "x 5.544, y 5.544, heading 44.0°"),
+        ("r,up", "x 5.582, y 7.560, heading 88.9°"),
+        ("up q up", "x 7.560, y 5.544, heading 0.0°"),
+        ("f", "x 5.544, y 5.544, heading 0.0°"),
+    ],
+)
+def test_keys_on_the_command_line_are_pressed_one_after_the_other(tftool, keys, place):
+    result = tftool("teleop", "--keys", keys)
+
+    assert result.status == 0
+    assert result.out == f"turtle1 is at {place}.\n"
+
+
+def test_another_turtle_can_be_driven(tftool):
+    assert tftool("teleop", "turtle2", "--keys", "g").out.startswith("turtle2 is at x ")
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--keys", "up sideways"], "'sideways' is no key of teleop; there are up, down, left"),
+        (["--keys", " "], "--keys needs at least one key"),
+        (["bob", "--keys", "up"], "There is no turtle 'bob' here; there are turtle1, turtle2."),
+        (["no name", "--keys", "up"], "'no name' cannot be a turtle's name"),
+    ],
+)
+def test_what_cannot_be_pressed_is_refused_with_a_sentence(tftool, words, sentence):
+    result = tftool("teleop", *words)
+
+    assert result.status == 2
+    assert sentence in result.err
+
+
+def test_a_turtle_that_is_not_in_the_joined_session_is_told_with_those_that_are():
+    world = World(SimClock())
+    world.topic("turtle1/pose", Pose2D)
+    world.topic("turtle2/pose", Pose2D)
+
+    with pytest.raises(UsageError, match="no turtle 'bob' here; there are turtle1, turtle2"):
+        run(world.clock, press_there(world, "bob", ["up"]))
+
+
+@pytest.fixture
+def pressing(monkeypatch):
+    """A terminal on which somebody presses some keys and then q."""
+    apps = []
+
+    def press(*keys):
+        async def see(app, life, **how):
+            async def pilot(one):
+                await one.pause()
+                await one.press(*keys)
+                app.redraw()
+                await one.pause()
+                await one.press("q")
+
+            apps.append(app)
+            app.run_async = partial(app.run_async, auto_pilot=pilot)
+            await shown(app, life, headless=True)
+
+        shown = showing.show
+        monkeypatch.setattr(onscreen, "screen_lacks", lambda: "")
+        monkeypatch.setattr(showing, "show", see)
+        return apps
+
+    return press
+
+
+def test_on_a_terminal_the_banner_comes_first_and_the_keys_drive(tftool, pressing):
+    apps = pressing("up")
+
+    result = tftool("teleop")
+
+    (app,) = apps
+    assert result.status == 0
+    assert result.out == "\n".join(BANNER) + "\n"
+    assert app.scene.simulator.turtles["turtle1"].pose.linear_velocity >= 0.0
+    assert app.scene.world.topic("turtle1/cmd_vel", _twist()).latest.linear_x == 2.0
+
+
+def _twist():
+    from tftool.geometry.motion.twist import Twist2D
+
+    return Twist2D
+
+
+def test_a_turtle_that_is_not_there_is_told_when_a_key_is_pressed(tftool, pressing):
+    apps = pressing("up")
+
+    assert tftool("teleop", "bob").status == 0
+
+    (app,) = apps
+    (told,) = [one.text for one in app.scene.world.log.records if one.node == "screen"]
+    assert told.startswith("there is no turtle 'bob' here; there are: ")

@@ -1,0 +1,317 @@
+"""Each check trips on a small robot of its own, and stays quiet where its guard says so."""
+
+import math
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from tests.doctor.judged import found, ids, turned
+from tests.doctor.robots import LASTS, NO_TURN, START, Robot, robot, stands
+from tftool.base.stamps import seconds
+from tftool.doctor.catalogue import CHECKS
+from tftool.doctor.findings import Severity
+from tftool.doctor.model import Settings
+from tftool.doctor.shape_checks import loop
+
+
+def test_a_healthy_robot_has_nothing():
+    assert ids(robot(), notes=True) == []
+
+
+def test_two_parents_by_turns_are_a_fight_and_one_change_is_a_switch():
+    made = robot()
+    made.moving("visual_odom", "base_link", hz=20)
+    found_here = found(made, "two-parents")
+    assert found_here.edges == (("odom", "base_link"), ("visual_odom", "base_link"))
+    assert ids(made) == ["two-parents"]
+    assert found(made, "split-tree").because_of == "two-parents"
+
+    picked = robot()
+    picked.moving("table", "cup", end=4.0)
+    picked.moving("base_link", "cup", begin=4.0)
+    picked.moving("odom", "table", pose=stands)
+    assert found(picked, "parent-switch").severity is Severity.NOTE
+    assert ids(picked) == []
+
+
+def test_two_statics_with_different_parents_are_a_fight_too():
+    made = robot()
+    made.static("base_link", "camera")
+    made.static("laser", "camera", at=0.5)
+    alone = found(made, "two-parents")
+    assert set(alone.edges) == {("base_link", "camera"), ("laser", "camera")}
+    assert alone.consequence.startswith("camera loses its way to one root")
+    made.static("camera", "lens")
+    both = found(made, "two-parents").consequence
+    assert both.startswith("camera, lens lose their way to one root")
+
+
+def away(t: float) -> tuple[float, ...]:
+    return (0.5 * t + 1.0, 0.3, 0.0, *NO_TURN)
+
+
+def test_two_known_publishers_of_different_opinion_are_named():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", node="/gazebo")
+    made.moving("odom", "base_link", pose=away, hz=30, node="/ekf")
+    conflict = found(made, "publisher-conflict")
+    assert conflict.publishers == ("/gazebo", "/ekf")
+    assert conflict.confidence.value == "certain"
+    # They drive 1 m and 0.3 m apart.
+    assert conflict.facts["apart"] == pytest.approx(math.hypot(1.0, 0.3), abs=0.02)
+
+
+def test_two_unknown_publishers_are_seen_from_the_values():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link")
+    made.moving("odom", "base_link", pose=away, hz=30)
+    conflict = found(made, "publisher-conflict")
+    assert conflict.confidence.value == "likely"
+    assert conflict.edges == (("odom", "base_link"),)
+    assert "teleport" not in ids(made)
+
+
+@pytest.mark.parametrize("speed", [15.0, 40.0])
+def test_what_is_merely_fast_has_one_publisher(speed):
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", pose=lambda t: (speed * t, 0.0, 0.0, *NO_TURN))
+    assert ids(made) == []
+
+
+def test_two_publishers_of_equal_values_only_repeat_stamps():
+    made = robot()
+    made.moving("odom", "base_link")
+    assert ids(made) == ["repeated-stamp"]
+
+
+def test_a_frame_that_is_static_and_moves():
+    made = robot()
+    made.static("map", "base_link", at=3.0)
+    assert found(made, "static-and-dynamic").frames == ("base_link",)
+
+
+def test_a_static_that_changes_and_one_that_moves():
+    changed = robot()
+    changed.static("base_link", "laser", (0.3, 0.0, 0.2, *NO_TURN), at=4.0)
+    finding = found(changed, "static-changed")
+    assert finding.facts["moved"] == pytest.approx(0.2)
+
+    moves = robot()
+    for tick in range(6):
+        moves.static("base_link", "arm", (0.1 * tick, 0.0, 0.0, *NO_TURN), at=float(tick))
+    assert found(moves, "dynamic-on-static").edges == (("base_link", "arm"),)
+
+
+def test_a_static_that_is_repeated_is_fine():
+    made = robot()
+    for tick in range(1, 8):
+        made.static("base_link", "laser", at=float(tick))
+    assert ids(made, notes=True) == []
+
+
+def test_a_constant_on_tf_is_a_note_unless_the_robot_is_at_rest():
+    made = robot()
+    made.moving("base_link", "camera", hz=10, pose=stands)
+    assert found(made, "static-on-tf").edges == (("base_link", "camera"),)
+
+    rests = robot(odometry=False)
+    rests.moving("odom", "base_link", pose=stands)
+    assert ids(rests, notes=True) == []
+
+
+def test_a_circle_is_named_and_is_no_split_tree():
+    made = Robot()
+    made.moving("odom", "body")
+    made.moving("body", "odom")
+    assert ids(made) == ["loop"]
+    assert set(found(made, "loop").frames) == {"odom", "body"}
+
+
+def test_a_large_circle_is_named_once_and_what_hangs_from_it_is_not():
+    names = [f"joint{n}" for n in range(70)]
+    made = Robot()
+    for parent, child in zip(names, names[1:] + names[:1], strict=True):
+        made.moving(parent, child)
+    made.moving("joint3", "tool")
+    finding = found(made, "loop")
+    assert set(finding.frames) == set(names)
+    assert len(finding.edges) == len(names)
+
+
+def test_looking_for_circles_takes_as_long_as_there_are_links():
+    looked = []
+
+    class Link:
+        by_stamp = (1,)
+
+        def __init__(self, number):
+            self.child = f"link{number + 1}"
+            self.number = number
+
+        @property
+        def parent(self):
+            looked.append(self)
+            return f"link{self.number}"
+
+    chain = SimpleNamespace(tracks=[Link(number) for number in range(300)])
+
+    assert list(loop(chain, {})) == []
+    assert len(looked) < 3000
+
+
+def test_edges_that_never_exist_together_form_no_circle():
+    made = Robot()
+    made.moving("a", "b", end=3.0)
+    made.moving("b", "a", begin=5.0)
+    assert "loop" not in ids(made)
+
+
+def test_a_split_tree_is_worse_where_messages_are_in_it():
+    made = robot()
+    made.static("camera_link", "camera_optical")
+    finding = found(made, "split-tree")
+    assert finding.severity is Severity.WARNING
+    assert finding.facts["join"] == {"parent": "base_link", "child": "camera_link", "guess": True}
+    assert "--frame-id base_link --child-frame-id camera_link" in finding.fixes[0].command
+
+    made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
+    finding = found(made, "split-tree")
+    assert (finding.severity, finding.topics) == (Severity.ERROR, ("/image",))
+
+
+def test_two_whole_robots_are_two_trees_by_intention():
+    made = Robot()
+    for name in ("r1", "r2"):
+        made.moving(f"{name}/odom", f"{name}/base_link")
+        made.static(f"{name}/base_link", f"{name}/laser")
+        made.hears(f"/{name}/scan", f"{name}/laser")
+    assert ids(made) == []
+
+
+def test_names_that_are_empty_or_equal():
+    made = robot()
+    made.sent("odom", "odom", 1.0)
+    made.sent("", "camera", 1.0)
+    made.hears("/points", "", kind="sensor_msgs/PointCloud2")
+    made.hears("/joint_states", "", kind="sensor_msgs/JointState")
+    assert found(made, "self-transform").frames == ("odom",)
+    severities = [one.severity for one in made.judged().findings if one.id == "empty-frame"]
+    assert severities == [Severity.ERROR, Severity.WARNING]
+    topics = [one.topics for one in made.judged().findings if one.id == "empty-frame"]
+    assert ("/points",) in topics
+
+
+def test_a_base_below_map_beside_odom_is_out_of_line():
+    made = Robot()
+    made.moving("map", "base_link")
+    made.moving("map", "odom", pose=stands)
+    assert found(made, "rep105-shape").edges == (("map", "base_link"),)
+
+    below = Robot()
+    below.moving("body", "odom")
+    below.static("body", "laser")
+    assert "rep105-shape" not in ids(below)
+
+
+@pytest.mark.parametrize(
+    ("rotation", "severity"),
+    [((0.0, 0.0, 0.0, 0.0), Severity.ERROR), ((0.0, 0.0, 0.0, 1.1), Severity.WARNING)],
+)
+def test_rotations_that_are_none(rotation, severity):
+    made = robot()
+    made.static("base_link", "camera", (0.0, 0.0, 0.0, *rotation))
+    assert found(made, "bad-quaternion").severity is severity
+
+
+def test_a_jump_of_odometry_and_none_of_a_localiser():
+    def jumps(t: float) -> tuple[float, ...]:
+        return (0.5 * t + (2.5 if t > 5.0 else 0.0), 0.0, 0.0, *NO_TURN)
+
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", pose=jumps)
+    finding = found(made, "teleport")
+    assert finding.facts["jump"] == pytest.approx(2.5 + 0.5 / 50)
+    assert finding.count == 1
+
+    spins = robot(odometry=False)
+    spins.moving(
+        "odom", "base_link", pose=lambda t: (0.5 * t, 0.0, 0.0, *turned(2.0 if t > 5 else 0.0))
+    )
+    assert found(spins, "teleport").facts["turn"] == pytest.approx(2.0)
+
+    localised = robot()
+    localised.moving("map", "odom", hz=20, pose=jumps)
+    assert "teleport" not in ids(localised)
+
+
+def test_an_optical_frame_with_the_axes_of_the_body():
+    made = robot()
+    made.static("base_link", "camera_link")
+    made.static("camera_link", "camera_optical_frame", (0.0, 0.0, 0.0, *NO_TURN))
+    # From body to optical axes is a third of a turn about a diagonal.
+    assert found(made, "optical-convention").facts["off"] == pytest.approx(120.0)
+
+    right = robot()
+    right.static("base_link", "camera_link")
+    right.static("camera_link", "camera_optical_frame", (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5))
+    assert ids(right) == []
+
+
+def test_pictures_in_a_body_frame_are_a_note():
+    made = robot()
+    made.hears("/image", "laser", kind="sensor_msgs/Image")
+    assert found(made, "image-not-optical").severity is Severity.NOTE
+
+
+def test_mounts_that_look_mistyped_are_notes():
+    made = robot()
+    made.static("base_link", "camera", (1200.0, 0.0, 0.0, *NO_TURN))
+    made.static("base_link", "sonar", (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
+    assert found(made, "suspect-units").edges == (("base_link", "camera"),)
+    assert found(made, "suspect-order").edges == (("base_link", "sonar"),)
+    assert ids(made) == []
+
+
+def test_stamps_and_numbers_of_any_size_are_judged():
+    made = robot()
+    for stamp in (0, -1, 2**63 - 1, -(2**63), seconds(START)):
+        for number in (0.0, 1e308, -1e308, math.inf):
+            made.sent("base_link", "arm", 1.0, (number, number, 0.0, *NO_TURN), stamp=stamp)
+            made.sent("odom", "base_link", 1.0, (number, 0.0, 0.0, *NO_TURN), stamp=stamp)
+    assert {"nan-transform", "zero-stamp"} <= set(ids(made))
+
+
+def test_what_only_came_after_time_went_back_is_left_out():
+    made = robot()
+    made.log_from = START + LASTS
+    made.moving("odom", "base_link")
+    made.hears("/scan", "laser")
+    made.moving("base_link", "arm", pose=stands)
+    made.hears("/late", "nowhere")
+    assert ids(made) == ["time-jump-back"]
+
+
+def test_a_threshold_can_be_changed_and_is_then_told():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", without=(3.0, 4.0))
+    assert "gap" in ids(made)
+    wide = Settings(limits={"gap": {"seconds": 2.0}})
+    assert "gap" not in [one.id for one in made.judged(wide).findings]
+    narrow = Settings(limits={"gap": {"seconds": 0.7}})
+    assert found(made, "gap", narrow).evidence[-1] == "with seconds = 0.7"
+
+
+def test_a_threshold_may_be_nothing_where_there_is_nothing_to_judge():
+    made = robot()
+    for at in (1.0, 2.0):
+        made.sent("base_link", "arm", at, stamp=0)
+    for check in CHECKS.values():
+        none = Settings(limits={check.id: dict.fromkeys(check.limits, 0.0)})
+        assert "zero-stamp" in [one.id for one in made.judged(none).findings]
+
+
+def test_every_check_of_the_catalogue_is_tripped_here():
+    here = Path(__file__).parent
+    source = "".join(one.read_text(encoding="utf-8") for one in here.glob("test_*checks.py"))
+    assert [name for name in CHECKS if f'"{name}"' not in source] == []

@@ -1,0 +1,145 @@
+"""The checks of clocks and stamps, each on a small robot of its own."""
+
+import pytest
+
+from tests.doctor.judged import found, ids
+from tests.doctor.robots import LASTS, START, Robot, drives, robot, stands
+from tftool.base.stamps import seconds
+from tftool.doctor.findings import Severity
+
+
+def test_two_clocks_name_the_edges_of_the_fewer():
+    made = robot(start=136.0, log_from=START)
+    made.start = START
+    made.moving("base_link", "wheel", hz=30)
+    finding = found(made, "clock-mixture")
+    assert finding.edges == (("base_link", "wheel"),)
+    assert ids(made) == ["clock-mixture"]
+
+
+def test_a_simulation_with_its_clock_is_healthy():
+    made = Robot(start=12.0, log_from=START)
+    made.moving("odom", "base_link")
+    made.moving("map", "odom", hz=20, pose=stands, offset=1.0)
+    made.static("base_link", "laser")
+    made.hears("/scan", "laser")
+    # The simulator runs at half the speed; /clock says so.
+    assert ids(made) == []
+    assert "only differences" in made.judged().model.reference
+    made.clock = [(seconds(12.0 + 0.1 * i), seconds(START + 0.1 * i)) for i in range(81)]
+    assert ids(made) == []
+    assert made.judged().model.reference == ""
+
+
+@pytest.mark.parametrize("tick", [0, 90, 399])
+@pytest.mark.parametrize("years", [2, -2])
+def test_a_single_stamp_of_another_year_is_named_and_makes_no_hole(tick, years):
+    made = robot(odometry=False)
+    made.moving("odom", "base_link")
+    stamps = made.records["odom", "base_link", False]
+    stamp, *rest = stamps[tick]
+    stamps[tick] = (stamp + years * 31_536_000 * 10**9, *rest)
+
+    if tick == 0 and years < 0:
+        # Old at the start: what was latched is, by intention.
+        assert "wild-stamp" not in ids(made, notes=True)
+        return
+    finding = found(made, "wild-stamp")
+    assert finding.edges == (("odom", "base_link"),)
+    assert finding.facts["stamp"] == stamps[tick][0]
+    assert finding.facts["off"] == pytest.approx(2 * 31_536_000 * 10**9, rel=1e-6)
+    assert finding.facts["side"] == ("ahead of" if years > 0 else "behind")
+    # What follows from it is not told beside it.
+    assert ids(made) == ["wild-stamp"]
+    assert "gap" not in ids(made, notes=True)
+
+
+def test_two_publishers_of_two_clocks_by_turns_have_no_wild_stamps():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", hz=20)
+    made.moving("odom", "base_link", hz=10, offset=7200.0)
+    assert "wild-stamp" not in ids(made, notes=True)
+
+
+def test_messages_of_a_sensor_have_wild_stamps_too():
+    made = robot()
+    made.static("base_link", "laser")
+    made.hears("/scan", "laser")
+    _, messages = made.heard["/scan"]
+    stamp, *rest = messages[30]
+    messages[30] = (stamp + seconds(7200), *rest)
+    assert found(made, "wild-stamp").topics == ("/scan",)
+
+
+def test_transforms_from_the_future_and_of_long_ago():
+    ahead = robot(odometry=False)
+    ahead.moving("odom", "base_link", offset=0.5)
+    assert found(ahead, "future-stamp").severity is Severity.WARNING
+
+    localised = robot()
+    localised.moving("map", "odom", hz=20, pose=stands, offset=1.0)
+    assert "future-stamp" not in ids(localised, notes=True)
+
+    late = robot(odometry=False, scans=False)
+    late.moving("odom", "base_link", latency=0.8)
+    assert found(late, "stale-stamp").severity is Severity.WARNING
+    later = robot(odometry=False, scans=False)
+    later.moving("odom", "base_link", latency=11.0)
+    assert found(later, "stale-stamp").severity is Severity.ERROR
+
+
+def test_a_sensor_whose_clock_is_ahead():
+    made = robot(scans=False)
+    made.hears("/imu", "laser", hz=100, kind="sensor_msgs/Imu", latency=-0.08)
+    finding = found(made, "clock-offset")
+    assert finding.facts["ahead"] == seconds(0.08)
+    assert ids(made) == ["clock-offset"]
+
+
+def test_stamps_of_zero_and_stamps_that_stand_still():
+    zero = robot()
+    for tick in range(160):
+        zero.sent("base_link", "arm", tick * 0.05, stamp=0)
+    assert ids(zero) == ["zero-stamp"]
+
+    frozen = robot()
+    for tick in range(160):
+        frozen.sent("base_link", "arm", tick * 0.05, stamp=seconds(START + 1.0))
+    assert ids(frozen) == ["frozen-stamp"]
+    assert found(frozen, "frozen-stamp").count == 160
+
+
+def test_time_that_goes_back_hides_what_follows_from_it():
+    made = robot()
+    made.log_from = START + LASTS
+    made.moving("odom", "base_link")
+    made.hears("/scan", "laser")
+    assert ids(made) == ["time-jump-back"]
+    assert found(made, "time-jump-back").count == 1
+
+
+def test_samples_too_old_to_be_kept_and_samples_that_overtake():
+    made = robot()
+    made.moving("base_link", "arm", hz=10, end=7.0)
+    made.sent("base_link", "arm", 7.0, stamp=seconds(START - 20.0))
+    assert found(made, "old-data").edges == (("base_link", "arm"),)
+
+    overtaken = robot()
+    for tick in range(100):
+        late = 0.2 if tick % 5 == 0 else 0.005
+        overtaken.sent("base_link", "arm", tick * 0.05, drives(tick * 0.05), latency=late)
+    # Log order is that of arrival: those that took longer come behind newer ones.
+    assert found(overtaken, "out-of-order").severity is Severity.NOTE
+
+
+def test_a_headline_speaks_of_one_link_and_of_several_in_their_grammar():
+    one = robot(odometry=False)
+    one.moving("odom", "base_link", offset=0.5)
+    said = found(one, "future-stamp").message
+    assert "base_link in odom is dated" in said
+    assert said.endswith("ahead of its arrival")
+
+    one.moving("base_link", "arm", offset=0.5)
+    said = found(one, "future-stamp").message
+    assert "arm in base_link are dated" in said
+    assert said.endswith("ahead of their arrival")

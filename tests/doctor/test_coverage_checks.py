@@ -1,0 +1,161 @@
+"""The checks of what is missing when, each on a small robot of its own."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from tests.doctor.judged import found, ids
+from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
+from tftool.base.stamps import seconds
+from tftool.doctor.findings import Severity
+from tftool.doctor.judge import judge
+from tftool.doctor.model import Settings
+from tftool.recordings.contract import Publisher
+
+
+def test_an_edge_that_stops_explains_why_scans_cannot_be_placed():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=5.0)
+    assert ids(made) == ["edge-stopped"]
+    outran = found(made, "sensor-outruns-tf")
+    assert outran.because_of == "edge-stopped"
+
+
+@pytest.mark.parametrize(("goes_on", "told"), [(5.02, []), (5.5, []), (7.0, ["edge-stopped"])])
+def test_links_that_stop_together_before_the_end_are_no_fault_of_the_first_of_them(goes_on, told):
+    """So a session looks whose host left: nothing else goes on, and one link is the last."""
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=5.0)
+    made.moving("base_link", "arm", end=goes_on)
+    material = replace(made.material(), end=seconds(START) + seconds(9))
+    assert [finding.id for finding in judge(material).findings] == told
+
+
+def test_a_hole_is_told_with_its_ends():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", without=(3.0, 4.0))
+    finding = found(made, "gap")
+    assert finding.facts["begin"] == seconds(START) + seconds(2.98)
+    assert finding.facts["end"] == seconds(START) + seconds(4)
+    assert finding.severity is Severity.WARNING
+    assert not any("at the same time" in line for line in finding.evidence)
+
+
+def test_a_hole_that_others_have_too_names_them():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", without=(3.0, 4.0))
+    made.moving("base_link", "arm", without=(3.0, 4.0))
+    lines = [line for one in made.judged().findings for line in one.evidence]
+    assert any("; at the same time: " in line for line in lines)
+
+
+def test_a_hole_of_what_is_published_on_change_is_a_note():
+    made = robot()
+    at = 0.0
+    for burst in range(5):
+        for _ in range(4):
+            made.sent("base_link", "door", at)
+            at += 0.02
+        at = 1.5 * (burst + 1)
+    assert found(made, "gap").severity is Severity.NOTE
+
+
+def test_samples_of_nan_are_told_and_explain_the_hole():
+    made = robot()
+    for tick in range(160):
+        bad = 40 <= tick < 60
+        pose = (math.nan, 0.0, 0.0, *NO_TURN) if bad else drives(tick * 0.05)
+        made.sent("base_link", "arm", tick * 0.05, pose)
+    finding = found(made, "nan-transform")
+    assert (finding.count, finding.facts["fate"]) == (20, "tf2 drops them")
+    assert found(made, "gap").because_of == "nan-transform"
+
+
+def test_a_mount_sent_once_on_tf():
+    made = robot()
+    made.sent("base_link", "gps", 0.5)
+    assert ids(made) == ["single-sample"]
+
+
+def test_nothing_at_all_is_an_error():
+    made = Robot()
+    made.hears("/scan", "laser")
+    assert ids(made) == ["no-transforms"]
+
+
+def test_statics_that_are_missing_explain_frames_that_are_unknown():
+    made = robot(laser=False)
+    assert ids(made) == ["static-missing"]
+    assert found(made, "unknown-frame").because_of == "static-missing"
+
+
+def test_statics_that_come_late():
+    made = robot(laser=False)
+    made.static("base_link", "laser", at=3.0)
+    finding = found(made, "static-late")
+    # 30 scans of 10 Hz are stamped before; the last of them arrives after the static.
+    assert finding.topics == ("/scan",)
+    assert finding.facts["late"] == pytest.approx(seconds(3.0), abs=seconds(0.02))
+
+
+def test_statics_that_are_offered_to_no_late_subscriber():
+    made = robot()
+    made.publishers[1] = Publisher("/tf_static", durability="volatile")
+    assert found(made, "static-not-latched").topics == ("/tf_static",)
+
+
+def test_statics_spread_over_messages_are_a_note():
+    made = robot()
+    made.static("base_link", "camera", at=0.1)
+    assert found(made, "latched-overwrite").frames == ("laser",)
+
+
+def test_odometry_that_comes_too_late_for_the_laser():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+    finding = found(made, "sensor-outruns-tf")
+    assert (finding.topics, finding.edges) == (("/scan",), (("odom", "base_link"),))
+    # The scan just after a sample waits for the next one (150 ms on), and that one's delay.
+    assert finding.facts["worst"] == pytest.approx(seconds(0.15 + 0.25 - 0.015), abs=1)
+    assert any("no rate is enough" in fix.text for fix in finding.fixes)
+
+
+def test_a_healthy_laser_may_wait_a_little():
+    made = robot()
+    made.hears("/imu", "laser", hz=100, kind="sensor_msgs/Imu", latency=0.002)
+    assert ids(made, notes=True) == []
+
+
+def test_messages_older_than_the_cache():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=20.0)
+    made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", end=5.0, latency=13.0)
+    assert found(made, "cache-short").facts["needed"] == 14
+    assert ids(made) == ["cache-short"]
+    assert "cache-short" not in [
+        one.id for one in made.judged(Settings(cache_time=seconds(30))).findings
+    ]
+
+
+def test_messages_before_the_first_transform_are_lost():
+    made = robot()
+    made.moving("map", "odom", hz=20, pose=stands, begin=2.0, offset=1.0)
+    finding = found(made, "late-start")
+    assert (finding.severity, finding.facts["lost"]) == (Severity.NOTE, 30)
+
+
+@pytest.mark.parametrize("ahead", [0.1, 1.0, 2.0])
+def test_a_localiser_that_dates_its_transforms_ahead_is_healthy(ahead):
+    made = robot()
+    made.moving("map", "odom", hz=20, pose=stands, offset=ahead)
+    assert ids(made, notes=True) == []
+
+
+def test_damage_is_told():
+    made = robot()
+    made.damage = ("the last chunk is torn",)
+    assert found(made, "truncated-recording").evidence == ("the last chunk is torn",)
+    made.damage = ("It was not closed.", "It breaks off.")
+    assert found(made, "truncated-recording").evidence == ("It was not closed. It breaks off.",)

@@ -1,0 +1,332 @@
+"""Why a lookup refuses: the link, the amount, and what would let it through."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from tests.doctor.robots import LASTS, NO_TURN, START, Robot, robot, stands
+from tftool import Buffer, Transform, TransformStamped, diagnose, explain
+from tftool.base.errors import InputError
+from tftool.base.stamps import seconds
+from tftool.doctor.explanation import Explanation, over_time, traced
+from tftool.doctor.model import Model, Settings
+from tftool.doctor.reasons import Cause
+from tftool.doctor.trace import LinkVerdict, Question, message_of
+from tftool.drawing.explanation_view import render
+
+T = seconds(START)
+
+
+def asked(made: Robot, target: str, source: str, at: float, **more: object) -> Explanation:
+    model = Model(made.material())
+    return traced(model, Question(target, source, T + seconds(at), **more))
+
+
+def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+
+    found = asked(made, "odom", "laser", 4.25)
+
+    assert not found.available
+    assert found.exception == "ForwardExtrapolationException"
+    assert "latest data is at time 1750000004.000000" in found.text
+    assert found.because == "when /scan of that stamp arrived"
+    assert found.asked == T + seconds(4.265)
+    assert found.refusing == ("odom", "base_link")
+    assert [link.verdict for link in found.links] == [LinkVerdict.ANSWERS, LinkVerdict.FORWARD]
+    assert found.links[1].short_by == seconds(0.25)
+    assert (found.cause, found.check) == (Cause.LATE, "sensor-outruns-tf")
+    # The sample for 4.4 arrives at 4.65; a wait of 385 ms, 390 as tf2 asks every 10 ms.
+    assert found.answerable_from == T + seconds(4.65)
+    assert (found.remedies[0].least, found.remedies[0].advised) == (seconds(0.385), seconds(0.39))
+    assert not found.remedies[1].possible
+
+
+@pytest.mark.parametrize(("hz", "advised"), [(4, True), (50, False)])
+def test_a_higher_rate_is_advised_only_where_the_link_comes_too_seldom(hz, advised):
+    """A wait of 100 ms is met by 10 Hz where nothing arrives late."""
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=hz, latency=0.0)
+    made.hears("/scan", "laser", hz=20, latency=0.0)
+
+    found = asked(made, "odom", "laser", 4.005)
+
+    assert found.cause is Cause.LATE
+    assert ("rate" in [remedy.kind for remedy in found.remedies]) is advised
+
+
+def test_waiting_so_long_answers():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+
+    assert asked(made, "odom", "laser", 4.25, timeout=seconds(0.385)).available
+    assert not asked(made, "odom", "laser", 4.25, timeout=seconds(0.384)).available
+
+
+def test_what_was_dropped_needs_a_larger_cache_and_that_much_is_enough():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=20.0)
+    made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", hz=1, end=6.0, latency=13.0)
+
+    found = asked(made, "odom", "laser", 5.0)
+
+    assert (found.cause, found.links[1].verdict) == (Cause.CACHE, LinkVerdict.PRUNED)
+    least = found.remedies[0].least
+    # Asked at 18.0, when the newest sample is that of 17.98. ROS 2 prunes before that comes and
+    # does with a period less; ROS 1 prunes after.
+    assert least == seconds(12.98)
+    for cache, answers in ((least, True), (least - seconds(0.04), False)):
+        again = asked(made, "odom", "laser", 5.0, settings=Settings(cache_time=cache))
+        assert again.available is answers
+
+
+def test_a_text_that_quotes_a_link_off_the_way_is_said_to_mislead():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=20.0)
+    made.moving("map", "odom", hz=20, pose=stands, end=20.0, offset=1.0)
+    made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", hz=1, end=6.0, latency=13.0)
+
+    found = asked(made, "odom", "laser", 5.0)
+
+    assert found.remedies[0].least == seconds(12.98)
+    # What odom in map, dated a second ahead, begins with; tf2 pruned before the last came.
+    assert "earliest data is at time 1750000008.900000" in found.text
+    assert "quotes 1750000008.900, a time of odom, which is not on the way" in found.why[-1]
+
+
+def test_what_is_older_than_the_first_data_can_never_be_placed():
+    made = robot()
+    made.moving("map", "odom", hz=20, pose=stands, offset=1.0)
+
+    found = asked(made, "map", "laser", 0.3)
+
+    assert (found.cause, found.refusing) == (Cause.BEFORE_START, ("map", "odom"))
+    assert found.answerable_from is None
+    assert found.links[-1].short_by == seconds(0.7)
+    assert "the first 10 messages of /scan are lost" in found.remedies[0].text
+
+
+def test_an_edge_that_ended_does_not_come_back():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=5.0)
+
+    found = asked(made, "odom", "laser", 6.0)
+
+    assert (found.cause, found.answerable_from) == (Cause.STOPPED, None)
+    assert found.links[1].short_by == seconds(1.02)
+
+
+def test_a_question_after_the_recording_blames_no_link_that_went_on_until_its_end():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=LASTS)
+
+    found = asked(made, "odom", "laser", LASTS + 4)
+
+    assert (found.cause, found.check) == (Cause.AFTER_END, None)
+    assert found.why == (
+        "the recording ends with base_link in odom at 1750000007.980, 4.02 s before the question",
+    )
+    assert found.remedies[0].text == "ask about 1750000007.980, or before"
+
+
+def test_a_moment_in_a_hole_waits_for_its_end():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", without=(3.0, 5.0))
+
+    found = asked(made, "odom", "laser", 4.0)
+
+    assert found.cause is Cause.GAP
+    assert found.answerable_from == T + seconds(5.005)
+
+
+def test_a_mount_sent_once_answers_for_its_own_stamp():
+    made = robot()
+    made.sent("base_link", "gps", 0.5)
+    assert asked(made, "base_link", "gps", 4.0).cause is Cause.SINGLE
+    assert asked(made, "base_link", "gps", 0.5, asked=T + seconds(1)).available
+
+
+def test_two_clocks_never_meet():
+    made = robot(start=136.0, log_from=START)
+    made.start = START
+    made.moving("base_link", "wheel", hz=30)
+    model = Model(made.material())
+
+    found = traced(model, Question("odom", "wheel", seconds(140)))
+
+    assert found.cause is Cause.CLOCK_MIXTURE
+    assert found.refusing == ("base_link", "wheel")
+    assert found.remedies[0].text.startswith("use_sim_time: true")
+
+
+@pytest.mark.parametrize(
+    ("target", "source", "cause", "told"),
+    [
+        (
+            "odom",
+            "lasre",
+            Cause.UNKNOWN_FRAME,
+            "ask for laser, or set frame_id of the driver to laser",
+        ),
+        ("odom", "/laser", Cause.NAME, 'frame_id "laser"'),
+        ("odom", "camera_link", Cause.SPLIT, "publish it:"),
+    ],
+)
+def test_names_and_joins_that_are_missing(target, source, cause, told):
+    made = robot()
+    made.static("camera_link", "lens")
+
+    found = asked(made, target, source, 4.0)
+
+    assert (found.cause, found.available) == (cause, False)
+    assert found.remedies[0].text == told
+
+
+def test_what_works_says_what_cannot_be_seen_from_here():
+    found = asked(robot(), "odom", "laser", 4.0)
+    assert (found.available, found.cause, found.check) == (True, Cause.WORKS, None)
+    assert "is there a listener" in found.why[0]
+
+
+def test_inside_a_circle_it_answers_and_the_circle_is_told():
+    made = Robot()
+    made.moving("odom", "body")
+    made.moving("body", "odom")
+    found = asked(made, "odom", "body", 4.0, asked=T + seconds(5))
+    assert (found.available, found.cause) == (True, Cause.LOOP)
+
+
+def test_a_static_that_comes_later_is_waited_for():
+    made = robot(laser=False)
+    made.static("base_link", "laser", at=3.0)
+    found = asked(made, "odom", "laser", 2.0)
+    assert found.cause in (Cause.LATE,)
+    assert found.answerable_from == T + seconds(3.005)
+
+
+def test_the_message_nearest_to_a_moment_is_found():
+    model = Model(robot().material())
+    heard, stamp = message_of(model, "/scan", T + seconds(4.04))
+    assert (heard.frame, stamp) == ("laser", T + seconds(4))
+    with pytest.raises(InputError, match="There are /scan"):
+        message_of(model, "/scam", None)
+
+
+def test_a_buffer_can_be_asked_too():
+    buffer = Buffer()
+    for tick in range(100):
+        pose = Transform((0.1 * tick, 0.0, 0.0), NO_TURN)
+        buffer.set_transform(
+            TransformStamped(T + seconds(0.1 * tick), "odom", "base_link", pose), "ekf"
+        )
+    buffer.set_transform(TransformStamped(T, "base_link", "gps", Transform()), "gps_node")
+
+    (finding,) = [one for one in diagnose(buffer) if one.id == "single-sample"]
+    assert finding.publishers == ("gps_node",)
+
+    found = explain(buffer, "odom", "gps", T + seconds(5))
+    assert (found.cause, found.refusing) == (Cause.SINGLE, ("base_link", "gps"))
+    assert found.links[1].publisher == "ekf"
+    assert explain(buffer, "odom", "base_link", T + seconds(5)).available
+
+
+def test_values_are_frozen():
+    (finding,) = [one for one in robot(laser=False).judged().findings if one.id == "static-missing"]
+    with pytest.raises(AttributeError):
+        finding.id = "other"
+    with pytest.raises(TypeError):
+        finding.facts["frames"] = []
+    assert asked(robot(), "odom", "laser", LASTS / 2) == asked(robot(), "odom", "laser", LASTS / 2)
+
+
+@pytest.mark.parametrize(
+    ("begin", "share"),
+    [(0.0, 0.0), (2.0, 0.25), (6.0, 0.75)],
+)
+def test_a_session_tells_for_how_long_a_lookup_would_have_failed(begin, share):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", begin=begin)
+    made.moving("base_link", "arm")
+    model = Model(made.material())
+    question = Question("odom", "arm")
+    found = over_time(model, question, traced(model, question))
+    assert found.available
+    assert found.failed == pytest.approx(share, abs=0.01)
+    told = f"this lookup works now; it would have failed for {share * 100:.0f} % of the last 7.98 s"
+    assert (told in found.why) is bool(share)
+
+
+def test_what_never_answered_in_a_session_failed_all_the_time():
+    model = Model(robot().material())
+    question = Question("odom", "nowhere")
+    found = over_time(model, question, traced(model, question))
+    assert (found.available, found.failed) == (False, 1.0)
+    assert found.why[0].startswith("this lookup fails now, and would have for 100 % of the last")
+
+
+def test_a_question_for_the_latest_is_one_for_the_last_moment_in_common():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=2.0)
+    made.moving("base_link", "arm", begin=5.0)
+    model = Model(made.material())
+    found = traced(model, Question("odom", "arm"))
+    assert not found.available
+    # The odometry ended at 1.98, and the arm began at 5: there is no moment in common.
+    assert found.links[0].verdict is LinkVerdict.BACKWARD
+    assert found.links[0].short_by == seconds(3.02)
+    assert found.cause is Cause.BEFORE_START
+
+
+@pytest.mark.parametrize(
+    ("joint", "joints", "told"),
+    [
+        ('type="continuous"', frozenset(), "no joint state names 'lift'"),
+        ('type="continuous"', frozenset({"lift"}), "robot_state_publisher was not heard"),
+        ('type="fixed"', None, "which is fixed: robot_state_publisher was not heard"),
+        ('type="floating"', None, "which is floating: robot_state_publisher skips it"),
+    ],
+)
+def test_a_link_that_only_the_description_has_is_told_with_its_joint(joint, joints, told):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=20)
+    made.urdf = (
+        '<robot name="r"><link name="base_link"/><link name="fork"/>'
+        f'<joint name="lift" {joint}><parent link="base_link"/><child link="fork"/></joint></robot>'
+    )
+    made.joints = joints
+
+    found = asked(made, "odom", "fork", 4)
+
+    assert found.cause is Cause.UNKNOWN_FRAME
+    assert any("in base_link by joint 'lift'" in why and told in why for why in found.why)
+
+
+@pytest.mark.parametrize("width", [50, 60, 70])
+def test_on_a_narrow_terminal_what_a_link_says_stands_below_it_in_whole_words(width):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+    console = Console(width=width, file=io.StringIO(), color_system=None)
+
+    console.print(render(asked(made, "odom", "laser", 4.25)))
+
+    lines = [line.rstrip() for line in console.file.getvalue().splitlines()]
+    assert max(map(len, lines)) <= width
+    link = next(at for at, line in enumerate(lines) if line.startswith("  base_link in odom  5 Hz"))
+    assert lines[link + 1] == "    REFUSES: newest is 250 ms too old"
+
+
+def test_where_there_is_room_a_link_is_one_row():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+    console = Console(width=120, file=io.StringIO(), color_system=None)
+
+    console.print(render(asked(made, "odom", "laser", 4.25)))
+
+    (row,) = [line for line in console.file.getvalue().splitlines() if "5 Hz" in line]
+    assert row.rstrip().endswith("REFUSES: newest is 250 ms too old")

@@ -1,0 +1,114 @@
+"""The checks of names, each on a small robot of its own."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.doctor.judged import found, ids
+from tests.doctor.robots import Robot, robot
+from tftool.doctor.findings import Severity
+from tftool.doctor.name_checks import distance
+
+
+def test_a_frame_that_no_transform_names_is_told_with_what_fits():
+    made = robot(scans=False)
+    made.hears("/scan", "laser_frame")
+    finding = found(made, "unknown-frame")
+    assert (finding.frames, finding.topics) == (("laser_frame",), ("/scan",))
+    assert finding.fixes[0].text == "set frame_id of the driver to laser"
+
+
+def test_a_slash_in_a_header_has_its_own_check():
+    made = robot(scans=False)
+    made.hears("/scan", "/laser")
+    assert ids(made) == ["slash-twins"]
+    assert found(made, "slash-twins").topics == ("/scan",)
+
+
+def test_slashes_in_transforms_are_a_note_and_two_of_them_an_error():
+    made = robot()
+    made.slashed["odom", "base_link", False] = 7
+    made.static("base_link", "/camera")
+    severities = {
+        one.edges: one.severity for one in made.judged().findings if one.id == "leading-slash"
+    }
+    assert severities == {
+        (("odom", "base_link"),): Severity.NOTE,
+        (("base_link", "/camera"),): Severity.ERROR,
+    }
+
+
+def test_names_that_differ_in_case_hide_the_frame_that_is_unknown():
+    made = robot(scans=False)
+    made.hears("/scan", "Laser")
+    assert ids(made) == ["case-twins"]
+    assert set(found(made, "case-twins").frames) == {"Laser", "laser"}
+
+
+def test_a_typo_is_one_but_left_and_right_and_numbers_are_a_family():
+    made = robot(scans=False)
+    made.hears("/scan", "lasre")
+    assert ids(made) == ["typo-twins"]
+
+    family = robot()
+    for name in ("camera1", "camera2", "left_wheel", "right_wheel"):
+        family.static("base_link", name)
+    family.hears("/image", "camera3", kind="sensor_msgs/Image")
+    assert "typo-twins" not in ids(family)
+
+
+def test_a_prefix_that_half_of_the_frames_carry():
+    made = robot(scans=False)
+    made.moving("robot1/odom", "robot1/base_link")
+    finding = found(made, "namespace-twins")
+    assert finding.facts["prefix"] == "robot1/"
+    assert ids(made) == ["namespace-twins"]
+
+
+def test_transforms_on_a_namespaced_topic():
+    made = Robot()
+    made.moving("odom", "base_link", topic="/r1/tf")
+    assert found(made, "namespaced-topic").severity is Severity.WARNING
+
+    beside = robot()
+    beside.moving("other", "thing", topic="/r1/tf")
+    assert found(beside, "namespaced-topic").severity is Severity.NOTE
+
+
+def test_a_note_does_not_hide_an_error():
+    made = robot(scans=False)
+    made.moving("other", "thing", topic="/r1/tf")
+    made.hears("/scan", "nowhere")
+    assert found(made, "namespaced-topic").severity is Severity.NOTE
+    assert ids(made) == ["unknown-frame"]
+
+
+@pytest.mark.parametrize("name", ["on", "1", "null", "laser ", "~laser", "a\nb", "x" * 120])
+def test_names_that_tools_stumble_over(name):
+    made = robot()
+    made.static("base_link", name)
+    assert found(made, "awkward-name").frames == (name,)
+
+
+def by_definition(one, other):
+    """The distance as it is defined: of the ways to begin, the best one."""
+    if not one or not other:
+        return len(one) + len(other)
+    ways = [
+        by_definition(one[1:], other) + 1,
+        by_definition(one, other[1:]) + 1,
+        by_definition(one[1:], other[1:]) + (one[0] != other[0]),
+    ]
+    if len(one) > 1 and one[0] == other[1:2] and one[1] == other[0]:
+        ways.append(by_definition(one[2:], other[2:]) + 1)
+    return min(ways)
+
+
+@given(st.text("ab_", max_size=6), st.text("ab_", max_size=6), st.integers(0, 3))
+def test_the_distance_of_two_names_is_that_of_its_definition_up_to_what_is_asked(one, other, most):
+    right = by_definition(one, other)
+
+    measured = distance(one, other, most)
+
+    assert measured == right if right <= most else measured > most
+    assert distance(f"robot/{one}_link", f"robot/{other}_link", 12) == right

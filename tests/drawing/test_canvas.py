@@ -1,0 +1,524 @@
+import math
+from itertools import pairwise
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from rich.cells import cell_len
+
+from tftool.drawing import paper, sprites, theme
+from tftool.drawing.canvas import Canvas
+from tftool.drawing.plane import (
+    Drawn,
+    PlaneFrame,
+    PlanePicture,
+    TurtleField,
+    Viewport,
+    fitted_view,
+    grid_step,
+)
+from tftool.geometry.motion.unicycle import CENTRE, FIELD
+from tftool.messages.turtle_values import Color
+
+PEN = Color(179, 184, 255)
+
+
+def words(lines):
+    return ["".join(segment.text for segment in line) for line in lines]
+
+
+def view(rows, size=FIELD, left=0.0, bottom=0.0):
+    return Viewport(left, bottom, size / rows)
+
+
+def draw(picture, rows=16, size=FIELD, **how):
+    return Canvas(2 * rows, rows, scaled=False, **how).lines(picture, view(rows, size))
+
+
+def turtle(name, x, y, theta=0.0, **how):
+    """A turtle without a frame, so that nothing but its sprite and name is drawn."""
+    ahead = ((math.cos(theta), math.sin(theta)),)
+    return PlaneFrame(name, x, y, ahead, is_turtle=True, is_frame=False, **how)
+
+
+def sheet(*turtles, strokes=(), **how):
+    """The turtles' field with a drawing on it."""
+    pen = Drawn(strokes, how.pop("forgotten", 0), how.pop("edition", 0))
+    field = TurtleField(**how)
+    return PlanePicture("world", turtles, field=field, pen=pen)
+
+
+def stroke(x0, y0, x1, y1, color=PEN, width=3):
+    return (x0, y0, x1, y1, color, width)
+
+
+def dotted(lines, color=PEN):
+    """The (column, row) of every cell with a piece of trail of that colour in it."""
+    named = theme.hexadecimal(color)
+    found = set()
+    for row, line in enumerate(lines):
+        column = 0
+        for segment in line:
+            ink = segment.style.color if segment.style else None
+            for sign in segment.text:
+                if "\u2801" <= sign <= "\u28ff" and ink is not None and ink.name == named:
+                    found.add((column, row))
+                column += cell_len(sign)
+    return found
+
+
+def style_at(lines, column, row):
+    for segment in lines[row]:
+        if column < segment.cell_length:
+            return segment.style
+        column -= segment.cell_length
+    raise AssertionError("beyond the line")
+
+
+@example(7, 2, [("\U000101fd0", 5.0, 0.0, 0.0), ("\u0301", 0.0, 0.0, 0.0)], [], False, True)
+@given(
+    st.integers(0, 50),
+    st.integers(0, 20),
+    st.lists(
+        st.tuples(st.text(max_size=12), *[st.floats(-3.0, 15.0)] * 2, st.floats()), max_size=4
+    ),
+    st.lists(st.tuples(*[st.floats()] * 4), max_size=4),
+    st.booleans(),
+    st.booleans(),
+)
+def test_whatever_there_is_every_line_is_exactly_as_wide_as_asked(
+    columns, rows, frames, trail, ascii_only, are_turtles
+):
+    frames = tuple(
+        PlaneFrame(
+            name,
+            x,
+            y,
+            ((math.cos(theta), math.sin(theta)), (-math.sin(theta), math.cos(theta)))
+            if math.isfinite(theta)
+            else ((1.0, 0.0), (0.0, 1.0)),
+            parent=(1.0, 2.0),
+            is_turtle=are_turtles,
+        )
+        for name, x, y, theta in frames
+    )
+    drawn = Drawn(tuple(stroke(*ends) for ends in trail))
+    field = TurtleField(walls=frozenset({"left", "top"}))
+    picture = PlanePicture("f", frames, field=field, pen=drawn, trails=drawn)
+
+    drawing = Canvas(columns, rows, ascii_only=ascii_only)
+    lines = drawing.lines(picture, fitted_view(picture.bounds(), drawing.columns, drawing.rows))
+
+    wide = columns if rows else 0
+    assert [sum(cell_len(segment.text) for segment in line) for line in lines] == [wide] * rows
+    if ascii_only:
+        assert all(text.isascii() for text in words(lines))
+
+
+def test_an_empty_field_is_turtlesims_blue():
+    lines = draw(sheet())
+
+    assert {segment.style.bgcolor.name for line in lines for segment in line} == {"#4556ff"}
+
+
+@pytest.mark.parametrize(
+    ("theta", "arrow"),
+    [(0, "→"), (45, "↗"), (90, "↑"), (135, "↖"), (180, "←"), (-135, "↙"), (-90, "↓"), (-45, "↘")],
+)
+def test_a_small_turtle_is_an_arrow_that_points_where_it_heads(theta, arrow):
+    text = words(draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.radians(theta)))))
+
+    assert text[8][16] == arrow
+
+
+@pytest.mark.parametrize(("theta", "letter"), [*zip(range(0, 360, 45), ">7^F<LvJ", strict=True)])
+def test_without_unicode_the_arrow_is_a_letter(theta, letter):
+    text = words(
+        draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.radians(theta))), ascii_only=True)
+    )
+
+    assert text[8][16] == letter
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.7, 1.6, 2.4, 3.1, -2.2, -1.5, -0.8])
+def test_a_big_turtle_is_drawn_with_its_head_where_it_heads(theta):
+    rows = 60
+    lines = draw(sheet(turtle("t1", CENTRE, CENTRE, theta)), rows)
+    head = theme.hexadecimal(theme.of_name("t1"))
+
+    cells = [
+        (column + 0.5 - rows, rows / 2 - row - 0.5)
+        for row in range(rows)
+        for column in range(2 * rows)
+        if (style := style_at(lines, column, row)).color
+        and style.color.name == head
+        and words([lines[row]])[0][column] in sprites._QUADRANTS.strip()
+    ]
+    x = sum(column / 2 for column, _ in cells) / len(cells)
+    y = sum(row for _, row in cells) / len(cells)
+
+    assert math.cos(math.atan2(y, x) - theta) > math.cos(0.25)
+
+
+def test_up_is_up_and_right_is_right():
+    picture = sheet(turtle("a", 1.0, 10.0), turtle("b", 10.0, 1.0))
+
+    text = words(draw(picture, ascii_only=True))
+
+    assert text[1].index(">") == 2
+    assert text[14].rindex(">") == 28
+
+
+def test_the_edges_of_the_field_are_inside():
+    corners = [(0.0, 0.0), (FIELD, 0.0), (0.0, FIELD), (FIELD, FIELD)]
+    picture = sheet(*(turtle(f"t{n}", x, y) for n, (x, y) in enumerate(corners)))
+
+    text = words(draw(picture, rows=10, ascii_only=True))
+
+    assert (text[0][0], text[0][-1], text[-1][0], text[-1][-1]) == (">", ">", ">", ">")
+
+
+def test_a_turtle_that_is_nowhere_is_left_out():
+    nowhere = turtle("a", math.nan, 1.0), turtle("b", 1e30, 1.0)
+
+    assert words(draw(sheet(*nowhere))) == words(draw(sheet()))
+
+
+def test_a_trail_is_continuous_however_the_pen_moved():
+    corners = [(1.0, 1.0), (10.0, 9.0), (10.0, 2.0), (2.0, 8.0)]
+    strokes = tuple(stroke(*a, *b) for a, b in pairwise(corners))
+
+    cells = dotted(draw(sheet(strokes=strokes)))
+
+    start = min(cells)
+    reached, waiting = {start}, [start]
+    while waiting:
+        column, row = waiting.pop()
+        for near in cells - reached:
+            if abs(near[0] - column) <= 1 and abs(near[1] - row) <= 1:
+                reached.add(near)
+                waiting.append(near)
+    assert reached == cells
+    assert len(cells) > 30
+
+
+def test_a_trail_has_the_colour_of_its_pen():
+    red = stroke(1.0, 1.0, 10.0, 1.0, Color(255, 0, 0))
+    green = stroke(1.0, 9.0, 10.0, 9.0, Color(0, 255, 0))
+
+    lines = draw(sheet(strokes=(red, green)))
+
+    assert {row for _, row in dotted(lines, Color(255, 0, 0))} == {14}
+    assert {row for _, row in dotted(lines, Color(0, 255, 0))} == {3}
+
+
+def test_a_wide_pen_draws_a_wide_trail():
+    thin = dotted(draw(sheet(strokes=(stroke(1, 5, 10, 5, width=3),)), rows=50))
+    wide = dotted(draw(sheet(strokes=(stroke(1, 5, 10, 5, width=40),)), rows=50))
+
+    assert len({row for _, row in wide}) >= 4
+    assert len({row for _, row in thin}) <= 2
+
+
+def test_what_lies_outside_of_the_field_is_cut_off():
+    through = stroke(-1e12, CENTRE, 1e12, CENTRE)
+    beside = stroke(-5.0, 20.0, -1.0, 30.0)
+
+    cells = dotted(draw(sheet(strokes=(through, beside, stroke(0.0, -2.0, 11.0, -2.0)))))
+
+    assert cells == {(column, 8) for column in range(32)}
+
+
+def test_a_trail_that_grew_looks_as_if_drawn_at_once():
+    strokes = tuple(stroke(n / 10, 2 + n / 20, (n + 1) / 10, 2 + (n + 1) / 20) for n in range(100))
+    grown = Canvas(32, 16, scaled=False)
+
+    for length in (0, 10, 11, 60, 100):
+        grown.lines(sheet(strokes=strokes[:length]), view(16))
+
+    assert grown.lines(sheet(strokes=strokes), view(16)) == draw(sheet(strokes=strokes))
+
+
+def test_a_trail_whose_beginning_was_forgotten_stays_drawn():
+    strokes = tuple(stroke(n, 5.0, n + 1, 5.0) for n in range(10))
+    kept = Canvas(32, 16, scaled=False)
+    kept.lines(sheet(strokes=strokes[:6]), view(16))
+
+    lines = kept.lines(sheet(strokes=strokes[4:], forgotten=4), view(16))
+
+    assert dotted(lines) == dotted(draw(sheet(strokes=strokes)))
+
+
+def test_a_wiped_trail_is_gone_and_an_earlier_one_comes_back():
+    first, second = stroke(1, 1, 9, 1), stroke(1, 9, 9, 9)
+    board = Canvas(32, 16, scaled=False)
+    board.lines(sheet(strokes=(first,)), view(16))
+
+    after = dotted(board.lines(sheet(strokes=(second,), edition=1), view(16)))
+    back = dotted(board.lines(sheet(strokes=(first,), edition=0), view(16)))
+
+    assert after == dotted(draw(sheet(strokes=(second,))))
+    assert back == dotted(draw(sheet(strokes=(first,))))
+
+
+def test_going_back_in_time_shortens_the_trail():
+    strokes = (stroke(1, 1, 9, 1), stroke(9, 1, 9, 9))
+    board = Canvas(32, 16, scaled=False)
+    board.lines(sheet(strokes=strokes), view(16))
+
+    assert dotted(board.lines(sheet(strokes=strokes[:1]), view(16))) == dotted(
+        draw(sheet(strokes=strokes[:1]))
+    )
+
+
+def test_another_background_is_painted_everywhere():
+    board = Canvas(8, 4, scaled=False)
+    board.lines(sheet(), view(4))
+
+    lines = board.lines(sheet(color=Color(1, 2, 3)), view(4))
+
+    assert {segment.style.bgcolor.name for line in lines for segment in line} == {"#010203"}
+
+
+def test_the_field_lies_in_the_picture_as_its_frame_does():
+    """Ten metres to the right, and turned by a quarter: its colour is there, and nowhere else."""
+    lines = Canvas(80, 20, scaled=False).lines(
+        sheet(x=10.0 + FIELD, theta=math.pi / 2, strokes=(stroke(1.0, 2.0, 9.0, 2.0),)),
+        Viewport(0.0, 0.0, FIELD / 20 * 2),
+    )
+
+    blue = {
+        (column, row)
+        for row in range(20)
+        for column in range(80)
+        if (ground := style_at(lines, column, row).bgcolor) and ground.name == "#4556ff"
+    }
+    # Two thirds of a metre to a column: 18 of 80 cells of 0.554 m are 10 m, 20 more the field.
+    assert blue == {(column, row) for row in range(10, 20) for column in range(18, 38)}
+    # What was drawn along its x axis, two metres from it, goes up, two metres from the right.
+    assert {column for column, _ in dotted(lines)} == {math.floor((8.0 + FIELD) / FIELD * 20)}
+
+
+def test_names_stand_beside_turtles_and_do_not_hide_each_other():
+    pair = turtle("turtle1", 5.0, 5.0), turtle("turtle2", 5.3, 5.0)
+
+    text = "\n".join(words(draw(sheet(*pair))))
+
+    assert text.count("turtle1") == text.count("turtle2") == 1
+
+
+def test_a_crowd_of_names_is_nudged_apart_and_none_is_dropped():
+    crowd = [frame(f"frame{n:02}", 5.0 + 0.01 * n, 5.0) for n in range(20)]
+
+    text = "\n".join(words(Canvas(80, 30).lines(PlanePicture("m", tuple(crowd)), view(29))))
+
+    assert [text.count(one.name) for one in crowd] == [1] * 20
+
+
+@pytest.mark.parametrize("how", [{}, {"mono": True}, {"ascii_only": True}])
+def test_of_two_turtles_at_one_place_the_first_is_whole_and_the_other_beside_it(how):
+    pair = turtle("turtle1", CENTRE, CENTRE, 0.0), turtle("turtle2", CENTRE, CENTRE, math.pi / 2)
+
+    lines = draw(sheet(*pair), **how)
+    text = words(lines)[8]
+
+    east, north = (">", "^") if "ascii_only" in how else ("→", "↑")
+    assert text[16] == east
+    beside = text.index(north)
+    assert abs(beside - 16) <= 2
+    assert style_at(lines, beside, 8).color.name == theme.hexadecimal(theme.of_name("turtle2"))
+
+
+def test_of_two_bodies_at_one_place_the_first_is_on_top():
+    def shells(*turtles):
+        lines = draw(sheet(*turtles), 60)
+        return [style_at(lines, column, 30) for column in range(56, 64)]
+
+    first, second = turtle("turtle1", CENTRE, CENTRE), turtle("turtle2", CENTRE, CENTRE, 1.5)
+
+    assert shells(first, second) == shells(first)
+
+
+def test_a_name_at_the_right_edge_stands_to_the_left():
+    text = words(draw(sheet(turtle("turtle1", 10.8, 5.0)), ascii_only=True))
+
+    line = next(one for one in text if "turtle1" in one)
+    assert line.index("turtle1") + 7 < 30
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "[bold]x[/]",
+        "\x1b[31mred\x1b[0m",
+        "a\nb\tc",
+        "x" * 500,
+        "שלום",
+        "🐢🐢",
+        "👩‍🚀",
+        "\u202eevil",
+    ],
+)
+def test_no_name_acts_or_breaks_a_line(name):
+    lines = draw(sheet(turtle(name, CENTRE, CENTRE), frame(name, 1.0, 1.0)))
+
+    text = "".join(words(lines))
+    assert all(sign.isprintable() for sign in text)
+    assert [sum(segment.cell_length for segment in line) for line in lines] == [32] * 16
+
+
+def test_a_long_name_is_cut_with_an_ellipsis():
+    text = "".join(words(draw(PlanePicture("m", (frame("long" * 99, CENTRE, CENTRE),)))))
+
+    assert "longlongl…" in text
+
+
+@pytest.mark.parametrize(
+    ("side", "cells"),
+    [
+        ("left", {(0, row) for row in range(4)}),
+        ("right", {(7, row) for row in range(4)}),
+        ("top", {(column, 0) for column in range(8)}),
+        ("bottom", {(column, 3) for column in range(8)}),
+    ],
+)
+def test_a_wall_that_was_hit_lights_up(side, cells):
+    lines = draw(sheet(walls=frozenset({side})), 4)
+
+    assert dotted(lines, theme.WALL) == cells
+
+
+def frame(name, x, y, theta=0.0, **how):
+    cosine, sine = math.cos(theta), math.sin(theta)
+    return PlaneFrame(name, x, y, ((cosine, sine), (-sine, cosine)), **how)
+
+
+def test_a_frame_is_a_point_with_its_name_a_red_axis_ahead_and_a_green_one_to_its_left():
+    colors = paper.paper(theme.DARK)
+
+    lines = draw(PlanePicture("m", (frame("carrot1", CENTRE, CENTRE, math.pi / 2),)))
+
+    assert words(lines)[8][16] == "●"
+    assert "carrot1" in "".join(words(lines))
+    # Turned to the left by a quarter, ahead is up, and its left is left.
+    red, green = dotted(lines, colors.x_axis), dotted(lines, colors.y_axis)
+    assert red
+    assert all(column == 16 and row < 8 for column, row in red)
+    assert green
+    assert all(column < 16 and row in (7, 8) for column, row in green)
+
+
+def test_an_axis_that_points_at_the_eye_is_not_drawn_and_the_third_is_blue():
+    colors = paper.paper(theme.DARK)
+    down = PlaneFrame("lens", CENTRE, CENTRE, ((0.0, 0.0), (0.0, 1.0), (1.0, 0.0)))
+
+    lines = draw(PlanePicture("m", (down,)))
+
+    assert not dotted(lines, colors.x_axis)
+    assert dotted(lines, colors.y_axis)
+    assert all(column > 16 for column, _ in dotted(lines, colors.z_axis))
+    assert dotted(lines, colors.z_axis)
+
+
+def test_a_line_leads_from_every_frame_to_its_parent():
+    child = frame("b", 9.0, 2.0, parent=(2.0, 2.0))
+
+    cells = dotted(
+        draw(PlanePicture("m", (frame("a", 2.0, 2.0), child))), paper.paper(theme.DARK).link
+    )
+
+    assert {row for _, row in cells} == {13}
+    assert min(column for column, _ in cells) < 12
+    assert max(column for column, _ in cells) > 22
+
+
+def test_a_trail_has_the_colour_of_its_frame_and_lies_where_it_was():
+    color = theme.of_name("drone")
+    picture = PlanePicture("m", trails=Drawn((stroke(1.0, 5.2, 10.0, 5.2, color, 0),)))
+
+    lines = draw(picture)
+
+    assert dotted(lines, theme.blend(color, theme.DARK.panel, 0.3)) == {
+        (column, 8) for column in range(2, 29)
+    }
+
+
+def test_a_frame_without_news_turns_amber_then_red_and_says_since_when():
+    def shown(age):
+        lines = draw(PlanePicture("m", (frame("carrot1", 3.0, 3.0, age=age),)), 30)
+        row = next(row for row, text in enumerate(words(lines)) if "carrot1" in text)
+        text = words(lines)[row]
+        return style_at(lines, text.index("carrot1"), row).color.name, text
+
+    assert shown(0.0)[0] == theme.hexadecimal(theme.of_name("carrot1"))
+    assert "ago" not in shown(4.9)[1]
+    assert shown(10.0)[0] == theme.hexadecimal(theme.DARK.warning)
+    assert "carrot1 10.0 s ago" in shown(10.0)[1]
+    assert shown(19.9)[0] == theme.hexadecimal(theme.DARK.error)
+    assert "carrot1 19.9 s ago" in shown(19.9)[1]
+
+
+def test_the_grid_says_its_metres():
+    drawing = Canvas(45, 21, ascii_only=True)
+
+    text = words(drawing.lines(PlanePicture("m"), Viewport(-2.0, -2.0, 0.5)))
+
+    assert text[-1].split() == ["m", "-2", "0", "2", "4", "6", "8"]
+    assert [line[:4].strip() for line in text[:-1] if line[:4].strip()] == [
+        "8", "6", "4", "2", "0", "-2"
+    ]  # fmt: skip
+    # Where 0 stands at both sides, two lines cross.
+    assert text[16][:5].split() == ["0"] or text[15][:5].split() == ["0"]
+
+
+@pytest.mark.parametrize(
+    ("per_row", "step"), [(0.29, 1.0), (0.3, 2.0), (1.0, 5.0), (2.0, 10.0), (0.01, 0.05)]
+)
+def test_grid_lines_lie_a_few_rows_apart_at_round_numbers(per_row, step):
+    assert grid_step(per_row) == pytest.approx(step)
+
+
+def test_all_of_a_picture_is_seen_in_a_view_of_any_shape():
+    picture = PlanePicture("m", (frame("a", -3.0, 1.0), frame("b", 40.0, 1.5)))
+
+    for columns, rows in ((80, 24), (20, 60), (7, 2)):
+        left, bottom, per_row = fitted_view(picture.bounds(), columns, rows)
+        for one in picture.frames:
+            assert left < one.x < left + 0.5 * per_row * columns
+            assert bottom < one.y < bottom + per_row * rows
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3, 5])
+def test_a_tiny_field_still_shows_its_turtle(rows):
+    shown = draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.pi / 2)), rows)
+
+    assert "↑" in "".join(words(shown))
+
+
+def test_without_colour_a_big_turtle_is_an_arrow():
+    lines = draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.pi)), 60, mono=True)
+
+    assert "▐←▌" in "".join(words(lines))
+
+
+def letters(lines, row):
+    """The colour of every letter of a row, and whether it stands on the field."""
+    found = []
+    for segment in lines[row]:
+        style = segment.style
+        on_field = style is not None and style.bgcolor is not None
+        found += [(style.color.name, on_field) for sign in segment.text if sign.isalpha()]
+    return found
+
+
+def test_a_name_across_the_edge_of_the_field_is_read_on_both_grounds():
+    def named(x):
+        frame = PlaneFrame("a_long_name", x, CENTRE, ())
+        drawn = draw(sheet(frame), rows=40, size=2 * FIELD, palette=theme.LIGHT)
+        return max((letters(drawn, row) for row in range(40)), key=len)
+
+    (on_field,), (beside,) = set(named(1.0)), set(named(1.3 * FIELD))
+    assert on_field[1]
+    assert not beside[1]
+    assert on_field[0] != beside[0]
+    assert set(named(FIELD - 2.5)) == {on_field, beside}

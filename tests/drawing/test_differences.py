@@ -1,0 +1,23 @@
+"""Differences as lines, in as many cells as a terminal has."""
+
+import pytest
+from rich.cells import cell_len
+
+import tftool
+from tests.frames.test_compare import frames
+from tftool import Transform
+from tftool.drawing.difference_view import lines
+
+
+@pytest.mark.parametrize("width", [40, 50, 60])
+def test_what_has_no_room_stands_below_its_link(width):
+    moved = Transform((0.1, 0.2, 0.3125))
+    found = tftool.diff(frames(), frames(off=0.02, laser=moved))
+    wide = lines(found)
+
+    told = lines(found, width)
+
+    assert lines(found, 200) == wide
+    assert max(map(cell_len, wide.splitlines())) > width >= max(map(cell_len, told.splitlines()))
+    # The same words in the same order: each link, then what is to say of it.
+    assert told.split() == wide.split()

@@ -1,0 +1,180 @@
+"""A diagnosis as text, for programs, for an issue, for a build server."""
+
+import io
+import json
+from xml.etree import ElementTree
+
+import pytest
+from rich.console import Console
+
+from tests.doctor.robots import NO_TURN, Robot, robot
+from tftool.doctor.catalogue import CHECKS
+from tftool.doctor.findings import Severity
+from tftool.drawing import finding_view as findings
+
+
+def jumping() -> Robot:
+    made = robot(odometry=False)
+    made.moving(
+        "odom", "base_link", pose=lambda t: (0.5 * t + (2.5 if t > 5 else 0.0), 0, 0, *NO_TURN)
+    )
+    made.static("camera_link", "camera_optical", (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5))
+    made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
+    return made
+
+
+def shown(what) -> str:
+    console = Console(file=io.StringIO(), width=300, color_system=None)
+    console.print(what)
+    return "\n".join(line.rstrip() for line in console.file.getvalue().split("\n"))
+
+
+def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
+    # 400 transforms of odometry and two statics; base_link, laser, odom and the camera's two.
+    assert shown(findings.render(jumping().judged())).splitlines() == [
+        "made up: columns, 8.0 s, 2 topics, 5 frames, 2 trees, 402 transforms",
+        "",
+        "error  split-tree: camera_link is not joined to the tree of odom",
+        "       tree 2: camera_link, camera_optical; used by /image (80 messages)",
+        "       so:  nothing in it can be placed in odom, and nothing of odom in it",
+        "       fix: probably camera_link belongs on base_link; put in the measured mount:",
+        "            ros2 run tf2_ros static_transform_publisher --x X --y Y --z Z --yaw A "
+        "--frame-id base_link --child-frame-id camera_link",
+        "",
+        "note  latched-overwrite: statics are spread over 2 messages",
+        "       the last lacks laser",
+        "       so:  a player that publishes them from one node keeps only the last for late "
+        "listeners",
+        "       fix: start listeners before playing",
+        "            or bring them into one message:",
+        "            tftool edit RECORDING -o WHOLE --statics-first",
+        "",
+        "warning  teleport: base_link in odom jumps 2.51 m within 20 ms",
+        "       base_link in odom: 2.51 m and 0° at 1750000005.020, once; usual 0.5 m/s",
+        "       so:  what is placed before and after does not fit; REP-105 wants this transform "
+        "continuous",
+        "       fix: look at the source at that moment: encoder overflow, a reset of the filter, "
+        "wheel slip",
+        "",
+        "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /image)"
+        " · robot description: skipped, no URDF given",
+        "1 error, 1 warning, 1 note. `tftool doctor --explain split-tree` tells more; "
+        "`--markdown` prints this for an issue.",
+    ]
+
+
+def test_a_clean_report_counts_the_checks():
+    diagnosis = robot().judged()
+    last = shown(findings.render(diagnosis)).splitlines()[-1]
+    assert last == f"nothing found; {diagnosis.ran} checks ran, 6 skipped (--verbose says why)"
+    assert "skipped: static-not-latched: what publishers offer" in shown(
+        findings.render(diagnosis, verbose=True)
+    )
+
+
+def test_a_consequence_is_one_line_below_its_cause():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=5.0)
+    brief = shown(findings.render(made.judged()))
+    assert "       with it: sensor-outruns-tf\n" in brief
+    assert "because of" not in brief
+    assert "because of edge-stopped" in shown(findings.render(made.judged(), verbose=True))
+
+
+def test_programs_get_names_as_they_are_and_whole_nanoseconds():
+    made = jumping()
+    made.static("base_link", "\x1b[31mred")
+    text = json.dumps(findings.as_object(made.judged()), allow_nan=False)
+    read = json.loads(text)
+    assert read["schema"] == "tftool.doctor/1"
+    assert read["read"]["transforms"] == 403
+    assert read["summary"]["error"] == 1
+    split = next(one for one in read["findings"] if one["id"] == "split-tree")
+    assert split["facts"]["join"] == {
+        "parent": "base_link", "child": "camera_link", "guess": True,
+    }  # fmt: skip
+    assert split["fixes"][0]["command"].startswith("ros2 run tf2_ros")
+    assert (
+        "\x1b[31mred"
+        in next(one for one in read["findings"] if one["id"] == "awkward-name")["frames"]
+    )
+
+
+@pytest.mark.parametrize("name", ["\x1b[2J", "[red]x[/red]", "a\nb", "‮abc"])
+def test_no_name_acts_on_a_terminal(name):
+    made = robot(scans=False)
+    made.hears("/scan", name)
+    text = shown(findings.render(made.judged(), verbose=True))
+    assert "\x1b" not in text
+    assert "‮" not in text
+    assert "a\nb" not in text
+    if name.startswith("["):
+        assert name in text
+
+
+def test_no_name_acts_in_an_issue():
+    made = robot(scans=False)
+    made.hears("/scan", "`|<img src=x>\n```\n# x")
+    text = findings.as_markdown(made.judged())
+    rows = [line for line in text.splitlines() if line.startswith("| error")]
+    assert len(rows) == 1
+    # Unescaped bars of the row are those of its cells: the four that frame three of them.
+    assert rows[0].count("|") == 4
+    assert "\n# x" not in text
+    assert "````text" in text
+    assert text.splitlines()[0].startswith("**tftool doctor** `made up: ")
+
+
+def test_a_build_server_gets_a_failure_for_each_finding_that_counts():
+    rows = [("a.mcap", jumping().judged()), ("b.mcap", "'b.mcap' is an empty file.")]
+    root = ElementTree.fromstring(findings.as_junit(rows, Severity.WARNING))
+    assert root.get("name") == "tftool doctor"
+    assert (root.get("tests"), root.get("failures"), root.get("errors")) == ("4", "2", "1")
+    lenient = ElementTree.fromstring(findings.as_junit(rows, Severity.ERROR))
+    assert lenient.get("failures") == "1"
+    assert ElementTree.fromstring(findings.as_junit(rows, None)).get("failures") == "0"
+
+
+def test_several_sources_are_compared_in_a_table():
+    text = shown(
+        findings.compared(
+            [("a", jumping().judged()), ("b", robot().judged()), ("c", "it is empty")]
+        )
+    )
+    lines = [line.split() for line in text.splitlines()[2:]]
+    assert lines[0] == ["a", "1", "1", "1", "split-tree,", "teleport"]
+    assert lines[1] == ["b", "fine"]
+    assert lines[2] == ["c", "unreadable:", "it", "is", "empty"]
+
+
+def test_statistics_tell_rates_latencies_and_gaps():
+    lines = shown(findings.statistics(robot().judged().model)).splitlines()
+    moving, scans = " ".join(lines[2].split()), " ".join(lines[4].split())
+    assert moving == "base_link in odom moving 400 50 Hz 5 ms 5 ms 20 ms"
+    assert scans == "/scan in laser topic 80 10 Hz 15 ms 15 ms 100 ms"
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+def test_each_check_can_be_explained_without_a_finding(check):
+    text = findings.explained(check)
+    assert text.startswith(f"{check.id}: {check.summary}\n")
+    assert "{" not in text.replace("{ignore", "")
+    for name, value in check.limits.items():
+        assert f"{name} = {value:g}" in text
+    for link in check.links:
+        assert link in text
+
+
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+def test_on_a_terminal_an_explanation_is_broken_between_words(check):
+    text = findings.explained(check, 60)
+
+    assert text.split() == findings.explained(check).split()
+    for line in text.splitlines():
+        # What is longer alone is an address or a command.
+        assert len(line) <= 60 or len(line.split()) <= 2
+
+
+def test_all_checks_are_listed():
+    text = shown(findings.listing())
+    assert [name for name in CHECKS if f"\n{name} " not in text] == []

@@ -1,0 +1,38 @@
+import pytest
+
+from tftool.base.stamps import seconds
+from tftool.drawing.playback_line import Playback, line
+
+HALF = Playback(seconds(10), seconds(20), 1.5)
+
+
+def test_the_line_of_a_wide_terminal_tells_all():
+    assert line(HALF, 100) == (
+        "▶ 10.00 / 20.00 s  ×1.5  ━━━━───── "
+        " space pause  → next  [ ] 1 s  { } 10 s  ↑↓ rate  0 start  q quit"
+    )
+
+
+@pytest.mark.parametrize("ascii_only", [False, True])
+def test_the_line_fits_into_every_terminal(ascii_only):
+    playback = Playback(seconds(3), seconds(20), 0.5, True, 3)
+    for width in range(130):
+        told = line(playback, width, ascii_only=ascii_only)
+
+        assert len(told) <= width
+        assert told.isascii() or not ascii_only
+
+
+def test_a_narrow_terminal_keeps_the_time_and_how_to_quit():
+    assert line(HALF, 44) == "▶ 10.00 / 20.00 s  ×1.5  ━━━━━━─────  q quit"
+
+
+def test_paused_in_ascii():
+    paused = Playback(seconds(0), seconds(20), 1.0, True, 1)
+    assert line(paused, 60, ascii_only=True, with_keys=False) == (
+        "||  0.00 / 20.00 s  x1  lap 2  " + "." * 27
+    )
+
+
+def test_a_recording_of_one_moment_is_played_whole():
+    assert "━" * 8 in line(Playback(0, 0), 60, with_keys=False)

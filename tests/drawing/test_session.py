@@ -1,0 +1,84 @@
+"""Who shares a session, in aligned columns."""
+
+import pytest
+from rich.cells import cell_len
+
+from tftool.drawing import session_view as session
+
+FOUND = {
+    "domain": 0,
+    "processes": [
+        {
+            "command": "demo",
+            "pid": 12,
+            "role": "host",
+            "since": 0.0,
+            "nodes": ["turtlesim", "broadcaster1", "a\x1b[2J"],
+        },
+        {"command": "teleop", "pid": 4567, "role": "guest", "since": 60.0, "nodes": []},
+    ],
+    "nodes": ["turtlesim", "broadcaster1", "a\x1b[2J", "stranger"],
+    "topics": {
+        "tf": {
+            "type": "tf2_msgs/msg/TFMessage",
+            "publishers": ["broadcaster1", "broadcaster1"],
+            "subscribers": ["echo"],
+            "rate": 125.0,
+        },
+        "turtle1/cmd_vel": {
+            "type": "geometry_msgs/msg/Twist",
+            "publishers": [],
+            "subscribers": ["turtlesim"],
+            "rate": 0.0,
+        },
+    },
+    "services": {
+        "spawn": {"type": "turtlesim/srv/Spawn", "node": "turtlesim"},
+        "turtle1/set_pen": {"type": "turtlesim/srv/SetPen", "node": "turtlesim"},
+        "turtlesim/get_parameters": {"type": "rcl_interfaces/srv/GetParameters", "node": "t"},
+    },
+}
+
+
+def lines(**options):
+    return [line.plain for line in session.lines(FOUND, **options)]
+
+
+def test_everything_of_a_kind_stands_in_columns():
+    told = lines()
+
+    assert told[0] == "Processes (2)"
+    assert told[1].startswith("  tftool demo    process 12    hosts   since ")
+    assert told[1].endswith("  a␛[2J, broadcaster1, turtlesim")
+    assert told[2].startswith("  tftool teleop  process 4567  joined  since ")
+    assert told[2].endswith("  no nodes")
+    assert told[3:] == [
+        "Other nodes (1)",
+        "  stranger",
+        "Topics (2)",
+        "  tf               125.0 Hz  tf2_msgs/msg/TFMessage   from broadcaster1, to echo",
+        "  turtle1/cmd_vel    0.0 Hz  geometry_msgs/msg/Twist  from none, to turtlesim",
+        "Services (3)",
+        "  spawn            turtlesim/srv/Spawn",
+        "  turtle1/set_pen  turtlesim/srv/SetPen",
+        "  and 1 of parameters and actions (--verbose lists them)",
+    ]
+
+
+@pytest.mark.parametrize("width", [40, 60, 80, 132])
+def test_on_a_terminal_lists_go_on_below_and_no_word_is_broken(width):
+    told = lines(width=width, verbose=True)
+
+    assert max(map(cell_len, told)) <= width
+    place = next(n for n, line in enumerate(told) if line.startswith("  tf "))
+    assert told[place + 1] == "    from broadcaster1, to echo"
+    words = " ".join(told).replace(",", " ").split()
+    assert {"turtlesim", "broadcaster1", "turtle1/cmd_vel", "tf", "joined"} <= set(words)
+
+
+def test_nobody_there_is_nothing_listed():
+    empty = {"processes": [], "nodes": [], "topics": {}, "services": {}}
+
+    assert [line.plain for line in session.lines(empty)] == [
+        "Processes (0)", "Topics (0)", "Services (0)",
+    ]  # fmt: skip

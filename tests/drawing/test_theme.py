@@ -1,0 +1,26 @@
+import pytest
+
+from tftool.drawing import theme
+from tftool.messages.turtle_values import BACKGROUND
+
+
+def test_a_name_has_one_colour_and_neighbours_differ():
+    assert theme.of_name("carrot1") == theme.of_name("carrot1")
+    assert len({theme.of_name(f"turtle{n}") for n in range(1, 9)}) == 8
+
+
+@pytest.mark.parametrize("name", ["", "7", "\ud800", "turtle²", "x" * 500, "a" + "9" * 400])
+def test_any_name_has_a_colour(name):
+    assert theme.of_name(name) in theme._PALETTE
+
+
+def test_a_colour_is_written_in_hexadecimal():
+    assert theme.hexadecimal(BACKGROUND) == "#4556ff"
+
+
+@pytest.mark.parametrize(
+    ("environment", "light"),
+    [({}, False), ({"COLORFGBG": "0;15"}, True), ({"COLORFGBG": "15;default;0"}, False)],
+)
+def test_a_terminal_may_say_that_its_ground_is_light(environment, light):
+    assert theme.prefers_light(environment) is light

@@ -1,0 +1,116 @@
+"""What is refused when a recording is written anew, and what an end before the end leaves."""
+
+import os
+import signal
+
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+pytest.importorskip("mcap", reason="writes the test files")
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
+
+from tests.recordings.edit.outcomes import NEW_POSE, SENT, messages
+from tests.recordings.writers import CONTAINERS, write_mcap
+from tftool.base.errors import InputError, UsageError
+from tftool.recordings.edit.changes import Edits
+from tftool.recordings.edit.rewrite import edit
+
+
+def test_the_input_and_what_is_there_are_never_written_to(tmp_path, mcap):
+    link, other = tmp_path / "link.mcap", tmp_path / "other.mcap"
+    os.link(mcap, link)
+    other.write_bytes(b"precious")
+    before = mcap.read_bytes()
+
+    for output in (mcap, link):
+        with pytest.raises(UsageError, match="is the input"):
+            edit([str(mcap)], output, Edits(), force=True)
+    with pytest.raises(UsageError, match="exists"):
+        edit([str(mcap)], other, Edits())
+
+    assert mcap.read_bytes() == before
+    assert other.read_bytes() == b"precious"
+    edit([str(mcap)], other, Edits(), force=True)
+    assert messages(other) == messages(mcap)
+
+
+def test_a_folder_is_replaced_only_if_it_holds_nothing_but_a_recording(tmp_path, mcap):
+    out, mine = tmp_path / "out", tmp_path / "out.old"
+    mine.write_bytes(b"precious")
+    edit([str(mcap)], out, Edits(drop=(("*", "arm"),)))
+
+    edit([str(mcap)], out, Edits(), force=True)
+
+    assert messages(out) == messages(mcap)
+    assert sorted(os.listdir(tmp_path)) == ["a.mcap", "out", "out.old"]
+    (out / "notes.txt").write_bytes(b"precious")
+    with pytest.raises(UsageError, match="more than a recording"):
+        edit([str(mcap)], out, Edits(), force=True)
+    assert (out / "notes.txt").read_bytes() == mine.read_bytes() == b"precious"
+
+
+@pytest.mark.parametrize(
+    ("edits", "told"),
+    [
+        (Edits(drop=(("base_link", "lasr"),)), r"; did you mean base_link:laser.*\?$"),
+        (Edits(poses={("map", "laser"): NEW_POSE}), r"hangs from 'base_link': base_link:laser\.$"),
+        (Edits(rename={"lasr": "x"}), "No frame 'lasr'"),
+        (Edits(rename={"laser": "camera"}), "Two frames would be called 'camera'"),
+        (Edits(reparent={("base_link", "laser"): "moon"}), "No frame 'moon'"),
+        (Edits(start=5, end=3), "--to lies before --from"),
+    ],
+)
+def test_what_is_not_in_the_recording_is_refused_with_what_is(tmp_path, mcap, edits, told):
+    with pytest.raises(UsageError, match=told):
+        edit([str(mcap)], tmp_path / "out.mcap", edits)
+
+    assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
+
+
+def test_of_a_recording_without_transforms_it_is_said_that_there_are_none(tmp_path):
+    plain = write_mcap(tmp_path / "a.mcap", [one for one in SENT if "/tf" not in one.topic])
+
+    for edits in (Edits(rename={"laser": "x"}), Edits(drop=(("a", "b"),))):
+        with pytest.raises(UsageError, match=r"was recorded; there are no transforms in it\.$"):
+            edit([str(plain)], tmp_path / "out.mcap", edits)
+
+
+@pytest.mark.parametrize("name", ["mcap none", "db3", "ros 1 none"])
+def test_an_interrupt_leaves_nothing_behind(tmp_path, name):
+    path = CONTAINERS[name](tmp_path, SENT)
+    before = sorted(os.listdir(tmp_path))
+
+    def interrupt(_done, _total):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        edit([str(path)], tmp_path / f"out{path.suffix}", Edits(), progress=interrupt)
+
+    assert sorted(os.listdir(tmp_path)) == before
+
+
+def test_a_full_disk_is_said_and_leaves_nothing_behind(tmp_path, mcap):
+    import resource
+
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, limits[1]))
+    try:
+        with pytest.raises(InputError, match="cannot be written"):
+            edit([str(mcap)], tmp_path / "out.mcap", Edits())
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, ignored)
+
+    assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
+
+
+def test_a_dry_run_says_the_same_and_writes_nothing(tmp_path, mcap):
+    edits = Edits(drop=(("*", "arm"),), rename={"odom": "odometry"})
+
+    tried = edit([str(mcap)], tmp_path / "b.mcap", edits, dry_run=True)
+
+    assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
+    done = edit([str(mcap)], tmp_path / "b.mcap", edits)
+    assert (tried.counts, tried.messages, tried.notes) == (done.counts, done.messages, done.notes)

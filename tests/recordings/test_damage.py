@@ -1,0 +1,332 @@
+"""Whatever is cut off or changed in a file: an answer or a sentence, never anything else."""
+
+import bz2
+import errno
+import random
+import sys
+import tracemalloc
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+pytest.importorskip("mcap", reason="writes the test files")
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
+
+import lz4.frame
+import zstandard
+
+from tests.recordings.writers import (
+    CONTAINERS,
+    content,
+    write_mcap,
+    write_rosbag1,
+    write_rosbag2,
+    write_split,
+)
+from tftool import InputError, UsageError, open_recording
+from tftool.recordings import decompression as compressed
+from tftool.recordings.compression import compressor
+from tftool.recordings.edit.changes import Edits
+from tftool.recordings.edit.rewrite import edit
+from tftool.recordings.mcap import format as mcap_records
+from tftool.recordings.rosbag1 import format as rosbag1_records
+from tftool.recordings.rosbag2 import folder as rosbag2
+
+SENT = content()
+SINGLE = [name for name in CONTAINERS if "split" not in name]
+
+
+def file_of(path):
+    """The one file with the messages."""
+    if path.is_file():
+        return path
+    return next(one for one in path.iterdir() if one.name != "metadata.yaml")
+
+
+def asked(path):
+    """Ask a recording everything; how many transforms it has, None if it is refused."""
+    try:
+        with open_recording(path) as recording:
+            assert recording.buffer.frames() is not None
+            assert recording.topics is not None
+            recording.source.headers()
+            recording.source.clock()
+            for _ in recording.source.messages([topic.name for topic in recording.topics]):
+                pass
+            return len(recording.transforms)
+    except InputError:
+        return None
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_a_cut_file_gives_what_stands_before_the_cut_or_is_refused(tmp_path, name):
+    path = CONTAINERS[name](tmp_path, SENT)
+    file = file_of(path)
+    raw = file.read_bytes()
+    whole = asked(path)
+    draw = random.Random(name)
+
+    for _ in range(20):
+        file.write_bytes(raw[: draw.randrange(len(raw))])
+
+        found = asked(path)
+
+        assert found is None or found <= whole
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_a_file_with_flipped_bits_is_answered_or_refused(tmp_path, name):
+    path = CONTAINERS[name](tmp_path, SENT)
+    file = file_of(path)
+    raw = file.read_bytes()
+    draw = random.Random(name)
+
+    for flips in [1] * 10 + [10] * 5 + [1000] * 5:
+        changed = bytearray(raw)
+        for _ in range(flips):
+            changed[draw.randrange(len(raw))] ^= 1 << draw.randrange(8)
+        file.write_bytes(changed)
+
+        found = asked(path)
+
+        assert found is None or found >= 0
+
+
+@pytest.mark.parametrize("share", [0.4, 0.7, 0.99])
+@pytest.mark.parametrize(
+    "write",
+    [lambda p: write_mcap(p / "a.mcap", SENT), lambda p: write_rosbag1(p / "a.bag", SENT)],
+)
+def test_what_was_read_of_a_cut_file_is_a_part_of_the_whole(tmp_path, write, share):
+    path = write(tmp_path)
+    with open_recording(path) as recording:
+        whole = {edge.child: edge.records.tolist() for edge in recording.edges}
+    path.write_bytes(path.read_bytes()[: int(path.stat().st_size * share)])
+
+    with open_recording(path) as recording:
+        found = {edge.child: edge.records.tolist() for edge in recording.edges}
+        damage = "\n".join(recording.damage)
+
+    assert found
+    assert "breaks off at byte" in damage or "was not closed" in damage
+    for child, records in found.items():
+        assert records == whole[child][: len(records)]
+
+
+def test_a_bag_that_was_not_closed_is_read_whole(tmp_path):
+    path = write_rosbag1(tmp_path / "a.bag", SENT)
+    with open_recording(path) as recording:
+        count = len(recording.transforms)
+    raw = bytearray(path.read_bytes())
+    place = raw.index(b"index_pos=") + len(b"index_pos=")
+    raw[place : place + 8] = bytes(8)
+    path = path.with_suffix(".bag.active")
+    path.write_bytes(raw)
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) == count
+        assert recording.damage == ("The recording was not closed.",)
+
+
+@pytest.fixture
+def locked(monkeypatch):
+    """Names of files that the system refuses to open; root may open every other."""
+    names, opens = set(), Path.open
+
+    def refusing(path, *words, **more):
+        if path.name in names:
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return opens(path, *words, **more)
+
+    monkeypatch.setattr(Path, "open", refusing)
+    return names
+
+
+@pytest.mark.parametrize("word", ["", "/*.mcap"])
+def test_a_file_that_may_not_be_read_is_left_out_of_many(tmp_path, locked, word):
+    folder = tmp_path / "runs"
+    folder.mkdir()
+    middle = len(SENT) // 2
+    for name, sent in (("a", SENT[:middle]), ("b", SENT[middle:]), ("locked", SENT)):
+        write_mcap(folder / f"{name}.mcap", sent)
+    locked.add("locked.mcap")
+
+    with open_recording(f"{folder}{word}") as recording:
+        count = len(recording.transforms)
+        assert recording.damage == (
+            f"locked.mcap is left out: '{folder / 'locked.mcap'}' may not be read: "
+            "permission denied.",
+        )
+    report = edit([f"{folder}{word}"], tmp_path / "out.mcap", Edits())
+    assert count > 100
+    assert report.messages == len(SENT)
+    assert "locked.mcap is left out" in report.notes[0]
+
+    locked |= {"a.mcap", "b.mcap"}
+    with pytest.raises(InputError, match=r"a\.mcap' may not be read: permission denied\.$"):
+        open_recording(f"{folder}{word}")
+
+
+def test_a_part_that_may_not_be_read_or_is_none_is_left_out_of_a_split_recording(tmp_path, locked):
+    path = write_split(tmp_path / "run", SENT, 4)
+    locked.add("run_1.mcap")
+    (path / "run_2.mcap").write_bytes(b"")
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 50
+        damage = recording.damage
+    assert damage[0].startswith("run_1.mcap is left out: ")
+    assert damage[0].endswith("may not be read: permission denied.")
+    assert damage[1].startswith("run_2.mcap is left out: ")
+    assert damage[1].endswith("is an empty file (0 bytes): nothing was recorded.")
+    assert len(damage) == 2
+    (path / "metadata.yaml").unlink()
+    with open_recording(path) as recording:
+        assert any("permission denied" in text for text in recording.damage)
+
+
+def test_too_many_open_files_are_no_damage_of_one(tmp_path, monkeypatch):
+    path = write_split(tmp_path / "run", SENT, 3)
+
+    def none_left(*_):
+        raise OSError(errno.EMFILE, "Too many open files")
+
+    monkeypatch.setattr(rosbag2, "Mcap", none_left)
+
+    with pytest.raises(InputError, match="Too many open files"):
+        open_recording(path)
+
+
+def test_metadata_that_lies_is_told_and_not_believed(tmp_path):
+    path = write_rosbag2(tmp_path / "a", SENT)
+    (path / "a.db3").rename(path / "renamed.db3")
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+        assert "names 'a.db3', which is not there" in recording.damage[0]
+        assert "Read instead: 'renamed.db3'" in recording.damage[1]
+    (path / "metadata.yaml").write_text("}{")
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+        assert "cannot be read" in recording.damage[0]
+    (path / "metadata.yaml").unlink()
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+
+
+@pytest.mark.parametrize("name", ["ros 1 lz4", "ros 1 bz2", "mcap zstd", "mcap lz4"])
+def test_a_chunk_that_cannot_be_unpacked_is_told_once(tmp_path, name):
+    path = CONTAINERS[name](tmp_path, SENT)
+    raw = bytearray(path.read_bytes())
+    magic = {"bz2": b"BZh", "lz4": b"\x04\x22\x4d\x18", "zstd": b"\x28\xb5\x2f\xfd"}
+    place = raw.index(magic[name.split()[-1]])
+    raw[place : place + 40] = bytes(40)
+    path.write_bytes(raw)
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+        (damage,) = recording.damage
+
+    assert damage.startswith("A chunk at byte ")
+
+
+@pytest.mark.parametrize("is_chunked", [True, False])
+def test_a_message_that_is_shorter_than_its_head_is_told(tmp_path, is_chunked):
+    path = CONTAINERS["mcap none" if is_chunked else "mcap unchunked"](tmp_path, SENT)
+    raw = path.read_bytes()
+    # The head of a message in the middle, by its channel and sequence, of which its body follows.
+    place = raw.index(b"\x00\x01\x00\x00", len(raw) // 3) - 31
+    assert raw[place] == 0x05
+    changed = bytearray(raw)
+    changed[place + 1 : place + 9] = (7).to_bytes(8, "little")
+    # Without the summary it is walked through.
+    path.write_bytes(changed[:-37])
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 30
+        # In a chunk its index is found wrong first.
+        told = "its message index points" if is_chunked else "announces 7 bytes"
+        assert any(told in one for one in recording.damage)
+
+
+@pytest.mark.parametrize("size", [2**62, 2**30 + 1, 10**8])
+def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
+    path = write_mcap(tmp_path / "a.mcap", SENT, use_statistics=False)
+    raw = bytearray(path.read_bytes())
+    place = 8
+    while raw[place] != 0x06:
+        place += 9 + int.from_bytes(raw[place + 1 : place + 9], "little")
+    raw[place + 25 : place + 33] = size.to_bytes(8, "little")
+    # Without the summary the chunk's own head counts.
+    path.write_bytes(raw[:-37])
+
+    with open_recording(path) as recording:
+        recording.buffer.frames()
+
+        assert any("are announced" in one or "announce" in one for one in recording.damage)
+
+
+def test_what_a_damaged_piece_takes_that_is_not_installed_is_told(monkeypatch):
+    packed = zstandard.ZstdCompressor().compress(b"text" * 100)
+    monkeypatch.setitem(sys.modules, "zstandard", None)
+
+    with pytest.raises(UsageError, match="needs an extra"):
+        compressed.unpack_beginning("zstd", packed[:-5], 400)
+
+
+def test_of_a_damaged_piece_that_unpacks_to_much_only_a_part_is_held(monkeypatch):
+    monkeypatch.setattr(compressed, "LARGEST_DAMAGED", 10_000)
+    packed = zstandard.ZstdCompressor().compress(random.Random(1).randbytes(500) * 100)
+
+    found = compressed.unpack_beginning("zstd", packed, 60_000)
+
+    assert found == (random.Random(1).randbytes(500) * 100)[:10_000]
+
+
+def test_of_a_piece_with_a_wrong_checksum_all_is_read():
+    text = random.Random(2).randbytes(300) * 200
+    packed = lz4.frame.compress(
+        text, block_size=lz4.frame.BLOCKSIZE_MAX4MB, content_checksum=True, store_size=False
+    )
+
+    found = compressed.unpack_beginning("lz4", packed[:-1] + bytes([packed[-1] ^ 1]), len(text))
+
+    assert found == text
+
+
+@pytest.mark.parametrize("method", ["lz4", "zstd"])
+def test_of_a_damaged_piece_what_stands_before_the_damage_is_read(method):
+    text = random.Random(3).randbytes(90_000)
+    packed = bytearray(compressor(method)(text))
+    packed[len(packed) // 2] ^= 0xFF
+
+    found = compressed.unpack_beginning(method, bytes(packed), len(text))
+
+    assert found[:20_000] == text[:20_000]
+    assert compressed.unpack_beginning(method, b"nothing of the kind", 100) == b""
+
+
+@pytest.mark.parametrize(
+    "pack", [bz2.compress, lz4.frame.compress, zstandard.ZstdCompressor().compress]
+)
+def test_of_a_piece_that_becomes_much_more_than_it_says_no_more_is_made(pack):
+    method = {bz2.compress: "bz2", lz4.frame.compress: "lz4"}.get(pack, "zstd")
+    packed = pack(bytes(100_000_000))
+    tracemalloc.start()
+
+    found = compressed.unpack_beginning(method, packed, 10_000)
+
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert found == bytes(10_000)
+    assert most < 2_000_000
+
+
+@pytest.mark.parametrize(
+    ("records_in", "told"),
+    [(mcap_records.records_in, "code 0"), (rosbag1_records.records_in, "header of 0 bytes")],
+)
+def test_what_is_no_record_ends_a_chunk(records_in, told):
+    with pytest.raises(InputError, match=told):
+        list(records_in(bytes(100)))

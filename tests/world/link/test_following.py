@@ -1,0 +1,92 @@
+"""`/clock` of another process is now, while it is published."""
+
+import contextlib
+
+import pytest
+
+from tests.world.link.conftest import until
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.messages.classes import INTERFACES
+from tftool.world.clock import FollowedClock, WallClock, run
+from tftool.world.endpoints import Quality
+from tftool.world.link.clock_follower import ClockFollower, is_clock_shown
+from tftool.world.link.graph import Role
+from tftool.world.link.link_options import Options
+from tftool.world.link.session import Link
+from tftool.world.world import World
+
+pytestmark = pytest.mark.usefixtures("by_memory")
+
+CLOCK = INTERFACES.message("rosgraph_msgs/Clock")
+
+
+def reading(moment):
+    message = CLOCK()
+    message.clock.sec, message.clock.nanosec = divmod(moment, 10**9)
+    return message
+
+
+@contextlib.contextmanager
+def joined():
+    """The link, the world of a host, and that of a guest whose clock follows."""
+    host, guest = World(WallClock()), World(FollowedClock())
+    links = [Link(Options(name, middleware="memory")) for name in ("play", "echo")]
+    links[0].attach(host, role=Role.HOST)
+    links[1].attach(guest, role=Role.GUEST)
+    follower = ClockFollower(guest, guest.clock)
+    try:
+        yield links[1], host, guest
+    finally:
+        follower.close()
+        for link in links:
+            link.close()
+
+
+def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published():
+    async def follow():
+        with joined() as (link, host, guest):
+            assert not is_clock_shown(link.graph)
+            assert not guest.clock.is_told
+
+            publisher = host.publisher("player", "clock", CLOCK, Quality())
+            topic = host.topic("clock", CLOCK)
+            await until(lambda: topic.far_subscribers)
+            assert is_clock_shown(link.graph)
+
+            publisher.publish(reading(seconds(20)))
+            await until(lambda: guest.clock.is_told)
+            assert guest.clock.now() == seconds(20)
+
+            moved = TransformStamped(seconds(20), "a", "b", Transform())
+            guest.buffer.set_transform(moved, "node")
+            publisher.publish(reading(seconds(12)))
+            await until(lambda: guest.clock.now() == seconds(12))
+            assert [one.text for one in guest.log.records if one.level == "WARN"] == [
+                "Detected jump back in time. Clearing tf buffer."
+            ]
+            assert not guest.buffer.can_transform("a", "b", 0)
+
+            publisher.close()
+            await until(lambda: not guest.clock.is_told)
+            assert seconds(12) <= guest.clock.now() < seconds(12 + 600)
+
+    run(WallClock(), follow())
+
+
+def test_transforms_that_come_before_the_first_word_of_the_clock_are_not_called_years_old():
+    async def follow():
+        with joined() as (link, host, guest):
+            clock = host.publisher("player", "clock", CLOCK, Quality())
+            topic = host.topic("clock", CLOCK)
+            await until(lambda: topic.far_subscribers and is_clock_shown(link.graph))
+
+            host.broadcast([TransformStamped(seconds(20), "a", "b", Transform())], "player")
+            await until(lambda: guest.buffer.frame_exists("b"))
+
+            assert not guest.clock.is_told
+            assert [one.text for one in guest.log.records if "clock" in one.text] == []
+            clock.close()
+
+    run(WallClock(), follow())

@@ -1,0 +1,337 @@
+"""What the shell offers when Tab is pressed: commands, options, frames, scenarios, packages.
+
+The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; what is
+printed is offered. Nothing is hosted or joined for it: the frames of the session that runs are
+read from lists that its processes keep.
+"""
+
+import contextlib
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from tftool.base.errors import InputError, TftoolError, UsageError
+
+if TYPE_CHECKING:
+    from tftool.ros.host.workspace import Workspace
+
+VARIABLE: Final = "_TFTOOL_COMPLETE"
+"""Set by the scripts; holds the name of the shell."""
+
+BEHIND: Final = "_TFTOOL_COMPLETE_BEHIND"
+"""The words behind the one typed, a word a line. fish's script sets none: while it completes,
+fish's `commandline` ends with the word that is typed."""
+
+SCRIPTS: Final = {
+    "bash": """\
+_tftool() {
+    local IFS=$'\\n'
+    COMPREPLY=($(_TFTOOL_COMPLETE=bash _TFTOOL_COMPLETE_BEHIND="${COMP_WORDS[*]:COMP_CWORD+1}" \\
+        tftool "${COMP_WORDS[@]:1:$COMP_CWORD}" 2>/dev/null))
+}
+complete -o default -F _tftool tftool
+""",
+    "zsh": """\
+autoload -Uz compinit
+(( $+functions[compdef] )) || compinit
+_tftool() {
+    local -a offered
+    local behind="${(F)words[CURRENT+1,-1]}"
+    offered=("${(@f)$(_TFTOOL_COMPLETE=zsh _TFTOOL_COMPLETE_BEHIND="$behind" \\
+        tftool "${(@)words[2,$CURRENT]}" 2>/dev/null)}")
+    if [[ -n "${offered[1]}" ]]; then _describe tftool offered; else _files; fi
+}
+compdef _tftool tftool
+""",
+    "fish": """\
+function __tftool_complete
+    _TFTOOL_COMPLETE=fish tftool (commandline -opc)[2..] (commandline -ct) 2>/dev/null
+end
+complete -c tftool -a '(__tftool_complete)'
+""",
+}
+"""What each shell runs once when it starts."""
+
+FRAMES: Final = {"TARGET", "SOURCE", "A", "B", "FRAME", "LEADER", "PARENT", "CHILD"}
+"""What the help calls words that are names of frames."""
+
+SOURCES: Final = {"FROM", "SCENARIO"}
+"""What the help calls words that may be a built-in scenario, beside a file."""
+
+CHECK_IDS: Final = {"ID", "FINDING"}
+"""What the help calls words that are ids of the doctor's checks."""
+
+Offer = tuple[str, str]
+"""A word, and what it stands for; "" where the word says it."""
+
+
+def complete(words: Sequence[str], shell: str) -> None:
+    """Print what fits behind the words typed so far, as a shell's script takes it.
+
+    Args:
+        words: What stands after `tftool`; the last is the one that is being typed.
+        shell: Which script asks.
+    """
+    offered: Sequence[Offer] = ()
+    with contextlib.suppress(TftoolError, OSError, ValueError):
+        offered = offers(words or [""])
+    for word, about in offered:
+        # A name that would be a line of its own, or an escape, is not offered.
+        if not word.isprintable() or any(letter in word for letter in " '\"\\$`"):
+            continue
+        sys.stdout.write(_line(word, about.partition("\n")[0], shell) + "\n")
+
+
+def _line(word: str, about: str, shell: str) -> str:
+    if shell == "bash" or not about:
+        return word.replace(":", "\\:") if shell == "zsh" else word
+    return f"{word.replace(':', chr(92) + ':')}:{about}" if shell == "zsh" else f"{word}\t{about}"
+
+
+def offers(words: Sequence[str]) -> list[Offer]:
+    """What fits behind the words typed so far, in the order to show it.
+
+    Args:
+        words: What stands after `tftool`; the last is the one that is being typed.
+    """
+    from tftool.app.index import COMMANDS
+
+    *before, current = words
+    if not before:
+        root = {**COMMANDS, **dict.fromkeys(("--version", "--help", "--install-completion"), "")}
+        wanted: list[Offer] = [(word, root[word]) for word in root if _is_plain(word, current)]
+    elif before[0] == "help":
+        wanted = list(COMMANDS.items())
+    elif before[0] in COMMANDS:
+        wanted = list(_of_command(before[0], before[1:], current))
+    else:
+        wanted = []
+    return [offer for offer in wanted if offer[0].startswith(current)]
+
+
+def _is_plain(word: str, current: str) -> bool:
+    """Options are offered when a dash is typed, and not before."""
+    return word.startswith("-") == current.startswith("-")
+
+
+def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
+    """What one command takes next."""
+    from tftool.app.help_layout import made
+
+    params = made(name).params
+    options = {one: param for param in params for one in (*param.opts, *param.secondary_opts)}
+    arguments = [param for param in params if param.param_type_name == "argument"]
+    if before and (option := options.get(before[-1])) is not None and _takes_value(option):
+        yield from _values(option.type, _called(option), before)
+        return
+    if current.startswith("-"):
+        for param in params:
+            if param.param_type_name == "option" and not getattr(param, "hidden", False):
+                yield max(param.opts, key=len), param.help or ""
+        return
+    place = _count(before, options)
+    if name in _WORDS:
+        yield from _WORDS[name](before[-place:] if place else [])
+    called = [word for param in arguments for word in _called(param).split()]
+    if called:
+        last = min(place, len(called) - 1)
+        repeats = called[-1].endswith("...") or called[-1].endswith("…")
+        if place < len(called) or repeats:
+            kind = arguments[min(place, len(arguments) - 1)].type
+            yield from _values(kind, called[last], before)
+
+
+def _takes_value(option: Any) -> bool:
+    return not (getattr(option, "is_flag", False) or getattr(option, "count", False))
+
+
+def _count(before: Sequence[str], options: dict[str, Any]) -> int:
+    """How many of the words stand for themselves, and are no option or its value."""
+    words, is_value = 0, False
+    for word in before:
+        if is_value:
+            is_value = False
+        elif word in options:
+            is_value = _takes_value(options[word])
+        elif not word.startswith("-"):
+            words += 1
+    return words
+
+
+def _called(param: Any) -> str:
+    """What the help calls the value of an option or argument."""
+    return str(param.metavar or "")
+
+
+def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
+    """Words for a value that the help calls so."""
+    bare = called.strip("[]{}<>.…")
+    choices = getattr(kind, "choices", None)
+    if choices is not None:
+        yield from ((str(getattr(one, "value", one)), "") for one in choices)
+    elif bare in FRAMES:
+        yield from ((name, "") for name in _frames(before))
+    elif bare in SOURCES:
+        from tftool.scenario import builtin
+
+        yield from ((name, "scenario") for name in builtin.names())
+    elif bare.partition(",")[0] in CHECK_IDS:
+        from tftool.doctor.catalogue import CHECKS
+
+        yield from ((one.id, one.summary) for one in CHECKS.values())
+    elif bare == "STEP":
+        from tftool.commands.new import EXAMPLES
+
+        yield from ((step, "") for step in EXAMPLES)
+
+
+def _frames(before: Sequence[str]) -> list[str]:
+    """Frames of the recording or description that is named, else of the session that runs here."""
+    named = _frames_of_a_file([*_words_behind(), *before])
+    if named is not None:
+        return named
+    from tftool.commands.shared.connection import domain_here
+    from tftool.world.link.zenoh.rendezvous import frames_known
+
+    domain = domain_here()
+    if "--domain" in before[:-1]:
+        domain = int(before[before.index("--domain") + 1])
+    return frames_known(domain)
+
+
+def _words_behind() -> list[str]:
+    """What stands behind the word that is being typed: FROM often does."""
+    return os.environ.get(BEHIND, "").split("\n")
+
+
+def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
+    """Frames of the first of some words that names a file with frames; None where none does."""
+    for word in words:
+        # Unlike `Path.expanduser` it leaves a user alone that is none.
+        path = Path(os.path.expanduser(word))
+        if not word or word.startswith("-") or not path.exists():
+            continue
+        with contextlib.suppress(InputError, UsageError, OSError, ValueError):
+            return _read_frames(str(path))
+    return None
+
+
+def _read_frames(word: str) -> list[str]:
+    """Frames by a recording's kept columns; a short one is read once, a description always."""
+    from tftool.recordings.cache_heads import default_folder, frames_kept, key_of
+    from tftool.recordings.find import Kind, find
+
+    found = find(word)
+    if found.kind is Kind.DESCRIPTION:
+        from tftool.robots.robot_model import load_urdf
+
+        return list(load_urdf(word).links)
+    if not found.kind.is_recording:
+        raise UsageError("no frames are known of it before it runs")
+    kept = frames_kept(found)
+    if kept is None and not key_of(found):
+        from tftool.recordings.column_cache import ColumnCache
+        from tftool.recordings.recording import open_recording
+
+        with open_recording(word) as recording:
+            kept = sorted({name for edge in recording.edges for name in (edge.parent, edge.child)})
+            folder = default_folder()
+            if folder is not None:
+                ColumnCache(folder).store(key_of(found, any_size=True), recording.transforms)
+    return kept or []
+
+
+def _workspace_here() -> "Workspace":
+    """The packages below this folder and those of the workspace it belongs to."""
+    from tftool.ros.host.workspace import Workspace
+
+    return Workspace(Path.cwd())
+
+
+def _packages(before: Sequence[str]) -> Iterator[Offer]:
+    """Packages below this folder, then the executables of the one that is named."""
+    packages = _workspace_here().packages
+    if not before:
+        yield from ((name, "package") for name in sorted(packages))
+    elif len(before) == 1 and before[0] in packages:
+        yield from ((name, "") for name in sorted(packages[before[0]].scripts))
+
+
+def _launches(before: Sequence[str]) -> Iterator[Offer]:
+    """Packages below this folder, then the launch files of the one that is named."""
+    packages = _workspace_here().packages
+    if not before:
+        yield from ((name, "package") for name in sorted(packages))
+    elif len(before) == 1 and before[0] in packages:
+        folder = packages[before[0]].path / "launch"
+        yield from ((path.name, "") for path in sorted(folder.glob("*launch.*")))
+
+
+def _ros2(before: Sequence[str]) -> Iterator[Offer]:
+    """The commands of ROS 2's own command line, then the verbs of the one that is named."""
+    from tftool.commands.ros2 import verbs_of
+
+    if len(before) < 2:
+        yield from ((word, "") for word in verbs_of(before))
+
+
+_WORDS: Final[dict[str, Callable[[Sequence[str]], Iterator[Offer]]]] = {
+    "ros2": _ros2,
+    "run": _packages,
+    "launch": _launches,
+}
+"""Commands whose words are looked up: names of the workspace, words of ROS 2."""
+
+
+def shell_here() -> str:
+    """The user's shell, by its variable.
+
+    Raises:
+        UsageError: If it is none that has a script.
+    """
+    name = Path(os.environ.get("SHELL", "")).name
+    if name not in SCRIPTS:
+        raise UsageError(
+            f"the shell '{name or 'unknown'}' (SHELL) has no completion here; there is one for "
+            f"{', '.join(SCRIPTS)}: SHELL=bash tftool --show-completion prints it."
+        )
+    return name
+
+
+def install(shell: str) -> list[Path]:
+    """Put a shell's script where it is found; what was there before stays as it is.
+
+    Returns:
+        The files that were written or changed.
+
+    Raises:
+        InputError: If one cannot be written.
+    """
+    try:
+        home = Path.home()
+    except RuntimeError:
+        raise InputError(
+            "HOME is not set, and this user has no home: set it to a folder that can be written."
+        ) from None
+    if shell == "fish":
+        settings = Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config")
+        script, start = settings / "fish" / "completions" / "tftool.fish", None
+    else:
+        data = Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share")
+        script, start = data / "tftool" / f"completion.{shell}", home / f".{shell}rc"
+    changed = [script]
+    try:
+        script.parent.mkdir(parents=True, exist_ok=True)
+        script.write_text(SCRIPTS[shell], encoding="utf-8")
+        if start is not None:
+            line = f'[ -f "{script}" ] && . "{script}"  # tftool'
+            text = start.read_text(encoding="utf-8") if start.exists() else ""
+            if line not in text.splitlines():
+                with start.open("a", encoding="utf-8") as file:
+                    file.write(f"{'' if text.endswith(chr(10)) or not text else chr(10)}{line}\n")
+                changed.append(start)
+    except OSError as error:
+        raise InputError(f"'{error.filename}' cannot be written: {error.strerror}.") from None
+    return changed

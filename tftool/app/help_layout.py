@@ -1,0 +1,147 @@
+"""How help is laid out: commands by what one wants, options by what they are about."""
+
+import re
+from collections.abc import Callable, Sequence
+from inspect import cleandoc
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+from typer.main import get_command
+
+from tftool.app.index import COMMANDS, GROUPS, SETTINGS, load
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.connection import Providers
+
+_SESSION = "help_session"
+_ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
+
+
+class Commands(TyperGroup):
+    """The `tftool` command, whose help lists its commands by group.
+
+    Only a command that is asked for is made: for all of them that takes longer than to start
+    Python twice.
+    """
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Give the names of the commands."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Make a command; None if there is none of that name."""
+        return made(cmd_name, ctx.obj) if cmd_name in COMMANDS else None
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the groups of commands."""
+        width = max(len(name) for name in COMMANDS)
+        for title, group in GROUPS.items():
+            with formatter.section(title):
+                formatter.write_dl([(name.ljust(width), words) for name, words in group.items()])
+
+
+def made(name: str, providers: "Providers | None" = None) -> Any:
+    """Make one of the commands, with all its options."""
+    command = load(name, providers)
+    app = typer.Typer(rich_markup_mode=None, add_completion=False)
+    app.command(name, cls=Command, help=_laid_out(command), context_settings=SETTINGS.get(name))(
+        command
+    )
+    return get_command(app)
+
+
+def _laid_out(command: Callable[..., Any]) -> str:
+    """The docstring of a command as its help; examples keep their lines."""
+    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
+    # The mark by which click leaves a paragraph as it is.
+    return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
+
+
+class Command(TyperCommand):
+    """A command whose options are listed by what they are about, those of sessions when asked."""
+
+    def __init__(self, name: str | None, **words: Any) -> None:
+        super().__init__(name, **words)
+        if any(_is_of_session(param) for param in self.params):
+            self.params.append(_help_session())
+
+    def parse_args(self, ctx: Any, args: list[str]) -> Any:
+        """Read the command line; a word NAME:=VALUE is an argument of a robot description."""
+        if any(param.name == "argument" for param in self.params):
+            args = [
+                part
+                for before, word in pairwise(["", *args])
+                for part in (
+                    ("--argument", word)
+                    if _ARGUMENT.match(word) and before != "--argument"
+                    else (word,)
+                )
+            ]
+        return super().parse_args(ctx, args)
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write the arguments, then the options by their headings."""
+        sections: dict[str, list[tuple[str, str]]] = {"Arguments": [], "Options": []}
+        for param in self.get_params(ctx):
+            title = _title(param)
+            if title == SESSION and not ctx.meta.get(_SESSION):
+                continue
+            record = param.get_help_record(ctx)
+            if record is not None:
+                sections.setdefault(title, []).append(record)
+        # What every command has goes last.
+        sections["Help"] = sections.pop("Help", [])
+        for title, rows in sections.items():
+            if rows:
+                with formatter.section(title):
+                    formatter.write_dl(rows)
+
+
+SESSION = "Session and network"
+
+
+def _title(param: Any) -> str:
+    """Under which heading a parameter is listed."""
+    if param.param_type_name == "argument":
+        return "Arguments"
+    if _is_of_session(param):
+        return SESSION
+    if param.name in ("help", _SESSION):
+        return "Help"
+    return getattr(param, "rich_help_panel", None) or "Options"
+
+
+def _is_of_session(param: Any) -> bool:
+    if param.name in ("help", _SESSION):
+        return False
+    # The list of commands, none of which is described there, does without it.
+    from tftool.commands.shared.connection_options import SESSION_OPTIONS
+
+    return param.name in SESSION_OPTIONS
+
+
+def _help_session() -> Any:
+    """The option that shows the help with the options of sessions."""
+
+    def show(ctx: Any, param: Any, value: bool) -> None:
+        if value:
+            ctx.meta[_SESSION] = True
+            typer.echo(ctx.get_help())
+            ctx.exit()
+
+    return _option(show, ["--help-session"], f"Show this and the options of {SESSION.lower()}.")
+
+
+def _option(callback: Callable[..., None], names: Sequence[str], text: str) -> Any:
+    from typer.core import TyperOption
+
+    return TyperOption(
+        param_decls=[*names, _SESSION],
+        is_flag=True,
+        expose_value=False,
+        is_eager=True,
+        callback=callback,
+        help=text,
+    )

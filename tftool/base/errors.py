@@ -1,0 +1,441 @@
+"""Every exception of tftool, as one tree.
+
+tf2's names for what tf2 refuses; three more for what the tools refuse. Each
+carries its facts as fields. `cli.app` turns them into exit statuses and is the
+only place that does.
+"""
+
+import os
+import unicodedata
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+from tftool.base.near_names import near_names
+from tftool.base.stamps import Duration, Stamp, as_seconds
+
+
+class TftoolError(Exception):
+    """Something a user can act on; its text is a sentence that says what and what to do.
+
+    Its text, and its remedy where it has one, are settled when it is made. It can be pickled
+    and copied with all its facts, whatever arguments its class takes.
+    """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _made_again, (type(self), self.args), self._facts()
+
+    def _facts(self) -> dict[str, object]:
+        """The attributes, as they are pickled."""
+        return dict(self.__dict__)
+
+
+def _made_again(kind: type[TftoolError], args: tuple[object, ...]) -> TftoolError:
+    # Not by its `__init__`, which takes other arguments: the text is in `args` already.
+    return kind.__new__(kind, *args)
+
+
+class UsageError(TftoolError):
+    """The command was asked for something it does not do (exit status 2)."""
+
+
+class NodeArgumentsError(UsageError):
+    """A node's program was started with arguments it does not take.
+
+    Attributes:
+        status: The exit status of the original program, where it is run as such.
+    """
+
+    def __init__(self, message: str, *, status: int) -> None:
+        super().__init__(message)
+        self.status = status
+
+
+class InputError(TftoolError):
+    """Something given cannot be read: a file, a scenario, a number in it (exit status 3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """One thing wrong in a text file, and where.
+
+    Attributes:
+        file: Name of the file as it was given.
+        line: Line, from 1.
+        column: Column, from 1.
+        text: What is wrong, a sentence without its full stop.
+        shown: The offending line, fit for a terminal; empty when there is none.
+        marks: What stands under `shown`: blanks up to the place, then carets.
+    """
+
+    file: str
+    line: int
+    column: int
+    text: str
+    shown: str = ""
+    marks: str = ""
+
+    def __str__(self) -> str:
+        head = f"{self.file}:{self.line}:{self.column}: {self.text}"
+        if not self.marks:
+            return head
+        return f"{head}\n  {self.line:>4} | {self.shown}\n       | {self.marks}"
+
+    @classmethod
+    def at(
+        cls, file: str, lines: Sequence[str], line: int, column: int, text: str, *, width: int = 1
+    ) -> "Mistake":
+        """A mistake with the line it stands in, cut to fit a terminal, and carets under it.
+
+        Args:
+            file: Name of the file.
+            lines: All lines of the file.
+            line: Line, from 0.
+            column: Column, from 0.
+            text: What is wrong.
+            width: How many characters to mark.
+        """
+        whole = lines[line] if line < len(lines) else ""
+        start = max(0, column - 60)
+        shown = whole[start : start + 120]
+        before = sum(_cells(char) for char in whole[start:column])
+        inside = whole[column : min(column + width, start + 120)].rstrip()
+        marks = " " * before + "^" * max(1, sum(_cells(char) for char in inside))
+        return cls(file, line + 1, column + 1, text, showable(shown), marks)
+
+
+def showable(text: str) -> str:
+    """Replace what a terminal might obey, one character for one."""
+    return "".join(
+        char if char.isprintable() else (" " if char == "\t" else "\ufffd") for char in text
+    )
+
+
+def _cells(char: str) -> int:
+    """How many columns of a terminal a character takes."""
+    if unicodedata.combining(char):
+        return 0
+    return 2 if unicodedata.east_asian_width(char) in "WF" else 1
+
+
+class DocumentError(InputError):
+    """A text file has mistakes, all reported at once (exit status 3).
+
+    Attributes:
+        name: The file, as it was given.
+        mistakes: Every mistake, in the order of the file.
+    """
+
+    MOST = 50
+    """Mistakes written out; a file that is no scenario at all would fill the screen."""
+
+    def __init__(self, name: str, mistakes: Sequence[Mistake]) -> None:
+        self.name = name
+        self.mistakes = tuple(mistakes)
+        count = len(self.mistakes)
+        lines = [f"{name} has {'a mistake' if count == 1 else f'{count} mistakes'}:"]
+        lines += [str(mistake) for mistake in self.mistakes[: self.MOST]]
+        if count > self.MOST:
+            lines.append(f"... and {count - self.MOST} more")
+        super().__init__("\n".join(lines))
+
+
+class ScenarioError(DocumentError):
+    """A scenario has mistakes."""
+
+
+class DescriptionError(DocumentError):
+    """A robot description has mistakes."""
+
+
+def failure_text(error: BaseException) -> str:
+    """An exception in one line: its type, its text, and the file and line it comes from.
+
+    That is the innermost line of a user's code. Where there is none, the innermost line of
+    all: but not for an exception of ours, which says what is wrong by itself.
+    """
+    kind, text = type(error).__name__, str(error)
+    line = line_of(error, users_only=isinstance(error, TftoolError))
+    return kind + (f": {text}" if text else "") + (f" ({line})" if line else "")
+
+
+def line_of(error: BaseException, *, users_only: bool = False) -> str:
+    """The innermost line of a user's code that led to an exception, as "busy.py:10".
+
+    Where there is none the innermost line of all, or "" for `users_only`.
+    """
+    users = innermost = ""
+    trace = error.__traceback__
+    while trace is not None:
+        file = trace.tb_frame.f_code.co_filename
+        innermost = f"{os.path.basename(file)}:{trace.tb_lineno}"
+        users = innermost if is_users_file(file) else users
+        trace = trace.tb_next
+    return users or ("" if users_only else innermost)
+
+
+def is_users_file(file: str) -> bool:
+    """Whether code is neither of this package nor of Python's own library."""
+    if file.startswith((_PACKAGE, "<frozen")):
+        return False
+    return "site-packages" in file or not file.startswith(_LIBRARY)
+
+
+_PACKAGE = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+_LIBRARY = os.path.dirname(os.path.realpath(os.__file__))
+
+
+class NodeFailed(TftoolError):
+    """A node raised; the run is over. The original error is the cause.
+
+    Attributes:
+        node: Name of the node that raised.
+    """
+
+    def __init__(self, node: str, error: BaseException, what: str = "") -> None:
+        """Say that a node failed by `error`; `what` says it in other words."""
+        super().__init__(f"node '{node}' {what or f'failed: {failure_text(error)}'}")
+        self.node = node
+
+
+class TransformException(TftoolError):
+    """The transform asked for cannot be given (exit status 4); tf2's base class.
+
+    Its text is tf2's own, to the letter; what to do about it is said apart, in `remedy`.
+
+    Attributes:
+        target: The frame asked for, where it is known.
+        source: The frame asked about, where it is known.
+    """
+
+    def __init__(
+        self, message: str, *, target: str | None = None, source: str | None = None
+    ) -> None:
+        super().__init__(message)
+        self.target = target
+        self.source = source
+
+    @property
+    def remedy(self) -> str:
+        """What is wrong in our words, by how much, and what to do; may be empty."""
+        return ""
+
+
+class LookupException(TransformException):
+    """A frame is not known, or the tree has a loop.
+
+    Attributes:
+        frame: The unknown frame, where that is the reason.
+        looped: Whether the reason is a loop (or a chain of more than 1000 links).
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        frame: str | None = None,
+        target: str | None = None,
+        source: str | None = None,
+        known: Collection[str] = (),
+        looped: bool = False,
+    ) -> None:
+        """Say that a frame is unknown.
+
+        Args:
+            message: tf2's sentence.
+            frame: The unknown frame.
+            target: The frame asked for.
+            source: The frame asked about.
+            known: The names that are known, in a fixed order; it may grow at its end.
+            looped: Whether the reason is a loop.
+        """
+        super().__init__(message, target=target, source=source)
+        self.frame = frame
+        self.looped = looped
+        self._known = known
+        self._count = len(known)
+
+    @property
+    def remedy(self) -> str:
+        """The names that look like the unknown one, or that none has come up yet."""
+        if self.looped:
+            return "Some frame hangs from one of its own children: see who sends the links named."
+        if self.frame is None:
+            return ""
+        # Only for a person who reads it: a wait that is refused ten thousand times is not slowed.
+        known = self._names()
+        near = near_names(self.frame, known, 3)
+        if near:
+            names = " or ".join(f"'{name}'" for name in near)
+            return f"No transform of '{self.frame}' has come yet; did you mean {names}?"
+        if not known:
+            return f"No transform of '{self.frame}' has come yet, nor of any other frame."
+        return f"No transform of '{self.frame}' has come yet; {len(known)} other frames are known."
+
+    def _names(self) -> list[str]:
+        """The names that were known when this was made."""
+        return list(islice(self._known, self._count))
+
+    def _facts(self) -> dict[str, object]:
+        return {**super()._facts(), "_known": self._names()}
+
+
+class ConnectivityException(TransformException):
+    """The two frames hang in different trees."""
+
+    @property
+    def remedy(self) -> str:
+        """That a link is missing."""
+        return (
+            f"No chain of links joins '{self.source}' to '{self.target}' at that moment: "
+            "the tree shows which root each hangs from."
+        )
+
+
+class InvalidArgumentException(TransformException):
+    """A frame name that can never be asked for: empty, or with a leading slash.
+
+    Attributes:
+        frame: The name.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        frame: str | None = None,
+        target: str | None = None,
+        source: str | None = None,
+    ) -> None:
+        super().__init__(message, target=target, source=source)
+        self.frame = frame
+
+    @property
+    def remedy(self) -> str:
+        """The name without its slash."""
+        plain = (self.frame or "").lstrip("/")
+        return f"Ask for '{plain}'." if plain else "Name a frame."
+
+
+class TimeoutException(TransformException):
+    """Waiting for a transform took longer than allowed; the last refusal is the cause.
+
+    Attributes:
+        refusal: The last refusal, where there was one.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        target: str | None = None,
+        source: str | None = None,
+        refusal: TransformException | None = None,
+    ) -> None:
+        super().__init__(message, target=target, source=source)
+        self.refusal = self.__cause__ = refusal
+
+    @property
+    def remedy(self) -> str:
+        """What the last refusal has to say."""
+        return "" if self.refusal is None else self.refusal.remedy
+
+
+class ExtrapolationException(TransformException):
+    """The moment asked for lies outside what a link of the chain remembers.
+
+    Attributes:
+        requested: The moment asked for.
+        available: The stored moment nearest to it; 0 when nothing is stored.
+        frame: The child of the link that falls short.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        requested: Stamp,
+        available: Stamp,
+        frame: str | None = None,
+        target: str | None = None,
+        source: str | None = None,
+    ) -> None:
+        super().__init__(message, target=target, source=source)
+        self.requested = requested
+        self.available = available
+        self.frame = frame
+
+    @property
+    def missed(self) -> Duration:
+        """How far the moment asked for is from the stored one, in nanoseconds."""
+        return abs(self.requested - self.available)
+
+    def _by(self) -> str:
+        # Rounded to microseconds, as in the message, the two moments often read alike.
+        return f"{as_seconds(self.missed):.3f} s" if self.missed >= 500_000 else f"{self.missed} ns"
+
+
+class BackwardExtrapolationException(ExtrapolationException):
+    """The moment lies before the oldest sample of a link."""
+
+    @property
+    def remedy(self) -> str:
+        """By how much, and what helps."""
+        return (
+            f"That is {self._by()} before the oldest sample of '{self.frame}': ask for a later "
+            "moment, or for time 0 (the latest), or give the buffer a longer cache_time."
+        )
+
+
+class ForwardExtrapolationException(ExtrapolationException):
+    """The moment lies after the newest sample of a link."""
+
+    @property
+    def remedy(self) -> str:
+        """By how much, and what helps."""
+        return (
+            f"That is {self._by()} after the newest sample of '{self.frame}': ask for time 0 "
+            "(the latest), or wait until it has come."
+        )
+
+
+class NoDataForExtrapolationException(ExtrapolationException):
+    """A link holds no sample, or a single one at another moment."""
+
+    @property
+    def remedy(self) -> str:
+        """By how much, and what helps."""
+        if self.available == 0:
+            return f"Nothing is remembered of '{self.frame}': wait until it is sent."
+        side = "after" if self.requested > self.available else "before"
+        return (
+            f"That is {self._by()} {side} the only sample of '{self.frame}': ask for time 0 "
+            "(the latest), or wait for more."
+        )
+
+
+class MalformedMessage(InputError):
+    """Bytes that came in are not the message they should be, or one cannot be written.
+
+    Attributes:
+        kind: The type it should be.
+        reason: What is wrong with it.
+    """
+
+    def __init__(self, kind: str, reason: str) -> None:
+        super().__init__(f"{kind} refused: {reason}")
+        self.kind = kind
+        self.reason = reason
+
+
+class LinkError(InputError):
+    """A session with other processes cannot be opened, or one of them does not answer."""
+
+
+def without_frames(given: object) -> TypeError:
+    """What to raise where a recording or a buffer is wanted, and something else was given."""
+    hint = ""
+    if isinstance(given, str | os.PathLike):
+        hint = f": tftool.open_recording({os.fspath(given)!r}) opens one"
+    return TypeError(f"a Recording or a Buffer is wanted, not {given!r:.80}{hint}")

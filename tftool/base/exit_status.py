@@ -1,0 +1,17 @@
+"""The exit statuses of the `tftool` command."""
+
+from enum import IntEnum
+
+
+class ExitStatus(IntEnum):
+    """The exit status of a command."""
+
+    DONE = 0
+    FAILED = 1
+    """An expectation or a node failed, or a check found something."""
+    WRONG_USAGE = 2
+    UNREADABLE = 3
+    """The input cannot be read."""
+    NO_TRANSFORM = 4
+    """The transform is not available."""
+    INTERRUPTED = 130

@@ -1,0 +1,84 @@
+"""Strangers' names in a given number of cells, the same number in every terminal."""
+
+from collections.abc import Iterable
+
+from rich.cells import cell_len
+
+from tftool.base.escaping import visible
+
+# Joined or switched by these, one sign is drawn wide in one terminal and narrow in
+# the next; without them every terminal agrees with our count.
+_SWITCHES = dict.fromkeys((0x200C, 0x200D, *range(0xFE00, 0xFE10)))
+
+
+def plain(text: str) -> str:
+    """Give `text` as one line that is only ever shown, and whose width is known."""
+    if text.isascii() and text.isprintable():
+        return text
+    return visible(text).translate(_SWITCHES)
+
+
+def fitted(text: str, width: int, *, more: str = "…") -> str:
+    """Give `plain(text)` in at most `width` cells; what is left out shows as `more`."""
+    # No sign is narrower than nothing: a long text need not be measured to its end.
+    shown = plain(text[: 4 * max(0, width) + 4])
+    if cell_len(shown) <= width:
+        return shown
+    room = width - cell_len(more)
+    if room < 0:
+        return ""
+    kept, used = 0, 0
+    for sign in shown:
+        used += cell_len(sign)
+        if used > room:
+            break
+        kept += 1
+    return shown[:kept] + more
+
+
+def middle_cut(text: str, width: int, *, more: str = "…") -> str:
+    """Give `plain(text)` in at most `width` cells, cut where names of frames differ least.
+
+    The beginning and the end stay; what is left out between them shows as `more`.
+    """
+    shown = plain(text)
+    if cell_len(shown) <= width:
+        return shown
+    room = width - cell_len(more)
+    if room < 0:
+        return ""
+    end = _within(reversed(shown), room // 2)
+    start = _within(shown, room - sum(map(cell_len, end)))
+    return "".join(start) + more + "".join(reversed(end))
+
+
+def _within(signs: Iterable[str], room: int) -> list[str]:
+    """The first signs, in at most `room` cells."""
+    kept = []
+    for sign in signs:
+        room -= cell_len(sign)
+        if room < 0:
+            break
+        kept.append(sign)
+    return kept
+
+
+def wrap_words(sentence: str, width: int) -> list[str]:
+    """Break a sentence at its blanks, and nowhere else, into lines of at most `width` cells.
+
+    A word that is longer than a line stands alone in one, and sticks out.
+    """
+    lines = [""]
+    for word in sentence.split(" "):
+        longer = f"{lines[-1]} {word}" if lines[-1] else word
+        if lines[-1] and cell_len(longer) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
+
+
+def padded(text: str, width: int, *, more: str = "…") -> str:
+    """Give `fitted(text, width)` filled up with blanks to exactly `width` cells."""
+    shown = fitted(text, width, more=more)
+    return shown + " " * (width - cell_len(shown))

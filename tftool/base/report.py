@@ -1,0 +1,48 @@
+"""What was judged, and what came of it: one report for scenarios, comparisons and checks."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """One thing that was looked at, and what came of it.
+
+    Attributes:
+        subject: What was looked at, a sentence: "by 20 s: distance from a to b below 0.5 m".
+        ok: Whether it is as it should be.
+        expected: What should have been: "below 0.5 m".
+        found: What was.
+        at: Seconds from the start to the look; None when there was none.
+        line: Line of the file that asked for it; 0 when there is none.
+    """
+
+    subject: str
+    ok: bool
+    expected: str = ""
+    found: str = ""
+    at: float | None = None
+    line: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What came of everything that was looked at in one place.
+
+    Attributes:
+        name: What was looked at: a scenario's name.
+        file: The file behind it, as it was given.
+        judgements: One for each thing, in order.
+        lasted: Seconds it took, on its own clock.
+        failure: Why it could not be looked at to the end; empty when it could.
+    """
+
+    name: str
+    file: str
+    judgements: tuple[Judgement, ...]
+    lasted: float = 0.0
+    failure: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """Whether everything is as it should be."""
+        return not self.failure and all(judgement.ok for judgement in self.judgements)

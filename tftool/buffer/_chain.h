@@ -1,0 +1,304 @@
+/* What a lookup reckons: to find samples, to go between them, and to chain links.
+
+   Numbers in, numbers out: nothing here knows of Python. Each function has a twin there (`history`,
+   `geometry.poses`, `path`, `batch/`): the same operations in order, but short arcs by a series. */
+
+#ifndef TFTOOL_WAY_H
+#define TFTOOL_WAY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "_path.h"
+
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#define PREFETCH(place) __builtin_prefetch(place)
+#else
+#define INLINE static inline
+#define PREFETCH(place) (void)(place)
+#endif
+
+/* Where one build can hold a function twice, it does so for processors that work on four numbers
+   at once: which one runs is chosen when the module is loaded. */
+#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__)
+#define WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define WIDE
+#endif
+
+/* So many moments are worked on together, number by number: what they take stays in the
+   processor's nearest cache, and the compiler turns each loop into vector operations. */
+#define BLOCK 128
+
+/* Poses lie as rows, `width` numbers each: first every x, then y z qx qy qz qw. The functions
+   of one moment and of many are the same: for one, the width is 1. */
+typedef double Rows[7 * BLOCK];
+
+/* As in `history`: a stamp in nanoseconds; x y z, qx qy qz qw. */
+typedef struct {
+    int64_t stamp;
+    double pose[7];
+} Record;
+
+/* One link made ready for moments: records in order, or a pose that never changes. */
+typedef struct {
+    const Record *records; /* NULL: `fixed`. */
+    ptrdiff_t last;
+    int64_t oldest, newest; /* The same if there is one record. */
+    double rate;            /* Records a nanosecond. */
+    ptrdiff_t here;         /* Where the first moment is looked for first. */
+    double fixed[7];
+} Edge;
+
+/* Finding ---------------------------------------------------------------- */
+
+/* Where a moment is looked for first, by the mean rate of the samples; memory is told to bring
+   what lies there. Before the last record, if there are two. */
+INLINE ptrdiff_t aim(const Edge *edge, int64_t time) {
+    const double most = edge->last > 0 ? (double)(edge->last - 1) : 0.0;
+    double at = ((double)time - (double)edge->oldest) * edge->rate;
+    at = at < most ? at : most;
+    const ptrdiff_t here = (ptrdiff_t)(at > 0.0 ? at : 0.0);
+    for (int line = 0; line < 3; line++)
+        PREFETCH((const char *)(edge->records + here + line) - (line == 2));
+    return here;
+}
+
+/* The last record at or before a moment, given stamp[0] <= time < stamp[last] and a guess;
+   whatever the stamps are, it is less than `last`. Correct the guess twice, then bisect. */
+static ptrdiff_t find(const Edge *edge, int64_t time, ptrdiff_t at) {
+    const Record *records = edge->records;
+    ptrdiff_t low = 0, high = edge->last;
+    for (int turn = 0; high - low > 1; turn++) {
+        const int64_t there = records[at].stamp;
+        if (there > time)
+            high = at;
+        else if (time < records[at + 1].stamp)
+            return at;
+        else
+            low = at + 1;
+        const double next = (double)at + ((double)time - (double)there) * edge->rate;
+        if (turn >= 2)
+            at = low + (high - low) / 2;
+        else
+            at = next < (double)high ? (next > (double)low ? (ptrdiff_t)next : low) : high - 1;
+    }
+    return low < edge->last ? low : edge->last - 1;
+}
+
+/* Fetch both neighbours of each moment, and how far it lies between them: NaN where the link has
+   no data for it, which makes all of the pose NaN, and of what that is chained with. */
+INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
+                  double *second, double *share) {
+    const Record *records = edge->records;
+    const ptrdiff_t last = edge->last;
+    ptrdiff_t places[BLOCK];
+    for (int i = 0; i < n; i++)
+        places[i] = width > 1 ? aim(edge, times[i]) : edge->here;
+    for (int i = 0; i < n; i++) {
+        const int64_t time = times[i];
+        ptrdiff_t at = places[i];
+        if (edge->oldest < time && time < edge->newest) {
+            if (width > 1) {
+                /* As a rule it is that one or a neighbour; of many, no branch foretells which. */
+                at -= (at > 0) & (records[at].stamp > time);
+                at += (at < last - 1) & (records[at + 1].stamp <= time);
+            }
+            if (!(records[at].stamp <= time && time < records[at + 1].stamp))
+                at = find(edge, time, at);
+        }
+        else /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
+            at = time == edge->oldest && time != edge->newest ? 0 : last;
+        const Record *here = records + at, *next = here + (at < last);
+        const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
+        const double way = (double)((uint64_t)time - (uint64_t)here->stamp);
+        share[i] = length > 0.0 ? way / length : way > 0.0 ? NAN : 0.0;
+        for (int k = 0; k < 7; k++) {
+            first[k * width + i] = here->pose[k];
+            second[k * width + i] = next->pose[k];
+        }
+    }
+}
+
+/* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
+
+/* Arcs up to this value of 1 - cos are turned by so many terms, the error below 1e-17. */
+#define SHORT_ARC 1e-3
+#define TERMS 4
+
+/* sin(f θ) / sin θ - f for u = 1 - cos θ: how much more of an end an arc takes than its chord.
+   The whole is a product of terms that are all positive:
+   f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
+   Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
+INLINE double bend(double f, double u) {
+    double sum = 1.0, more = 0.0;
+    const double less = u * f * f;
+    for (int i = TERMS; i > 0; i--) {
+        const double scale = 1.0 / (i * (2.0 * i + 1.0));
+        more = sum * (u * (i * i * scale) - less * scale);
+        sum = 1.0 + more;
+    }
+    return f * more;
+}
+
+/* The poses on the way from `a` to `b`, to be written to `out`. */
+INLINE void interpolate(const double *a, const double *b, const double *share, int n, int width,
+                        double *out) {
+    double near[BLOCK], sign[BLOCK], keep[BLOCK], take[BLOCK];
+    int longest = 0;
+    for (int i = 0; i < n; i++) {
+        const double *first = a + 3 * width + i, *second = b + 3 * width + i;
+        const double cosine = first[0] * second[0] + first[width] * second[width]
+            + first[2 * width] * second[2 * width] + first[3 * width] * second[3 * width];
+        sign[i] = cosine < 0.0 ? -1.0 : 1.0;
+        near[i] = fabs(cosine) < 1.0 ? fabs(cosine) : 1.0;
+        longest += 1.0 - near[i] > SHORT_ARC;
+    }
+    for (int i = 0; i < n; i++) {
+        keep[i] = bend(1.0 - share[i], 1.0 - near[i]);
+        take[i] = sign[i] * bend(share[i], 1.0 - near[i]);
+    }
+    for (int k = 0; k < 7; k++)
+        for (int i = 0; i < n; i++) {
+            /* Where a sample is met it is taken as it is: no way leads to infinity. Between equals
+               the rotation stays to the last bit. */
+            const double here = a[k * width + i], there = b[k * width + i];
+            const double chord = here + share[i] * ((k < 3 ? there : sign[i] * there) - here);
+            const double arc = k < 3 ? chord : chord + (keep[i] * here + take[i] * there);
+            out[k * width + i] = share[i] == 0.0 ? here : arc;
+        }
+    for (int i = 0; longest > 0 && i < n; i++)
+        if (1.0 - near[i] > SHORT_ARC && share[i] > 0.0) {
+            const double angle = acos(near[i]), sine = sin(angle);
+            const double kept = sin((1.0 - share[i]) * angle) / sine;
+            const double taken = sign[i] * (sin(share[i] * angle) / sine);
+            for (int k = 3; k < 7; k++)
+                out[k * width + i] = kept * a[k * width + i] + taken * b[k * width + i];
+        }
+}
+
+/* Turn a pose by a rotation. */
+INLINE void turn(double ax, double ay, double az, double aw, double *pose, int width) {
+    const double x = pose[0], y = pose[width], z = pose[2 * width];
+    const double bx = pose[3 * width], by = pose[4 * width], bz = pose[5 * width];
+    const double bw = pose[6 * width];
+    const double cx = 2.0 * (ay * z - az * y);
+    const double cy = 2.0 * (az * x - ax * z);
+    const double cz = 2.0 * (ax * y - ay * x);
+    pose[0] = x + aw * cx + ay * cz - az * cy;
+    pose[width] = y + aw * cy + az * cx - ax * cz;
+    pose[2 * width] = z + aw * cz + ax * cy - ay * cx;
+    pose[3 * width] = aw * bx + ax * bw + ay * bz - az * by;
+    pose[4 * width] = aw * by + ay * bw + az * bx - ax * bz;
+    pose[5 * width] = aw * bz + az * bw + ax * by - ay * bx;
+    pose[6 * width] = aw * bw - ax * bx - ay * by - az * bz;
+}
+
+/* `outer` after `inner`, in place of the latter. */
+INLINE void compose(const double *outer, double *inner, int n, int width) {
+    for (int i = 0; i < n; i++) {
+        const double *o = outer + i;
+        turn(o[3 * width], o[4 * width], o[5 * width], o[6 * width], inner + i, width);
+        for (int k = 0; k < 3; k++)
+            inner[k * width + i] += o[k * width];
+    }
+}
+
+/* `second` as seen from `first`, in place of the former: turned back, the difference of both. */
+INLINE void between(const double *first, double *second, int n, int width) {
+    for (int i = 0; i < n; i++) {
+        const double *o = first + i;
+        for (int k = 0; k < 3; k++)
+            second[k * width + i] -= o[k * width];
+        turn(-o[3 * width], -o[4 * width], -o[5 * width], o[6 * width], second + i, width);
+    }
+}
+
+/* The sign that tf2 gives: `quaternions.canonical`. */
+INLINE void canonical(double *q, int width) {
+    const double sign = leading(q[0], q[width], q[2 * width], q[3 * width]) < 0.0 ? -1.0 : 1.0;
+    for (int k = 0; k < 4; k++)
+        q[k * width] *= sign;
+}
+
+/* Of length one, as samples are, and of tf2's sign: `quaternions.unit`, then `canonical`, of what
+   unit quaternions were chained to. */
+INLINE void settle(double *turn, int n, int width) {
+    for (int i = 0; i < n; i++) {
+        double *q = turn + i;
+        const double square = square_of(q, width);
+        const double scale = fabs(square - 1.0) < ROUNDING ? 1.0 : 1.0 / sqrt(square);
+        for (int k = 0; k < 4; k++)
+            q[k * width] *= scale;
+        canonical(q, width);
+    }
+}
+
+/* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
+INLINE void climb(const Edge *edges, ptrdiff_t count, const int64_t *times, int n, int width,
+                  double *pose) {
+    Rows first, second, step;
+    double share[BLOCK];
+    for (ptrdiff_t e = 0; e < count || e == 0; e++) {
+        double *out = e > 0 ? step : pose;
+        if (count > 0 && edges[e].records != NULL) {
+            fetch(&edges[e], times, n, width, first, second, share);
+            interpolate(first, second, share, n, width, out);
+        }
+        else
+            for (int k = 0; k < 7; k++)
+                for (int i = 0; i < n; i++)
+                    out[k * width + i] = count > 0 ? edges[e].fixed[k] : k == 6;
+        if (e > 0)
+            compose(step, pose, n, width);
+    }
+}
+
+/* Ways ------------------------------------------------------------------- */
+
+/* So many links a way has at most; a longer one is left to Python. */
+#define MOST_LINKS 128
+
+/* The links from source upward, then those from target upward, made ready. */
+typedef struct {
+    Edge edges[MOST_LINKS];
+    ptrdiff_t ups, count;
+} Way;
+
+/* Poses of source in target, or NaN throughout: `Path.solve`. */
+INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose) {
+    Rows other;
+    climb(way->edges, way->ups, times, n, width, pose);
+    if (way->count > way->ups) {
+        climb(way->edges + way->ups, way->count - way->ups, times, n, width, other);
+        between(other, pose, n, width);
+    }
+    settle(pose + 3 * width, n, width);
+}
+
+/* Poses of source in target for so many moments, block by block, or NaN where `valid` becomes 0.
+   Returns how many these are. */
+WIDE static ptrdiff_t solve_rows(const Way *way, ptrdiff_t rows, const int64_t *times,
+                                  double *places, double *turns, unsigned char *valid) {
+    ptrdiff_t missing = 0;
+    Rows pose;
+    for (ptrdiff_t start = 0; start < rows; start += BLOCK) {
+        const int n = rows - start < BLOCK ? (int)(rows - start) : BLOCK;
+        solve_way(way, times + start, n, BLOCK, pose);
+        const double *w = pose + 6 * BLOCK;
+        for (int i = 0; i < n; i++)
+            valid[start + i] = (times[start + i] != 0) & (w[i] == w[i]);
+        for (ptrdiff_t i = 0, row = start; i < n; i++, row++) {
+            missing += !valid[row];
+            const double known = valid[row] ? 1.0 : NAN;
+            for (int k = 0; k < 3; k++)
+                places[3 * row + k] = pose[k * BLOCK + i] * known;
+            for (int k = 0; k < 4; k++)
+                turns[4 * row + k] = pose[(3 + k) * BLOCK + i] * known;
+        }
+    }
+    return missing;
+}
+
+#endif

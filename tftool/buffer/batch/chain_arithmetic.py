@@ -1,0 +1,425 @@
+"""The arithmetic of a batch: one chain of links, many moments.
+
+Everything happens in blocks of a few thousand moments, in arrays made once that stay in
+the processor's cache.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+from numpy import add, copyto, divide, multiply, subtract
+
+from tftool.buffer.batch.edge_columns import (
+    Buckets,
+    Column,
+    Indices,
+    Stamps,
+    find_sorted,
+    settle_oldest,
+)
+from tftool.buffer.history import Sample
+from tftool.geometry import soa
+from tftool.geometry.quaternions import ROUNDING
+from tftool.geometry.rigid_arrays import Floats
+from tftool.geometry.soa import QuaternionRows, VectorRows, chain, rotate, tan_ratio
+
+BLOCK = 1 << 15
+"""Moments worked on together: with more the cache is too small, with fewer threads get in
+each other's way, for between two operations of numpy only one of them can run."""
+
+GROUP = 6
+"""Links whose shares of the way are worked out together, in fewer and longer operations."""
+
+# The intervals of so long a history are still worked out as one: 136 bytes each.
+MOST_INTERVALS = 1 << 16
+
+
+T = TypeVar("T", np.int64, np.float64)
+
+# Where w, x, y and z lie in a sample.
+_WXYZ = [6, 3, 4, 5]
+
+
+class Intervals:
+    """What lies between neighbouring samples of one link, or of some of its rows.
+
+    Worked out once for all moments that fall there: at the share f of the way the position is
+    P + f·D, and the rotation as `soa.Arcs` has it. Quaternions are in wxyz order here. Four
+    numbers lie together in a row because fetching 32 bytes costs what fetching 8 does.
+
+    Attributes:
+        stamps: Where each interval begins, int64, shape (k,).
+        lengths: How many nanoseconds it is long, shape (k,); endless where nothing moves.
+        half_angle_squared: θ² of the arcs, shape (k,).
+        places: P, shape (k, 4); the last number is of no use, as in `paths`.
+        paths: D, shape (k, 4).
+        starts: A of the arcs, shape (k, 4).
+        directions: C of the arcs, shape (k, 4).
+        endless: Whether one of them begins or ends at infinity.
+        row_by_row: Whether they were worked out for given samples, one for each moment.
+        terms: How many terms of the series the largest turn needs; 0 if too many.
+    """
+
+    __slots__ = (
+        "directions",
+        "endless",
+        "half_angle_squared",
+        "lengths",
+        "paths",
+        "places",
+        "row_by_row",
+        "stamps",
+        "starts",
+        "terms",
+    )
+
+    def __init__(self, column: Column, first: npt.NDArray[np.intp] | slice) -> None:
+        """Work out some intervals of a column.
+
+        Args:
+            column: The samples.
+            first: The samples they begin with. After the last sample comes an empty one.
+        """
+        last = len(column.stamps) - 1
+        self.row_by_row = not isinstance(first, slice)
+        if isinstance(first, slice):
+            first = np.arange(first.start, first.stop)
+        second = np.minimum(first + 1, last)
+        begin, end = column.samples.take(first, axis=0), column.samples.take(second, axis=0)
+        self.stamps: Stamps = column.stamps[first]
+        length = (column.stamps[second] - self.stamps).astype(np.float64)
+        still = length == 0.0
+        if column.parents is not None:
+            # Between two parents nothing is interpolated: the older sample stays as it is.
+            still |= column.parents[first] != column.parents[second]
+        k = len(first)
+        self.places: Floats = np.zeros((k, 4))
+        self.paths: Floats = np.zeros((k, 4))
+        self.places[:, :3] = begin[:, :3]
+        self.lengths: Floats = np.where(still, np.inf, length)
+        np.subtract(end[:, :3], begin[:, :3], out=self.paths[:, :3])
+        self.paths[still] = 0.0
+        self.endless = not np.isfinite(self.paths[:, :3]).all()
+        self.starts: Floats = begin[:, _WXYZ]
+        arcs = soa.arcs(self.starts, end[:, _WXYZ])
+        self.directions = arcs.directions
+        self.half_angle_squared = arcs.half_angle_squared
+        self.terms = arcs.terms
+
+    def fetch(
+        self, table: npt.NDArray[T], index: npt.NDArray[np.intp], out: npt.NDArray[T]
+    ) -> None:
+        """Write what one of these tables has for each moment.
+
+        Args:
+            table: Shape (k,) or (k, 4).
+            index: The interval of each moment, shape (n,).
+            out: Is written to, shape (n,) or (n, 4).
+        """
+        if self.row_by_row:
+            np.copyto(out, table)
+        else:
+            table.take(index, 0, out, "clip")
+
+
+class MovingEdge:
+    """A link that moves, made ready for a batch."""
+
+    __slots__ = ("_buckets", "column", "intervals")
+
+    def __init__(self, column: Column, count: int) -> None:
+        """Prepare a link for a batch of `count` moments."""
+        self.column = column
+        k = len(column.stamps)
+        self.intervals = (
+            Intervals(column, slice(0, k)) if 0 < k <= min(count, MOST_INTERVALS) else None
+        )
+        self._buckets: Buckets | None = None
+
+    @property
+    def buckets(self) -> Buckets:
+        """Made when moments first come in no order."""
+        if self._buckets is None:
+            self._buckets = Buckets(self.column.stamps)
+        return self._buckets
+
+
+class StaticEdge:
+    """A link that does not move: one column that stands for all."""
+
+    __slots__ = ("place", "turn")
+
+    def __init__(self, sample: Sample) -> None:
+        x, y, z, qx, qy, qz, qw = sample
+        self.place: Floats = np.array([[x], [y], [z]])
+        self.turn = QuaternionRows(np.array([[qw], [qx], [qy], [qz], [qx], [qy]]))
+
+
+Edge: TypeAlias = "MovingEdge | StaticEdge"
+
+
+class _RowAllocator:
+    """Hands out rows of a block of memory, one after the other."""
+
+    def __init__(self, room: Floats, count: int) -> None:
+        self._rows = room[: ROWS * count].reshape(ROWS, count)
+        self._taken = 0
+
+    def __call__(self, number: int) -> Floats:
+        """The next `number` rows, with one column for each moment."""
+        self._taken += number
+        return self._rows[self._taken - number : self._taken]
+
+
+class _Side:
+    """The product of the links on one side, from the source or from the target upward."""
+
+    __slots__ = ("empty", "place", "turn", "unused")
+
+    def __init__(self, rows: _RowAllocator) -> None:
+        self.empty = True
+        self.place = VectorRows(rows(5))
+        # The quaternions are as long as they come out.
+        self.turn, self.unused = QuaternionRows(rows(6)), QuaternionRows(rows(6))
+
+
+ROWS = 54 + 4 * GROUP
+"""How many numbers are kept for each moment of a block."""
+
+
+# Doubles in one line of the processor's cache.
+_LINE = 8
+
+
+def blocks(count: int, most: int) -> Iterator[slice]:
+    """Split `count` moments into blocks of equal size, at most `most`; the last may be shorter."""
+    size = -(-count // -(-count // most))
+    # Rows of whole lines: an operation that crosses them at each step takes longer.
+    size += -size % _LINE
+    for start in range(0, count, size):
+        yield slice(start, min(start + size, count))
+
+
+def room(count: int) -> Floats:
+    """Allocate working memory for blocks of at most `count` moments.
+
+    In one piece, because the system maps a large one by large pages: it is made and
+    reached more quickly than many small ones.
+    """
+    numbers = np.empty(ROWS * (count + _LINE) + _LINE)
+    address: int = numbers.__array_interface__["data"][0]
+    return numbers[-address // 8 % _LINE :]
+
+
+class BlockArrays:
+    """The arrays in which a block of moments is worked on, and what is done in them."""
+
+    def __init__(self, room: Floats, count: int) -> None:
+        """Lay out memory from `room` for blocks of exactly `count` moments."""
+        self.count = count
+        rows = _RowAllocator(room, count)
+        self._flags = rows(1)[0].view(np.bool_)[:count]
+        # For each link of a group: the interval, the share of the way, and that of the turn.
+        self._index = rows(GROUP).view(np.intp)[:, :count]
+        self._shares, self._ratios = rows(GROUP), rows(GROUP)
+        # The square of half the angle turned, then the factor for `rotate`.
+        self._squares = rows(GROUP)
+        self._whole: Stamps = self._squares.view(np.int64)
+        # What is fetched is used up before the next link is turned.
+        shared = rows(8)
+        self._some, self._more = shared.reshape(2, count, 4)
+        self._spare, self._cross = shared[:3], VectorRows(shared[3:])
+        self._place, self._turn = VectorRows(rows(5)), QuaternionRows(rows(6))
+        self._up, self._down = _Side(rows), _Side(rows)
+
+    def solve(
+        self,
+        up: Sequence[Edge],
+        down: Sequence[Edge],
+        times: Stamps,
+        in_order: bool,
+        translations: Floats,
+        rotations: Floats,
+    ) -> None:
+        """Write the pose of source in target at each moment.
+
+        Args:
+            up: Links from the source to where both sides meet.
+            down: Links from the target to there.
+            times: Moments for which every link has data, shape (n,), n as made room for.
+            in_order: Whether no moment is earlier than the one before.
+            translations: Is written to, shape (n, 3).
+            rotations: Is written to, shape (n, 4).
+        """
+        with np.errstate(all="ignore"):
+            self._climb(self._up, up, times, in_order)
+            self._climb(self._down, down, times, in_order)
+            self._join(translations, rotations)
+
+    def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
+        """Chain the links of one side."""
+        side.empty = not edges
+        for start in range(0, len(edges), GROUP):
+            group = edges[start : start + GROUP]
+            moving = [edge for edge in group if isinstance(edge, MovingEdge)]
+            prepared = iter(self._prepare(moving, times, in_order))
+            for number, edge in enumerate(group, start):
+                place, turn = (self._place, self._turn) if number else (side.place, side.turn)
+                factor: Floats | float = 2.0
+                if isinstance(edge, MovingEdge):
+                    intervals, index, share, ratio, factor = next(prepared)
+                    self._interpolate(intervals, index, share, ratio, place, turn)
+                else:
+                    copyto(place.xyz, edge.place)
+                    copyto(turn.rows, edge.turn.rows)
+                if number:
+                    rotate(turn, factor, side.place, self._cross, self._spare)
+                    add(side.place.xyz, place.xyz, side.place.xyz)
+                    chain(turn, side.turn, side.unused, self._spare)
+                    side.turn, side.unused = side.unused, side.turn
+                side.place.close()
+
+    def _prepare(
+        self, edges: Sequence[MovingEdge], times: Stamps, in_order: bool
+    ) -> list[tuple[Intervals, Indices, Floats, Floats, Floats]]:
+        """Find each moment's interval in some links.
+
+        Returns:
+            For each link its intervals, and rows: the interval of each moment, the share of
+            the way, that of the turn, and the factor for `rotate`.
+        """
+        count = len(edges)
+        if not count:
+            return []
+        whole, shares = self._whole[:count], self._shares[:count]
+        ratios, squares = self._ratios[:count], self._squares[:count]
+        found = [
+            self._find(edge, times, in_order, index)
+            for edge, index in zip(edges, self._index, strict=False)
+        ]
+        for intervals, index, row in zip(found, self._index, whole, strict=False):
+            intervals.fetch(intervals.stamps, index, row)
+        subtract(times, whole, whole)
+        copyto(shares, whole)
+        for intervals, index, row in zip(found, self._index, squares, strict=False):
+            intervals.fetch(intervals.lengths, index, row)
+        divide(shares, squares, shares)
+        for intervals, index, row in zip(found, self._index, squares, strict=False):
+            intervals.fetch(intervals.half_angle_squared, index, row)
+        multiply(squares, shares, squares)
+        multiply(squares, shares, squares)
+        terms = [intervals.terms for intervals in found]
+        tan_ratio(squares, ratios, min(terms) and max(terms))
+        # The squared lengths of these quaternions, whose vector part is the tangent.
+        multiply(squares, ratios, squares)
+        multiply(squares, ratios, squares)
+        add(squares, 1.0, squares)
+        multiply(ratios, shares, ratios)
+        divide(2.0, squares, squares)
+        return list(zip(found, self._index, shares, ratios, squares, strict=False))
+
+    def _find(self, edge: MovingEdge, times: Stamps, in_order: bool, index: Indices) -> Intervals:
+        """The intervals to use, with each moment's number in `index`."""
+        column = edge.column
+        if in_order:
+            find_sorted(column.stamps, times, index)
+        else:
+            edge.buckets.find(times, index, self._whole[0], self._flags)
+        settle_oldest(column, times, index)
+        if edge.intervals is not None:
+            return edge.intervals
+        if in_order:
+            first, last = int(index[0]), int(index[-1])
+            if last - first < len(index):
+                subtract(index, first, index)
+                return Intervals(column, slice(first, last + 1))
+        return Intervals(column, index)
+
+    def _interpolate(
+        self,
+        intervals: Intervals,
+        index: Indices,
+        share: Floats,
+        ratio: Floats,
+        place: VectorRows,
+        turn: QuaternionRows,
+    ) -> None:
+        """Write a link's pose at each moment, given the shares of the way and of the turn."""
+        some, more = self._some, self._more
+        intervals.fetch(intervals.places, index, some)
+        intervals.fetch(intervals.paths, index, more)
+        multiply(share, more.T[:3], place.xyz)
+        add(place.xyz, some.T[:3], place.xyz)
+        if intervals.endless:
+            # Nothing interpolates from or to infinity, but a sample itself is returned as it is.
+            met = np.flatnonzero(share == 0.0)
+            place.xyz[:, met] = some[met, :3].T
+        intervals.fetch(intervals.starts, index, some)
+        intervals.fetch(intervals.directions, index, more)
+        multiply(ratio, more.T, turn.wxyz)
+        add(turn.wxyz, some.T, turn.wxyz)
+        turn.close()
+
+    def _join(self, translations: Floats, rotations: Floats) -> None:
+        """Put the two sides together, and write the answers."""
+        up, down, scale = self._up, self._down, self._squares[0]
+        place, turn = up.place, up.turn
+        if not down.empty:
+            back = down.turn
+            back.conjugate()
+            divide(2.0, self._square(back), scale)
+            if up.empty:
+                place, turn = down.place, back
+                np.negative(place.xyz, place.xyz)
+                place.close()
+            else:
+                # The difference is turned, not the two ends: where they are equal, the
+                # answer is zero to the last bit.
+                subtract(place.xyz, down.place.xyz, place.xyz)
+                place.close()
+                chain(back, turn, up.unused, self._spare)
+                turn = up.unused
+            rotate(back, scale, place, self._cross, self._spare)
+        copyto(translations.T, place.xyz)
+        divide(1.0, np.sqrt(self._square(turn), scale), scale)
+        multiply(turn.wxyz, scale, turn.wxyz)
+        np.copysign(1.0, self._lead(turn), scale)
+        multiply(turn.xyz, scale, rotations.T[:3])
+        multiply(turn.w, scale, rotations.T[3])
+
+    def _square(self, turn: QuaternionRows) -> Floats:
+        """The squares of quaternions' lengths; 1 where rounding is all they differ from it by."""
+        square: Floats = self._shares[0]
+        off, spare, near = self._ratios[0], self._spare, self._flags
+        multiply(turn.xyz, turn.xyz, spare)
+        multiply(turn.w, turn.w, off)
+        # In the order of `quaternions.unit`, which leaves the same ones as they are.
+        for part in (spare[1], spare[2], off):
+            add(spare[0], part, spare[0])
+        copyto(square, spare[0])
+        subtract(square, 1.0, off)
+        np.less(np.abs(off, off), ROUNDING, near)
+        copyto(square, 1.0, where=near)
+        return square
+
+    def _lead(self, turn: QuaternionRows) -> Floats:
+        """The numbers whose sign tf2 makes positive; see `quaternions.canonical`."""
+        small, large, size = self._ratios[0], self._flags, self._spare
+        lead: Floats = self._shares[0]
+        multiply(turn.w, turn.w, small)
+        np.less_equal(small, 0.25, large)
+        if not large.any():
+            w: Floats = turn.w
+            return w
+        copyto(lead, turn.w)
+        x, y, z = turn.xyz
+        np.abs(turn.xyz, size)
+        copyto(lead, x, where=large)
+        second = size[1] > size[0]
+        np.maximum(size[0], size[1], out=size[0])
+        third = size[2] > size[0]
+        copyto(lead, y, where=np.logical_and(large, second, second))
+        copyto(lead, z, where=np.logical_and(large, third, third))
+        return lead

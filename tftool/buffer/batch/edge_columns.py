@@ -1,0 +1,234 @@
+"""A link's history as numpy columns, moments as int64, and where moments lie among samples."""
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.stamps import whole
+from tftool.buffer import refusals
+from tftool.buffer.batch.transform_array import SampleColumns
+from tftool.buffer.forest import Frame, FrameTree
+from tftool.buffer.history import AUTHORITY_SHIFT, PARENT_MASK, WORDS, History, Link, Sample
+from tftool.geometry.rigid_arrays import Floats
+
+Stamps = npt.NDArray[np.int64]
+"""Nanoseconds, shape (n,)."""
+
+Indices = npt.NDArray[np.intp]
+"""Numbers of samples or of rows, shape (n,)."""
+
+# A bucket that holds more samples than this is searched instead.
+_MOST_STEPS = 3
+
+
+class Column:
+    """What a moving link remembered when it was asked: its samples, oldest first.
+
+    As long as it lives, the records it was made of stay as they are; see `History.columns`.
+
+    Attributes:
+        records: As they lie in memory, shape (k, 8); see `history`.
+        stamps: Nanoseconds, shape (k,); a copy, made when first asked for, like `samples`.
+        samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7).
+        origin: The newest sample's parent and authority in one word; see `history`.
+        origins: A parent's and an authority's number in one word for each sample; see `history`.
+            None where all have the same ones.
+        parents: A parent's number for each sample; None where all have the same one.
+    """
+
+    __slots__ = ("_samples", "_stamps", "origin", "origins", "parents", "records")
+
+    def __init__(self, history: History) -> None:
+        flat, origins, self.origin = history.columns()
+        self.records: npt.NDArray[np.int64] = np.frombuffer(flat, dtype=np.int64).reshape(-1, WORDS)
+        self._stamps: Stamps | None = None
+        self._samples: Floats | None = None
+        self.origins = None if origins is None else np.frombuffer(origins, dtype=np.int64)
+        self.parents: npt.NDArray[np.int32] | None = None
+        if self.origins is not None:
+            parents = (self.origins & PARENT_MASK).astype(np.int32)
+            if len(parents) and (parents != parents[-1]).any():
+                self.parents = parents
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    @property
+    def stamps(self) -> Stamps:
+        """See above."""
+        if self._stamps is None:
+            self._stamps = np.ascontiguousarray(self.records[:, 0])
+        return self._stamps
+
+    @property
+    def samples(self) -> Floats:
+        """See above."""
+        if self._samples is None:
+            self._samples = np.ascontiguousarray(self.records.view(np.float64)[:, 1:])
+        return self._samples
+
+    @property
+    def oldest(self) -> int:
+        """The first stamp; later than every stamp when there is none."""
+        return int(self.records[0, 0]) if len(self.records) else 2**63 - 1
+
+    @property
+    def newest(self) -> int:
+        """The last stamp; earlier than every stamp when there is none."""
+        return int(self.records[-1, 0]) if len(self.records) else -(2**63)
+
+    def changes(self) -> Stamps:
+        """Where the parent may be another one than before: both ends, and each change."""
+        ends = self.stamps[[0, -1]] if len(self.stamps) else self.stamps
+        if self.parents is None:
+            return ends
+        changed = np.flatnonzero(self.parents[1:] != self.parents[:-1]) + 1
+        return np.concatenate((ends, self.stamps[changed]))
+
+
+class Columns:
+    """The columns of every link that a question touches, each copied once."""
+
+    __slots__ = ("_held",)
+
+    def __init__(self) -> None:
+        # The link is kept too: a number is only an identity while its object lives.
+        self._held: dict[int, tuple[Link, Column | Sample | None]] = {}
+
+    def of(self, link: Link) -> "Column | Sample | None":
+        """A moving link's column, a static one's sample."""
+        held = self._held.get(id(link))
+        if held is None:
+            held = (link, Column(link) if isinstance(link, History) else link.newest)
+            self._held[id(link)] = held
+        return held[1]
+
+
+def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
+    """See `Buffer.samples`."""
+    link = frame.link
+    is_static = link is not None and link.is_static
+    stamps: Stamps = np.zeros(0, dtype=np.int64)
+    poses: Floats = np.zeros((0, 7))
+    origins: npt.NDArray[np.int64] = np.zeros(0, dtype=np.int64)
+    if isinstance(link, History):
+        column = Column(link)
+        stamps, poses = column.stamps, column.samples
+        if column.origins is None:
+            origins = np.full(len(stamps), column.origin, dtype=np.int64)
+        else:
+            origins = column.origins
+    elif link is not None and link.newest is not None:
+        stamps, poses = np.zeros(1, dtype=np.int64), np.array([link.newest])
+        origins = np.array([link.origin], dtype=np.int64)
+    numbers, kind = np.unique(origins, return_inverse=True)
+    parents = [tree.frames[number & PARENT_MASK].name for number in numbers.tolist()]
+    authorities = [tree.authorities[number >> AUTHORITY_SHIFT] for number in numbers.tolist()]
+    columns = (
+        stamps,
+        np.array(parents, dtype=np.object_)[kind],
+        poses,
+        np.array(authorities, dtype=np.object_)[kind],
+    )
+    for array in columns:
+        array.flags.writeable = False
+    return SampleColumns(frame.name, is_static, *columns)
+
+
+def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
+    """Moments as a contiguous, aligned int64 array, whatever whole numbers they come as.
+
+    Args:
+        times: Shape (n,).
+        name: What they are called in a refusal.
+
+    Raises:
+        TypeError: If they are no whole numbers.
+        ValueError: If the shape is another, or one does not fit 64 bits.
+    """
+    given = np.asarray(times)
+    if given.ndim == 0:
+        raise ValueError(f"{name} have the shape (n,), not (): one goes as a list, [{given}]")
+    if given.ndim != 1:
+        raise ValueError(f"{name} have the shape (n,), not {given.shape}")
+    if given.size == 0:
+        return np.zeros(0, dtype=np.int64)
+    kind = given.dtype.kind
+    if kind == "O":
+        wholes = [whole(time) for time in given]
+        unfit = [time for time in wholes if not refusals.fits(time)]
+        if unfit:
+            raise ValueError(f"{name} hold {unfit[0]} ns, which does not fit 64 bits")
+        return np.array(wholes, dtype=np.int64)
+    if kind == "u" and given.max() >= 2**63:
+        raise ValueError(f"{name} hold {given.max()} ns, which does not fit 64 bits")
+    if kind not in "iu":
+        remedy = {
+            "f": f"np.rint({name} * 1e9).astype(np.int64) makes them of seconds",
+            "M": f"{name}.astype('datetime64[ns]').astype(np.int64) makes them of dates",
+        }.get(kind, "seconds(2.5) makes one of 2.5 seconds")
+        raise TypeError(f"{name} are whole nanoseconds (int64), not {given.dtype}: {remedy}")
+    # Aligned too: rows of a file's bytes may begin anywhere.
+    return np.require(given, np.int64, ["C", "A"])
+
+
+class Buckets:
+    """Finds samples by cutting a history's time into short spans of equal length.
+
+    For moments in no order: two fetches and a comparison instead of a binary search.
+    Spans are a power of two of nanoseconds long, and at most half as long as the samples
+    are apart, so that nearly always one comparison decides.
+    """
+
+    __slots__ = ("_before", "_next", "_oldest", "_shift", "_stamps", "_steps")
+
+    def __init__(self, stamps: Stamps) -> None:
+        self._stamps = stamps
+        self._oldest = int(stamps[0])
+        span = int(stamps[-1]) - self._oldest
+        self._shift = max((span // (2 * len(stamps))).bit_length() - 1, 0)
+        count = (span >> self._shift) + 1
+        starts = self._oldest + (np.arange(count, dtype=np.int64) << self._shift)
+        before = np.searchsorted(stamps, starts, "right") - 1
+        self._before: Indices = before
+        after = np.append(before[1:], len(stamps) - 1)
+        self._steps = int((after - before).max())
+        # The stamp at which the sample after each one begins; there is none after the last.
+        self._next: Stamps = np.append(stamps[1:], np.int64(2**63 - 1))
+
+    def find(
+        self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
+    ) -> None:
+        """Write into `index` the last sample at or before each moment."""
+        if self._steps > _MOST_STEPS:
+            index[:] = np.searchsorted(self._stamps, times, "right") - 1
+            return
+        np.subtract(times, self._oldest, out=spare)
+        np.right_shift(spare, self._shift, out=spare)
+        np.take(self._before, spare, out=index, mode="clip")
+        for _ in range(self._steps):
+            np.take(self._next, index, out=spare, mode="clip")
+            np.less_equal(spare, times, out=later)
+            np.add(index, later, out=index)
+
+
+def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
+    """Write into `index` the last sample at or before each moment; moments in order.
+
+    Where samples are fewer than moments, it is the samples that are searched for.
+    """
+    first, last = (stamps.searchsorted(times[[0, -1]], "right") - 1).tolist()
+    if last - first > len(times):
+        np.subtract(np.searchsorted(stamps[first : last + 1], times, "right"), 1 - first, out=index)
+        return
+    # Counted up from one sample to the next: other than `repeat`, that lets threads run.
+    index.fill(0)
+    np.add.at(index, times.searchsorted(stamps[first + 1 : last + 1], "left"), 1)
+    index[0] += first
+    np.add.accumulate(index, 0, None, index)
+
+
+def settle_oldest(column: Column, times: Stamps, index: Indices) -> None:
+    """Of several samples at the oldest stamp, take the first that came."""
+    stamps = column.stamps
+    if len(stamps) > 2 and stamps[0] == stamps[1] and stamps[0] != stamps[-1]:
+        index[times == stamps[0]] = 0

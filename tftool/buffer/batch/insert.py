@@ -1,0 +1,350 @@
+"""Many samples of one link at once, in numpy: `Buffer.set_transforms`."""
+
+from array import array
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.buffer import refusals
+from tftool.buffer.batch.edge_columns import Column, Indices, Stamps, stamps_of
+from tftool.buffer.forest import FrameTree, stripped
+from tftool.buffer.history import (
+    LONGEST,
+    MOST_ALIKE,
+    PARENT_MASK,
+    SHORTEST,
+    WORDS,
+    History,
+    Sample,
+)
+from tftool.geometry import rigid_arrays as batch
+from tftool.geometry.rigid_arrays import Floats
+
+Flags: TypeAlias = npt.NDArray[np.bool_]
+"""One yes or no for each row."""
+
+MOST_LINES = 10
+"""How many refused rows are logged with their reasons; the others are only counted."""
+
+_LEAST = -(2**63)
+
+_BLOCK = 8192  # rows per chunk, so that a chunk fits the processor's cache
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Insertion:
+    """What became of samples that were set together; true if all were taken.
+
+    Attributes:
+        accepted: For each row whether it was taken, shape (n,). A row that was known already
+            counts as taken, as it does one by one.
+        reasons: The rows that were not, by tf2's code for the reason (TF_NAN_INPUT,
+            TF_OLD_DATA, …), each an array of row numbers.
+    """
+
+    accepted: Flags
+    reasons: dict[str, npt.NDArray[np.intp]]
+
+    def __bool__(self) -> bool:
+        return bool(self.accepted.all())
+
+    def __len__(self) -> int:
+        return len(self.accepted)
+
+    @property
+    def refused(self) -> npt.NDArray[np.intp]:
+        """The numbers of the rows that were not taken, in order."""
+        return np.flatnonzero(~self.accepted)
+
+
+class CheckedRows:
+    """Samples as they came, checked row by row.
+
+    Attributes:
+        stamps: Nanoseconds, shape (n,).
+        samples: Position and canonical unit quaternion, shape (n, 7).
+        reasons: Which rows are objected to, by tf2's code.
+        validated: Which rows are not.
+    """
+
+    def __init__(
+        self,
+        stamps: npt.ArrayLike,
+        translations: npt.ArrayLike,
+        rotations: npt.ArrayLike,
+        rest: tuple[str, str, str],
+    ) -> None:
+        """Check samples.
+
+        Args:
+            stamps: Whole nanoseconds, shape (n,).
+            translations: Shape (n, 3).
+            rotations: Shape (n, 4).
+            rest: Child, parent and authority.
+        """
+        self.stamps = stamps_of(stamps, "stamps")
+        n = len(self.stamps)
+        self.samples: Floats = np.empty((n, 7))
+        self.samples[:, :3] = _shaped(translations, "translations", (n, 3))
+        turns = batch.unit(_shaped(rotations, "rotations", (n, 4)))
+        self.samples[:, 3:] = batch.canonical(turns)
+        self._rest = rest
+        every = np.ones(n, dtype=np.bool_)
+        whole = self._rest[:2]
+        codes = refusals.objections(*whole, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
+        self.reasons = {
+            **{line.partition(":")[0]: every for line in codes},
+            "TF_NAN_INPUT": np.isnan(self.samples).any(axis=1),
+            "TF_DENORMALIZED_QUATERNION": np.isnan(self.samples[:, 6]),
+        }
+        self.validated: Flags = ~np.any(list(self.reasons.values()), axis=0)
+
+    def taken(self, accepted: Flags) -> Iterator[tuple[int, Sample]]:
+        """Stamp and pose of those rows, in the order in which they came."""
+        for row in np.flatnonzero(accepted).tolist():
+            x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
+            yield int(self.stamps[row]), (x, y, z, qx, qy, qz, qw)
+
+    def lines(self, row: int) -> list[str]:
+        """What is said of a row that is objected to."""
+        child, parent, authority = self._rest
+        x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
+        stamp = int(self.stamps[row])
+        return refusals.objections(child, parent, stamp, (x, y, z), (qx, qy, qz, qw), authority)
+
+
+def insert(
+    tree: FrameTree,
+    log: Callable[[str, str], None],
+    max_frames: int,
+    link: tuple[str, str, str],
+    stamps: npt.ArrayLike,
+    translations: npt.ArrayLike,
+    rotations: npt.ArrayLike,
+) -> tuple[Insertion, CheckedRows]:
+    """Set many samples of one link.
+
+    Args:
+        tree: Where to.
+        log: Takes the sentences about what is refused.
+        max_frames: How many names there may be.
+        link: Parent, child and authority.
+        stamps: Shape (n,).
+        translations: Shape (n, 3).
+        rotations: Shape (n, 4).
+
+    Returns:
+        What became of them, and they themselves as they were read.
+    """
+    parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
+    rows = CheckedRows(stamps, translations, rotations, (child, parent, authority))
+    accepted, reasons = rows.validated.copy(), dict(rows.reasons)
+    long = refusals.long_name(child, parent, authority, tree.max_name)
+    if long:
+        reasons = {"TF_LONG_NAME": np.ones(len(accepted), dtype=np.bool_)}
+        accepted[:] = False
+        log("ERROR", long)
+    if accepted.any() and not tree.has_room(child, parent, max_frames):
+        full = refusals.too_many_frames(child, authority, len(tree.frames))
+        reasons["TF_TOO_MANY_FRAMES"] = accepted.copy()
+        accepted[:] = False
+        log("ERROR", full)
+    if accepted.any():
+        frame, history, _ = tree.hang(child, parent, False)
+        assert isinstance(history, History)
+        origin = tree.origin(parent, authority)
+        # As a rule all of them: then nothing is copied.
+        chosen = slice(None) if accepted.all() else np.flatnonzero(accepted)
+        old = merge(history, origin, rows.stamps[chosen], rows.samples[chosen])
+        if old.any():
+            late: Flags = np.zeros(len(accepted), dtype=np.bool_)
+            late[np.flatnonzero(accepted)[old]] = True
+            reasons["TF_OLD_DATA"] = late
+            accepted &= ~late
+        if not old.all():
+            tree.note(frame, parent, authority, origin)
+    refused = [] if long else np.flatnonzero(~accepted).tolist()
+    if "TF_TOO_MANY_FRAMES" in reasons:
+        refused = np.flatnonzero(~rows.validated).tolist()
+    for row in refused[:MOST_LINES]:
+        for line in rows.lines(row):
+            log("ERROR", line)
+        if rows.validated[row]:
+            log("WARN", refusals.old_data(child, int(rows.stamps[row]), authority))
+    if len(refused) > MOST_LINES:
+        log("WARN", refusals.and_more(child, len(refused) - MOST_LINES, authority))
+    found = {code: np.flatnonzero(flags) for code, flags in reasons.items() if flags.any()}
+    return Insertion(accepted, found), rows
+
+
+def adopt(
+    tree: FrameTree,
+    max_frames: int,
+    link: tuple[str, str, str],
+    records: npt.NDArray[np.int64],
+    kept: int = 0,
+) -> bool:
+    """Have a child that is not known yet keep recorded samples as its history, uncopied.
+
+    Args:
+        tree: Where to.
+        max_frames: How many names there may be.
+        link: Parent, child and authority.
+        records: As a history keeps them, shape (n, 8): stamps and seven doubles each.
+        kept: How many from the first on are known to be as a history keeps them.
+
+    Returns:
+        Whether they were taken, all of them. If not, nothing was done: something about them
+        is for `insert` to look at row by row.
+
+    Raises:
+        TypeError: If they are no rows of eight whole numbers.
+    """
+    if records.dtype != np.int64 or records.ndim != 2 or records.shape[1] != WORDS:
+        raise TypeError(
+            f"records are int64 of the shape (n, {WORDS}), not {records.dtype} of {records.shape}"
+        )
+    parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
+    objections = refusals.objections(child, parent, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
+    there = tree.numbers.get(child)
+    if refusals.long_name(child, parent, link[2], tree.max_name):
+        return False
+    if objections or not len(records) or not tree.has_room(child, parent, max_frames):
+        return False
+    if there is not None and tree.frames[there].link is not None:
+        return False
+    if int(records[-1, 0]) - int(records[0, 0]) > tree.limit:
+        return False
+    lent = words = _lent(records)
+    for begin in range(kept, len(records), _BLOCK):
+        # With the one before: what lies in the cache is looked at only once.
+        stamps = records[max(begin - 1, 0) : begin + _BLOCK, 0]
+        samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
+        if not (stamps[1:] > stamps[:-1]).all() or not np.isfinite(samples).all():
+            return False
+        if _is_canonical(samples[:, 3:]):
+            continue
+        turns = batch.canonical(batch.unit(samples[:, 3:]))
+        if np.isnan(turns).any():
+            return False
+        if words is lent:
+            words = _words(records)
+        changed = np.frombuffer(words, dtype=np.float64).reshape(-1, WORDS)
+        changed[begin : begin + _BLOCK, 4:] = turns
+    frame, history, _ = tree.hang(child, parent, False)
+    assert isinstance(history, History)
+    origin = tree.origin(parent, authority)
+    history.borrow(words, origin)
+    tree.note(frame, parent, authority, origin)
+    return True
+
+
+def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
+    """The records as flat words: where they are, as far as they lie one behind the other."""
+    if not records.flags.c_contiguous:
+        return _words(records)
+    return records.data.cast("B").cast("q")
+
+
+def _is_canonical(turns: Floats) -> bool:
+    """Whether finite quaternions are as a history keeps them: of length one, of tf2's sign."""
+    x, y, z, w = np.moveaxis(turns, -1, 0)
+    # Added in the order in which it is done one by one: it decides about the last bit.
+    with np.errstate(over="ignore", under="ignore"):
+        square = x * x + y * y + z * z + w * w
+    if square.min() <= SHORTEST or square.max() >= LONGEST:
+        return False
+    # All four: of a half turn's w, zero, the other sign is no other number.
+    return bool(w.min() > 0.5 or (batch.canonical(turns) == turns).all())
+
+
+def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Flags:
+    """Insert validated samples as if one by one in their order; says which were too old."""
+    n = len(stamps)
+    limit = min(history.limit, 2**63 - 1)
+    # The newest stamp there was before each row: what it is too old for, and what it prunes by.
+    before = np.empty(n, dtype=np.int64)
+    before[0] = history.newest_stamp if len(history) else _LEAST
+    np.maximum(before[0], np.maximum.accumulate(stamps[:-1]), out=before[1:])
+    floors = np.where(before < _LEAST + limit, _LEAST, before - limit)
+    old: Flags = stamps < floors
+    floor = int(floors[-1])
+    in_order = bool(np.all(stamps[1:] > stamps[:-1]))
+    if in_order and (not len(history) or int(stamps[0]) > history.newest_stamp):
+        kept = slice(int(np.searchsorted(stamps, floor)), n)
+        records = _records(stamps[kept], samples[kept])
+        if not len(history):
+            history.replace(records, array("q", [origin]) * (len(records) // WORDS))
+            return old
+        if history.origins is None and history.origin == origin:
+            history.extend(records, floor)
+            return old
+
+    column = Column(history)
+    there = column.origins
+    if there is None:
+        there = np.full(len(column.stamps), column.origin, dtype=np.int64)
+    came = stamps[~old]
+    all_stamps = np.concatenate((column.stamps, came))
+    all_samples = np.concatenate((column.samples, samples[~old]))
+    all_origins = np.concatenate((there, np.full(len(came), origin, dtype=np.int64)))
+    # Stable: among equal stamps, what came later stays behind what came before.
+    order = np.argsort(all_stamps, kind="stable")
+    order = order[all_stamps[order] >= floor]
+    order = order[_first_of_their_kind(all_stamps, all_samples, all_origins & PARENT_MASK, order)]
+    history.replace(_records(all_stamps[order], all_samples[order]), _words(all_origins[order]))
+    return old
+
+
+def _first_of_their_kind(
+    stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
+) -> Flags:
+    """Which samples are not the very same as one of the last before it with the same stamp."""
+    keep = np.ones(len(order), dtype=np.bool_)
+    ordered = stamps[order]
+    equal = np.flatnonzero(ordered[1:] == ordered[:-1])
+    seen: deque[tuple[float, ...]] = deque(maxlen=MOST_ALIKE)
+    last = -2
+    for place in equal.tolist():
+        if place != last + 1:
+            seen.clear()
+            seen.append(_kind(samples, parents, int(order[place])))
+        last = place
+        kind = _kind(samples, parents, int(order[place + 1]))
+        if kind in seen:
+            keep[place + 1] = False
+        else:
+            seen.append(kind)
+    return keep
+
+
+def _kind(samples: Floats, parents: npt.NDArray[np.int64], row: int) -> tuple[float, ...]:
+    return (*samples[row].tolist(), float(parents[row]))
+
+
+def _shaped(numbers: npt.ArrayLike, name: str, shape: tuple[int, int]) -> Floats:
+    given = np.asarray(numbers)
+    if given.size == 0 and shape[0] == 0 and given.ndim == 1:
+        return np.empty(shape)
+    if given.shape != shape:
+        raise ValueError(f"{name} for {shape[0]} stamps have the shape {shape}, not {given.shape}")
+    if given.dtype.kind not in "fiub":
+        raise TypeError(f"{name} are numbers (float64), not {given.dtype}")
+    return np.asarray(given, dtype=np.float64)
+
+
+def _records(stamps: Stamps, samples: Floats) -> "array[int]":
+    records = np.empty((len(stamps), WORDS), dtype=np.int64)
+    records[:, 0] = stamps
+    records.view(np.float64)[:, 1:] = samples
+    return _words(records.reshape(-1))
+
+
+def _words(values: npt.NDArray[np.int64]) -> "array[int]":
+    result: array[int] = array("q")
+    result.frombytes(np.ascontiguousarray(values).data.cast("B"))
+    return result

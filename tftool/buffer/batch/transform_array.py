@@ -1,0 +1,240 @@
+"""Many transforms at once, in numpy: what `Buffer.lookup_transforms` gives."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import UsageError
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry import rigid_arrays as batch
+from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.geometry.rigid_arrays import Floats
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import RigidTransform, Rotation
+
+
+class Velocities(NamedTuple):
+    """How fast something moves and turns, row by row.
+
+    Attributes:
+        linear: Metres per second, shape (n, 3).
+        angular: Radians per second about the axes of the target frame, shape (n, 3).
+    """
+
+    linear: Floats
+    angular: Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SampleColumns:
+    """What a buffer remembers of one frame's link, oldest first: `Buffer.samples`.
+
+    The arrays are read-only copies. Of equal stamps the one that was set last comes last.
+
+    Attributes:
+        frame: The child.
+        is_static: Whether the link holds at all times; then there is one sample, of stamp 0.
+        stamps: Nanoseconds, int64, shape (n,), in order.
+        parents: The parent of each sample, `str` objects, shape (n,).
+        poses: x, y, z in metres and a unit quaternion x, y, z, w, shape (n, 7).
+        authorities: Who sent each sample, `str` objects, shape (n,).
+    """
+
+    frame: str
+    is_static: bool
+    stamps: npt.NDArray[np.int64]
+    parents: npt.NDArray[np.object_]
+    poses: Floats
+    authorities: npt.NDArray[np.object_]
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+    def __repr__(self) -> str:
+        return f"<SampleColumns: {len(self)} samples of {self.frame!r}>"
+
+    @property
+    def translations(self) -> Floats:
+        """Metres, shape (n, 3)."""
+        return self.poses[:, :3]
+
+    @property
+    def rotations(self) -> Floats:
+        """Unit quaternions in xyzw order, shape (n, 4)."""
+        return self.poses[:, 3:]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TransformArray:
+    """The poses of one frame in another at many moments.
+
+    Row i holds the pose of `child_frame_id` in `frame_id` at `stamps[i]`: it moves points
+    given in the child into the other. An index gives a `TransformStamped`; a slice, a mask
+    or an array of indices gives a `TransformArray`.
+
+    Attributes:
+        frame_id: The target of the lookup.
+        child_frame_id: The source of the lookup.
+        stamps: Nanoseconds, int64, shape (n,).
+        translations: Metres, shape (n, 3).
+        rotations: Unit quaternions in xyzw order, shape (n, 4).
+        valid: Whether a row holds a pose, shape (n,); the others are NaN.
+    """
+
+    frame_id: str
+    child_frame_id: str
+    stamps: npt.NDArray[np.int64]
+    translations: Floats
+    rotations: Floats
+    valid: npt.NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+    @overload
+    def __getitem__(self, rows: int) -> TransformStamped: ...
+    @overload
+    def __getitem__(self, rows: "slice | npt.NDArray[Any] | list[int]") -> "TransformArray": ...
+    def __getitem__(self, rows: Any) -> "TransformStamped | TransformArray":
+        stamps = self.stamps[rows]
+        if np.ndim(stamps) == 0:
+            x, y, z = self.translations[rows].tolist()
+            qx, qy, qz, qw = self.rotations[rows].tolist()
+            pose = Transform(Vector3(x, y, z), Quaternion(qx, qy, qz, qw))
+            return TransformStamped(int(stamps), self.frame_id, self.child_frame_id, pose)
+        return TransformArray(
+            self.frame_id,
+            self.child_frame_id,
+            stamps,
+            self.translations[rows],
+            self.rotations[rows],
+            self.valid[rows],
+        )
+
+    def __iter__(self) -> Iterator[TransformStamped]:
+        return (self[row] for row in range(len(self)))
+
+    def __repr__(self) -> str:
+        held = int(np.count_nonzero(self.valid))
+        return (
+            f"<TransformArray: {len(self)} poses of '{self.child_frame_id}' in "
+            f"'{self.frame_id}', {held} of them valid>"
+        )
+
+    def matrices(self) -> Floats:
+        """Homogeneous matrices, shape (n, 4, 4); NaN in rows that are not valid."""
+        return batch.matrices(self.translations, self.rotations)
+
+    def apply(self, points: npt.ArrayLike) -> Floats:
+        """Move points: given in the child, they come out in the other frame.
+
+        Args:
+            points: Shape (3,): one point, moved by each row. Shape (n, 3): point i moved by
+                row i. Shape (n, k, 3): k points for each row.
+
+        Returns:
+            Shape (n, 3) or (n, k, 3), new.
+
+        Raises:
+            ValueError: If the shape is another.
+        """
+        given = np.asarray(points, dtype=np.float64)
+        n = len(self)
+        if given.shape != (3,) and (
+            given.ndim not in (2, 3) or given.shape[0] != n or given.shape[-1] != 3
+        ):
+            raise ValueError(
+                f"points for {n} transforms have the shape (3,), ({n}, 3) or ({n}, k, 3), "
+                f"not {given.shape}"
+            )
+        if given.ndim == 3:
+            return batch.rotate(self.rotations[:, None, :], given) + self.translations[:, None, :]
+        return batch.rotate(self.rotations, given) + self.translations
+
+    def inverse(self) -> "TransformArray":
+        """The poses of `frame_id` in `child_frame_id`."""
+        back = batch.conjugate(self.rotations)
+        return TransformArray(
+            self.child_frame_id,
+            self.frame_id,
+            self.stamps,
+            -batch.rotate(back, self.translations),
+            batch.canonical(back),
+            self.valid,
+        )
+
+    def __matmul__(self, other: "TransformArray | Transform") -> "TransformArray":
+        """Chain row by row: `a_from_b @ b_from_c` is `a_from_c`.
+
+        With a `Transform`, each row is chained with that one; names and stamps stay.
+
+        A row is valid if both it was made of are; one with a rotation of all zeros is not.
+
+        Raises:
+            ValueError: If the number of rows differs, or the inner frames do.
+        """
+        if isinstance(other, Transform):
+            translations = np.array(other.translation)
+            rotations = batch.unit(np.array(other.rotation))
+            child, valid = self.child_frame_id, self.valid
+        elif isinstance(other, TransformArray):
+            if other.frame_id != self.child_frame_id:
+                raise ValueError(
+                    f"'{self.frame_id}' from '{self.child_frame_id}' cannot be chained with "
+                    f"'{other.frame_id}' from '{other.child_frame_id}': the inner frames differ"
+                )
+            if len(other) != len(self):
+                raise ValueError(
+                    f"{len(self)} transforms cannot be chained with {len(other)}, row by row"
+                )
+            translations, rotations = other.translations, other.rotations
+            child, valid = other.child_frame_id, self.valid & other.valid
+        else:
+            return NotImplemented
+        moved = batch.rotate(self.rotations, translations) + self.translations
+        turned = batch.canonical(batch.multiply(self.rotations, rotations))
+        # Not so where one of the two is all zeros, or NaN.
+        valid = valid & (np.einsum("ij,ij->i", turned, turned) > 0.5)
+        moved[~valid] = np.nan
+        turned[~valid] = np.nan
+        return TransformArray(self.frame_id, child, self.stamps, moved, turned, valid)
+
+    def velocities(self) -> Velocities:
+        """How the origin of the child moves and how the child turns, given in `frame_id`.
+
+        The mean from the row before to the row after; at either end, to the one neighbour.
+        NaN where one of the two is not valid, or both have the same stamp.
+        """
+        n = len(self)
+        here = np.arange(n)
+        before, after = np.maximum(here - 1, 0), np.minimum(here + 1, max(n - 1, 0))
+        lasted = (self.stamps[after] - self.stamps[before]) * 1e-9
+        lasted = np.where(lasted == 0.0, np.nan, lasted)[:, None]
+        moved = self.translations[after] - self.translations[before]
+        turned = batch.multiply(self.rotations[after], batch.conjugate(self.rotations[before]))
+        return Velocities(moved / lasted, batch.rotation_vectors(turned) / lasted)
+
+    def to_scipy(self) -> "tuple[RigidTransform, Rotation]":
+        """The same as scipy's `RigidTransform` and, for itself, its `Rotation`.
+
+        Raises:
+            UsageError: If scipy is not installed, or older than 1.16.
+            ValueError: If a row is not valid.
+        """
+        try:
+            from scipy.spatial.transform import RigidTransform, Rotation
+        except ImportError as missing:
+            raise UsageError(
+                "to_scipy needs scipy 1.16 or newer: pip install 'scipy>=1.16'"
+            ) from missing
+        if not self.valid.all():
+            count = int(np.count_nonzero(~self.valid))
+            raise ValueError(
+                f"{count} of {len(self)} rows hold no pose: take path[path.valid].to_scipy()"
+            )
+        rotation = Rotation.from_quat(self.rotations)
+        return RigidTransform.from_components(self.translations, rotation), rotation

@@ -1,0 +1,890 @@
+"""The buffer: remembers transforms over time and answers how frames lie to each other."""
+
+import struct
+from collections.abc import Callable, Iterable
+from itertools import pairwise
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
+
+from tftool.base.errors import TransformException
+from tftool.base.listeners import Listeners, Report, listener_text
+from tftool.base.stamps import CACHE_TIME, Duration, Stamp, as_seconds, whole
+from tftool.buffer import forest as tree
+from tftool.buffer import refusals, snapshot, velocity
+from tftool.buffer.forest import FrameTree
+from tftool.buffer.history import (
+    AUTHORITY_SHIFT,
+    NEEDS_CHECK,
+    PARENT_CHANGED,
+    RECORD,
+    STORED,
+    TOO_OLD,
+    History,
+    Sample,
+)
+from tftool.buffer.native_kernel import Door, usual_by_kernel
+from tftool.buffer.path import Path
+from tftool.buffer.requests import NEVER, Callback, Requests
+from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.buffer.solver import Solver
+from tftool.geometry import poses, quaternions, rigid
+from tftool.geometry.rigid import Transform
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from tftool.buffer.batch.insert import Insertion
+    from tftool.buffer.batch.transform_array import SampleColumns, TransformArray
+
+__all__ = ["NEVER", "NO_LIMIT", "Buffer"]
+
+NO_LIMIT: Final[Duration] = 2**63 - 1
+"""A cache time with which nothing is ever pruned, as for a recording."""
+
+MAX_FRAMES = 16_384
+"""How many names a buffer takes unless `max_frames` says otherwise."""
+
+MAX_NAME = 4_096
+"""How many bytes a name may have, in UTF-8, unless `max_name` says otherwise; tf2 has no limit."""
+
+Listener: TypeAlias = Callable[[TransformStamped, bool, str], object]
+"""Called with each accepted sample, whether it is static, and its authority."""
+
+# A cache time below this many nanoseconds was probably meant in seconds.
+_LIKELY_SECONDS: Final = 1_000_000
+
+# Raised by an argument that is no sample, by an unknown frame, or by a stamp beyond 64 bits.
+_NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
+
+# How many of the newest samples are searched for rival senders.
+_TURNS: Final = 4096
+
+_NO_PATHS: dict[str, Path] = {}
+_new: Final = tuple.__new__
+
+
+class Shortened(NamedTuple):
+    """A link that was cut short.
+
+    Attributes:
+        child: Its frame.
+        authority: Who sent its newest sample.
+        samples: How many it had.
+        kept: How many it has now.
+    """
+
+    child: str
+    authority: str
+    samples: int
+    kept: int
+
+
+def _share(sizes: list[int], room: int) -> int:
+    """How many samples each link may have, for all of them to have room; at least two."""
+    left = len(sizes)
+    for size in sorted(sizes):
+        if size * left > room:
+            return max(2, room // left)
+        room -= size
+        left -= 1
+    return max(sizes)
+
+
+@usual_by_kernel
+class Buffer(Door):
+    """Named frames over time, as tf2 keeps them.
+
+    It knows no clock and waits for nothing: time comes in with the samples and with
+    the questions, in nanoseconds, and 0 in a question means the latest.
+
+    Threads: a buffer belongs to one thread, as a rule the event loop's, and that one alone
+    sets, clears, listens, requests and asks for single transforms or snapshots. Meanwhile any
+    other thread may ask for many: `lookup_transforms`, `lookup_transforms_full` and `samples`
+    copy what they need of each link in one piece, and then compute on their copy. They see
+    each link as it was at some moment during the call. `clear`, and a child that changes
+    between static and moving, are no different from other changes.
+    """
+
+    def __init__(
+        self,
+        cache_time: Duration = CACHE_TIME,
+        *,
+        log: refusals.Log | None = None,
+        max_frames: int = MAX_FRAMES,
+        max_name: int = MAX_NAME,
+        report: Report | None = None,
+    ) -> None:
+        """Make an empty buffer.
+
+        Args:
+            cache_time: How far each moving link remembers back from its newest sample;
+                NO_LIMIT for a buffer that prunes nothing.
+            log: Is called when a sample is refused: level ("WARN", "ERROR") and sentence.
+                Without one, Python's own `logging` is.
+            max_frames: How many names it takes, as names come from outside.
+            max_name: How many bytes a name may have, likewise.
+            report: Takes what a listener or the callback of a request raises, and the name of
+                its owner; without one, that is an error in the log.
+
+        Raises:
+            TypeError: If `cache_time` is not a whole number.
+            ValueError: If `cache_time` is negative.
+        """
+        cache_time = whole(cache_time)
+        if cache_time < 0:
+            raise ValueError(f"cache_time must not be negative, but is {cache_time} ns")
+        self.cache_time = cache_time
+        self.max_frames = max_frames
+        self.max_name = max_name
+        self._log = log or refusals.log_to_logging
+        if 0 < cache_time < _LIKELY_SECONDS:
+            self._log("WARN", refusals.short_cache(cache_time))
+        self._tree = FrameTree(cache_time, max_name)
+        self._senders = self._tree.senders
+        self._solver = Solver(self._tree, cache_time)
+        self._paths = self._solver.paths
+        self._requests = Requests(self._solver.examine)
+        self._pending = self._requests.pending
+        self._report = report or self._log_failure
+        self._listeners: Listeners[TransformStamped, bool, str] = Listeners(self._report)
+        self._listening = self._listeners.registered
+
+    # Setting
+
+    def __repr__(self) -> str:
+        kept = "all" if self.cache_time == NO_LIMIT else f"{as_seconds(self.cache_time):g} s"
+        return f"<Buffer: {len(self.frames())} frames, keeps {kept}>"
+
+    def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
+        """Remember a sample of a link that moves.
+
+        Args:
+            transform: The pose of a child in its parent. One leading slash is taken off
+                either name; any finite quaternion but zero is scaled to length one.
+            authority: Who sent it.
+
+        Returns:
+            Whether it was taken. If not, the log was told why, and nothing is lost.
+
+        Raises:
+            TypeError: If the stamp is not a whole number.
+        """
+        try:
+            stamp, parent, child, pose = transform
+            known_parent, known_authority, origin, history = self._senders[child]
+            outcome = (
+                history.insert(stamp, origin, pose)
+                if parent == known_parent
+                and authority == known_authority
+                and pose.__class__ is Transform
+                else NEEDS_CHECK
+            )
+        except _NOT_PLAIN:
+            return self._set_slowly(transform, authority, False)
+        if outcome != STORED:
+            if outcome == NEEDS_CHECK:
+                return self._set_slowly(transform, authority, False)
+            if outcome == TOO_OLD:
+                self._log("WARN", refusals.old_data(child, stamp, authority))
+                return False
+            if outcome == PARENT_CHANGED:
+                self._solver.drop_paths()
+        if self._listening or self._pending:
+            self._tell_of(transform, authority)
+        return True
+
+    def _tell_of(self, transform: TransformStamped, authority: str) -> None:
+        """Notify of a stored sample, unchanged but for its quaternion's length and sign."""
+        stamp, parent, child, pose = transform
+        kept: tuple[TransformStamped, ...] = ()
+        if self._listening:
+            kept = (TransformStamped(stamp, parent, child, rigid.canonical(pose)),)
+        self._tell(kept, False, authority, (child,))
+
+    def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
+        """Set a link that holds at all times; it takes the place of all the child had before.
+
+        Returns:
+            Whether it was taken. If not, the log was told why, and nothing is lost.
+
+        Raises:
+            TypeError: If the stamp is not a whole number.
+        """
+        return self._set_slowly(transform, authority, True)
+
+    def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
+        """Set what is new, unusual or static: every check, each with its own line in the log."""
+        stamp, parent, child, pose = _parts(transform)
+        stamp = whole(stamp)
+        parent, child = tree.stripped(parent), tree.stripped(child)
+        rotation = quaternions.canonical(quaternions.unit(pose.rotation))
+        errors = refusals.objections(child, parent, stamp, pose.translation, rotation, authority)
+        trees = self._tree
+        if too_long := refusals.long_name(child, parent, authority, trees.max_name):
+            errors = [too_long]
+        if not errors and not trees.has_room(child, parent, self.max_frames):
+            errors = [refusals.too_many_frames(child, authority, len(trees.frames))]
+        if errors:
+            for error in errors:
+                self._log("ERROR", error)
+            return False
+
+        known = len(trees.frames)
+        frame, link, fresh = trees.hang(child, parent, static)
+        pose = rigid.transform(pose.translation, rotation)
+        origin = trees.origin(parent, authority)
+        outcome = link.insert(stamp, origin, pose, True)
+        # A new name wakes requests even if the sample is refused; a parent that was
+        # known is none, or each new child would wake every request below its parent.
+        named = [new.name for new in trees.frames[known:]]
+        if outcome == TOO_OLD:
+            self._log("WARN", refusals.old_data(child, stamp, authority))
+            self._tell((), static, authority, named)
+            return False
+        trees.note(frame, parent, authority, origin)
+        if fresh or outcome == PARENT_CHANGED:
+            self._solver.drop_paths()
+        if self._listening or self._pending:
+            kept = TransformStamped(stamp, parent, child, pose)
+            self._tell((kept,), static, authority, (child, *named))
+        return True
+
+    def _tell(
+        self,
+        samples: Iterable[TransformStamped],
+        static: bool,
+        authority: str,
+        changed: Iterable[str],
+    ) -> None:
+        """Call the listeners, then answer the requests that wait for one of these frames."""
+        for sample in samples:
+            self._listeners.call(sample, static, authority)
+        if self._pending:
+            for failure in self._requests.changed(*changed):
+                self._report("", failure)
+
+    def _log_failure(self, owner: str, failure: Exception) -> None:
+        self._log("ERROR", listener_text(owner, failure))
+
+    def set_transforms(
+        self,
+        parent: str,
+        child: str,
+        stamps: "npt.ArrayLike",
+        translations: "npt.ArrayLike",
+        rotations: "npt.ArrayLike",
+        authority: str = "",
+    ) -> "Insertion":
+        """Remember many samples of one link that moves, as if set one by one in their order.
+
+        Listeners are called with each of them, and pending requests are tried again, once all
+        are in.
+
+        Args:
+            parent: The frame the poses are given in.
+            child: The frame whose poses they are.
+            stamps: Whole nanoseconds, shape (n,), in any order.
+            translations: Metres, shape (n, 3).
+            rotations: Quaternions in xyzw order, shape (n, 4); any finite one but zero.
+            authority: Who sent them.
+
+        Returns:
+            Which rows were taken, and why the others were not; true if all were. The log
+            has the first ten.
+
+        Raises:
+            TypeError: If the stamps are no whole numbers.
+            ValueError: If a shape does not fit.
+        """
+        from tftool.buffer.batch import insert
+
+        known = len(self._tree.frames)
+        link = (parent, child, authority)
+        report, rows = insert.insert(
+            self._tree, self._log, self.max_frames, link, stamps, translations, rotations
+        )
+        self._solver.drop_paths()
+        if report.accepted.any():
+            parent, child = tree.stripped(parent), tree.stripped(child)
+            taken = (
+                _stamped(parent, child, stamp, sample)
+                for stamp, sample in rows.taken(report.accepted)
+            )
+            grown = len(self._tree.frames) > known
+            news = (child, parent) if grown else (child,)
+            self._tell(taken if self._listening else (), False, authority, news)
+        return report
+
+    def set_records(
+        self, parent: str, child: str, records: "npt.NDArray[np.int64]", authority: str = ""
+    ) -> "Insertion | None":
+        """As `set_transforms`, of samples that lie in memory as the buffer keeps them.
+
+        Where nothing speaks against it they are not copied: the buffer reads them where they
+        are, and copies them before it inserts or prunes.
+
+        Args:
+            parent: The frame the poses are given in.
+            child: The frame whose poses they are.
+            records: One row a sample, shape (n, 8): nanoseconds, and bit by bit the seven
+                doubles x y z and x y z w.
+            authority: Who sent them.
+
+        Returns:
+            Which rows were taken, and why the others were not; None if all were.
+
+        Raises:
+            TypeError: If the records are no rows of eight whole numbers.
+        """
+        import numpy as np
+
+        if self.adopt_records(parent, child, records, authority):
+            return None
+        numbers = records.view(np.float64)
+        return self.set_transforms(
+            parent, child, records[:, 0], numbers[:, 1:4], numbers[:, 4:], authority
+        )
+
+    def shorten(self, limit: int) -> "list[Shortened]":
+        """Forget the oldest samples of the longest links, until all take no more than `limit`.
+
+        The newest two of a link always stay. Where something must go, a quarter more does, so
+        that it need not be done again at once.
+
+        Args:
+            limit: Bytes, for the samples alone.
+
+        Returns:
+            Which links were cut.
+        """
+        links = [
+            (frame, frame.link)
+            for frame in self._tree.frames
+            if isinstance(frame.link, History) and frame.link
+        ]
+        sizes = [len(link) for _, link in links]
+        room = limit // RECORD
+        if sum(sizes) <= room:
+            return []
+        most = _share(sizes, room - room // 4)
+        cut = []
+        for (frame, link), size in zip(links, sizes, strict=True):
+            if size > most:
+                link.keep_last(most)
+                cut.append(Shortened(frame.name, frame.authority or "", size, len(link)))
+        return cut
+
+    def adopt_records(
+        self,
+        parent: str,
+        child: str,
+        records: "npt.NDArray[np.int64]",
+        authority: str = "",
+        kept: int = 0,
+    ) -> bool:
+        """As `set_records`, if nothing speaks against them: each is newer than the one before.
+
+        Args:
+            parent: See there.
+            child: Likewise.
+            records: Likewise.
+            authority: Likewise.
+            kept: How many of them, from the first on, are known to be such, finite, and with
+                unit quaternions of tf2's sign.
+
+        Returns:
+            Whether they were taken, all of them. Nothing was done if not.
+
+        Raises:
+            TypeError: As there.
+        """
+        from tftool.buffer.batch import insert
+
+        known = len(self._tree.frames)
+        if self._listening or not insert.adopt(
+            self._tree, self.max_frames, (parent, child, authority), records, kept
+        ):
+            return False
+        self._solver.drop_paths()
+        named = [frame.name for frame in self._tree.frames[known:]]
+        self._tell((), False, authority, (tree.stripped(child), *named))
+        return True
+
+    def clear(self) -> None:
+        """Forget all that moves; names, statics and pending requests stay."""
+        for frame in self._tree.frames:
+            if frame.link is not None and not frame.link.is_static:
+                frame.link.clear()
+        self._solver.drop_paths()
+
+    def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
+        """Have `callback` called after each accepted sample; call what is returned to stop.
+
+        What it raises is reported under the name of its `owner`; the sample stays, and the
+        code that set it goes on.
+        """
+        withdraw = self._listeners.add(callback, owner)
+        self._listening = self._listeners.registered
+
+        def stop() -> None:
+            withdraw()
+            self._listening = self._listeners.registered
+
+        return stop
+
+    # Looking up
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Stamp = 0
+    ) -> TransformStamped:
+        """The pose of source in target: moves points given in source into target.
+
+        Args:
+            target_frame: What the answer is expressed in.
+            source_frame: What is asked about.
+            time: The moment; 0 for the newest one for which the whole chain has data.
+
+        Returns:
+            With the moment it holds for as its stamp, or 0 if it holds at all times.
+
+        Raises:
+            InvalidArgumentException: If a name is empty or starts with a slash.
+            LookupException: If a name never came up, or the chain runs in a loop.
+            ConnectivityException: If the two frames are of different trees.
+            ExtrapolationException: If a link has no data for that moment.
+            TypeError: If `time` is not a whole number.
+        """
+        if type(time) is not int:
+            time = whole(time)
+        pose: Transform | None = None
+        known = True
+        try:
+            path = self._paths[target_frame][source_frame]
+        except KeyError:
+            known = False
+        except TypeError:
+            # A name that cannot be looked for: the batch says the same.
+            tree.require_text(target_frame, source_frame)
+            raise
+        else:
+            moment = time or path.latest()
+            pose = path.solve(moment)
+        if pose is None:
+            moment, path, kept = self._solver.way(target_frame, source_frame, time)
+            if kept and not known:
+                # By a path that is known now, which the kernel does in half the time.
+                return Buffer.lookup_transform(self, target_frame, source_frame, moment)
+            pose = path.solve(moment)
+            assert pose is not None, "a link that answers for its parent answers for its pose"
+        return _new(TransformStamped, (moment, target_frame, source_frame, pose))
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+    ) -> TransformStamped:
+        """Where source was at its time, in target as target is at its own time.
+
+        Both are looked up against `fixed_frame`, which is taken not to move in between.
+
+        Raises:
+            TransformException: As `lookup_transform`; frames are always checked, even equal ones.
+        """
+        tree.require_text(target_frame, source_frame, fixed_frame)
+        paths = self._paths
+        if not (
+            # Whose names were found good before.
+            source_frame in paths.get(fixed_frame, _NO_PATHS)
+            and fixed_frame in paths.get(target_frame, _NO_PATHS)
+        ):
+            for frame, argument in (
+                (target_frame, "target_frame"),
+                (source_frame, "source_frame"),
+                (fixed_frame, "fixed_frame"),
+            ):
+                self._solver.number(frame, argument, "lookupTransform", target_frame, source_frame)
+        inner = self.lookup_transform(fixed_frame, source_frame, source_time).transform
+        stamp, _, _, outer = self.lookup_transform(target_frame, fixed_frame, target_time)
+        found = poses.compose(
+            (*outer.translation, *outer.rotation), (*inner.translation, *inner.rotation)
+        )
+        turn = quaternions.canonical(quaternions.unit(found[3:]))
+        pose = rigid.transform(found[:3], turn)
+        return _new(TransformStamped, (stamp, target_frame, source_frame, pose))
+
+    def lookup_transforms(
+        self,
+        target_frame: str,
+        source_frame: str,
+        times: "npt.ArrayLike",
+        *,
+        missing: Literal["raise", "nan"] = "raise",
+        threads: int | None = None,
+    ) -> "TransformArray":
+        """Row by row what `lookup_transform` gives, for many moments at once, in numpy.
+
+        Args:
+            target_frame: What the answers are expressed in.
+            source_frame: What is asked about.
+            times: Whole nanoseconds, shape (n,), in any order; 0 for the latest.
+            missing: What becomes of a moment for which there is no pose: "raise", or "nan"
+                for a row of NaN that is not `valid`. A wrong name raises in any case.
+            threads: How many to work with; None for one a core where that pays.
+
+        Raises:
+            TransformException: As `lookup_transform`, for the first row that is refused.
+            TypeError: If the times are no whole numbers.
+            ValueError: If the shape is another.
+        """
+        # The single lookup does without numpy.
+        from tftool.buffer.batch import lookup
+
+        return lookup.lookup_transforms(
+            self._tree, self._solver, target_frame, source_frame, times, missing, threads
+        )
+
+    def lookup_transforms_full(
+        self,
+        target_frame: str,
+        target_times: "npt.ArrayLike",
+        source_frame: str,
+        source_times: "npt.ArrayLike",
+        fixed_frame: str,
+        *,
+        missing: Literal["raise", "nan"] = "raise",
+        threads: int | None = None,
+    ) -> "TransformArray":
+        """Row by row what `lookup_transform_full` gives.
+
+        One of the two kinds of times may be a single moment; see `lookup_transforms`.
+
+        Raises:
+            TransformException: As `lookup_transform_full`, for the first row that is refused.
+            TypeError: If the times are no whole numbers.
+            ValueError: If the shapes do not fit.
+        """
+        from tftool.buffer.batch import lookup
+
+        return lookup.lookup_transforms_full(
+            self._tree,
+            self._solver,
+            target_frame,
+            target_times,
+            source_frame,
+            source_times,
+            fixed_frame,
+            missing,
+            threads,
+        )
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str) -> Stamp:
+        """The newest moment for which every link between two frames has data; 0 if none moves.
+
+        Raises:
+            TransformException: If a name is unknown or invalid, or nothing joins the two.
+        """
+        tree.require_text(target_frame, source_frame)
+        path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
+        if path is not None:
+            return path.latest()
+        call = "get_latest_common_time"
+        number = self._solver.number
+        return self._solver.latest_common(
+            number(target_frame, "target_frame", call, target_frame, source_frame),
+            number(source_frame, "source_frame", call, target_frame, source_frame),
+        )
+
+    def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
+        """As `get_latest_common_time`, but 0 where that would refuse."""
+        try:
+            return self.get_latest_common_time(target_frame, source_frame)
+        except TransformException:
+            return 0
+
+    def lookup_velocity(
+        self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
+    ) -> velocity.Velocity:
+        """How `tracking_frame` moves in `observation_frame`, by tf2's formula.
+
+        See `velocity.full` for what tf2's numbers mean, and `lookup_twist` for plain ones.
+        """
+        return velocity.full(
+            self,
+            tracking_frame,
+            observation_frame,
+            observation_frame,
+            (0.0, 0.0, 0.0),
+            tracking_frame,
+            time,
+            interval,
+        )
+
+    def lookup_velocity_full(
+        self,
+        tracking_frame: str,
+        observation_frame: str,
+        reference_frame: str,
+        reference_point: tuple[float, float, float],
+        reference_point_frame: str,
+        time: Stamp,
+        interval: Duration,
+    ) -> velocity.Velocity:
+        """How `tracking_frame` moves in `observation_frame`, told in `reference_frame`.
+
+        tf2's formula to the letter; see `velocity.full`.
+        """
+        return velocity.full(
+            self,
+            tracking_frame,
+            observation_frame,
+            reference_frame,
+            reference_point,
+            reference_point_frame,
+            time,
+            interval,
+        )
+
+    def lookup_twist(
+        self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
+    ) -> velocity.Velocity:
+        """The velocity of the origin of `tracking_frame`, and how it turns, in `observation_frame`.
+
+        Raises:
+            TransformException: As `lookup_transform`.
+            TypeError: If a moment or the interval is not a whole number.
+            ValueError: If the interval is not positive.
+        """
+        return velocity.twist(self, tracking_frame, observation_frame, time, interval)
+
+    # Asking whether
+
+    def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
+        """Whether `lookup_transform` would answer; it never raises for a name or a time."""
+        if type(time) is not int:
+            time = whole(time)
+        try:
+            path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
+        except TypeError:
+            tree.require_text(target_frame, source_frame)
+            raise
+        if path is not None and path.covers(time or path.latest()):
+            return True
+        return self._solver.why_not(target_frame, source_frame, time) is None
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+    ) -> bool:
+        """Whether `lookup_transform_full` would answer."""
+        return not self.why_not_full(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+
+    def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
+        """Why `can_transform` says no, in tf2's words; empty if it says yes."""
+        reason = self._solver.why_not(target_frame, source_frame, whole(time))
+        return "" if reason is None else str(reason)
+
+    def why_not_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+    ) -> str:
+        """Why `can_transform_full` says no, in tf2's words; empty if it says yes."""
+        for frame, argument in (
+            (target_frame, "target_frame"),
+            (source_frame, "source_frame"),
+            (fixed_frame, "fixed_frame"),
+        ):
+            if why := self._solver.fault(frame):
+                return refusals.invalid_frame(frame, argument, why)
+        # The other way round than in the lookup, as in tf2.
+        return self.why_not(target_frame, fixed_frame, target_time) or self.why_not(
+            fixed_frame, source_frame, source_time
+        )
+
+    # Waiting
+
+    def request(
+        self, callback: Callback, target_frame: str, source_frame: str, time: Stamp = 0
+    ) -> int:
+        """Be told once the transform can be looked up.
+
+        Args:
+            callback: Called from inside the set that makes it possible, in the order of the
+                requests: with the handle, and True; or False once that moment is forgotten.
+                What it raises is reported as what a listener raises is; see `listen`.
+            target_frame: As in `lookup_transform`.
+            source_frame: As in `lookup_transform`.
+            time: As in `lookup_transform`; 0 is never forgotten.
+
+        Returns:
+            0 if it can be looked up now, NEVER if it never can again (in both cases
+            `callback` is not kept), else a handle for `cancel`.
+        """
+        return self._requests.add(callback, (target_frame, source_frame, whole(time)))
+
+    def cancel(self, handle: int) -> None:
+        """Let go of a request; its callback is not called any more."""
+        self._requests.cancel(handle)
+
+    # Looking at the whole
+
+    def snapshot(self, now: Stamp, at: Stamp = 0) -> Snapshot:
+        """All frames at one moment.
+
+        Args:
+            now: What the clock reads; ages are told against it.
+            at: The moment to show; 0 for each frame at the latest moment of its chain.
+        """
+        return snapshot.snapshot(self._tree, whole(now), whole(at))
+
+    def samples(self, child: str) -> "SampleColumns":
+        """Everything remembered of one frame's link, oldest first, in numpy; a copy.
+
+        Args:
+            child: The frame; of a root, which hangs from nothing, there are no samples.
+
+        Raises:
+            InvalidArgumentException: If the name is empty or starts with a slash.
+            LookupException: If the name never came up.
+        """
+        from tftool.buffer.batch import edge_columns as columns
+
+        number = self._solver.number(child, "child", "samples", child, child)
+        return columns.samples(self._tree, self._tree.frames[number])
+
+    def lend(self, child: str, other: "Buffer", until: Stamp) -> bool:
+        """Have another buffer know what moves of one frame's link up to a stamp, uncopied.
+
+        Args:
+            child: The frame.
+            other: A buffer that does not know the link yet.
+            until: The last stamp it is to know.
+
+        Returns:
+            Whether that could be; if not, nothing was done, and `samples` copies them.
+        """
+        from tftool.buffer.history import History
+
+        frame = self._tree.frames[self._tree.numbers[child]]
+        link = frame.link
+        if not isinstance(link, History) or link.parent < 0 or frame.authority is None:
+            return False
+        if not link or link.oldest_stamp > until:
+            return True
+        if link.origins is not None or link.start:
+            return False
+        parent = self._tree.frames[link.parent].name
+        there, history, _ = other._tree.hang(child, parent, False)
+        assert isinstance(history, History)
+        origin = other._tree.origin(parent, frame.authority)
+        link.lend(history, origin, until)
+        other._tree.note(there, parent, frame.authority, origin)
+        other._solver.drop_paths()
+        return True
+
+    def frames(self) -> list[str]:
+        """Every name that ever came up, in that order; of one sample the child first."""
+        return [frame.name for frame in self._tree.frames]
+
+    def frame_exists(self, frame: str) -> bool:
+        """Whether a name ever came up; tf2's own NO_PARENT always did."""
+        tree.require_text(frame)
+        return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
+
+    def parent(self, frame: str, time: Stamp = 0) -> str | None:
+        """What a frame hung from at a moment; None for a root, and where there is no data.
+
+        Raises:
+            TypeError: If the moment is no whole number of nanoseconds, or the name no text.
+        """
+        time = whole(time)
+        tree.require_text(frame)
+        number = self._tree.numbers.get(frame)
+        if number is None:
+            return None
+        link = self._tree.frames[number].link
+        above = -1 if link is None else link.parent_at(time)
+        return None if above < 0 else self._tree.frames[above].name
+
+    def parents(self, frame: str) -> set[str]:
+        """Every parent that a remembered sample of a frame names; none of a root."""
+        tree.require_text(frame)
+        number = self._tree.numbers.get(frame)
+        above = () if number is None else self._tree.parents(number)
+        return {self._tree.frames[one].name for one in above}
+
+    def rivals(self, frame: str) -> tuple[str, ...]:
+        """Who sends a frame's transforms in turns with others; empty where only one does.
+
+        One who took over from another once is no rival.
+        """
+        tree.require_text(frame)
+        number = self._tree.numbers.get(frame)
+        link = None if number is None else self._tree.frames[number].link
+        if not isinstance(link, History):
+            return ()
+        origins = link.columns()[1]
+        if origins is None:
+            return ()
+        turns = [origin >> AUTHORITY_SHIFT for origin in origins[-_TURNS:]]
+        if sum(one != other for one, other in pairwise(turns)) < 3:
+            return ()
+        return tuple(self._tree.authorities[one] for one in dict.fromkeys(turns))
+
+    def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
+        """The frames from source to target, both included; empty if they are the same.
+
+        Raises:
+            TransformException: As `lookup_transform`.
+        """
+        return self._solver.chain(target_frame, source_frame, whole(time))
+
+    def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:
+        """tf2's YAML of all frames; see `snapshot.as_yaml`."""
+        return snapshot.as_yaml(self._infos(), current_time)
+
+    def all_frames_as_string(self) -> str:
+        """tf2's sentences about all frames; see `snapshot.as_string`."""
+        return snapshot.as_string(self._infos())
+
+    def all_frames_as_dot(self, current_time: Stamp = 0) -> str:
+        """tf2's dot of all frames; see `snapshot.as_dot`."""
+        return snapshot.as_dot(self._infos(), current_time)
+
+    def _infos(self) -> tuple[FrameInfo, ...]:
+        return snapshot.snapshot(self._tree, 0, 0).frames
+
+
+def _parts(transform: TransformStamped) -> tuple[Stamp, str, str, Transform]:
+    """The four parts of a sample.
+
+    Raises:
+        TypeError: If it is none.
+    """
+    try:
+        stamp, parent, child, pose = transform
+    except (TypeError, ValueError):
+        pose = None
+    if not isinstance(pose, Transform):
+        raise TypeError(
+            "what is set is a TransformStamped(stamp, frame_id, child_frame_id, Transform(…)), "
+            f"not {transform!r:.200}"
+        )
+    return stamp, parent, child, pose
+
+
+def _stamped(target: str, source: str, stamp: Stamp, sample: Sample) -> TransformStamped:
+    x, y, z, qx, qy, qz, qw = sample
+    return TransformStamped(stamp, target, source, rigid.transform((x, y, z), (qx, qy, qz, qw)))

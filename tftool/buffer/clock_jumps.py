@@ -1,0 +1,56 @@
+"""When a clock falls back, what was remembered is of another time."""
+
+from collections.abc import Callable
+
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp
+
+LEAST_FALL: Duration = NANOSECONDS
+"""How far a clock must fall before a buffer is cleared: tf2's rule in Python.
+
+Its C++ buffer clears at the first nanosecond.
+"""
+
+FELL_BACK = "Detected jump back in time. Clearing tf buffer."
+
+
+def must_clear(
+    change: Duration, *, source_changed: bool = False, least_fall: Duration = LEAST_FALL
+) -> bool:
+    """Whether a jump of the clock makes all that moves obsolete.
+
+    Args:
+        change: How far the clock jumped; negative backward. Forward never clears.
+        source_changed: Whether time now comes from somewhere else, which always clears.
+        least_fall: How far back is too far.
+    """
+    return source_changed or change <= -least_fall
+
+
+class Watch:
+    """Watches readings of a clock, and has a buffer cleared when they fall back.
+
+    A buffer knows no clock, so code that feeds it from a recording or a simulation that may
+    start over shows each new reading here first.
+    """
+
+    def __init__(
+        self,
+        clear: Callable[[], object],
+        log: Callable[[str, str], object] | None = None,
+        *,
+        least_fall: Duration = LEAST_FALL,
+    ) -> None:
+        self._clear = clear
+        self._log = log
+        self._least_fall = least_fall
+        self._last: Stamp | None = None
+
+    def read(self, now: Stamp) -> bool:
+        """Note what the clock reads; says whether the buffer was cleared."""
+        last, self._last = self._last, now
+        if last is None or not must_clear(now - last, least_fall=self._least_fall):
+            return False
+        if self._log is not None:
+            self._log("WARN", FELL_BACK)
+        self._clear()
+        return True

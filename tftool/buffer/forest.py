@@ -1,0 +1,390 @@
+"""Frames by name and number, and what each hangs by: trees that change over time.
+
+Here questions are answered by parents alone: which links lead from one frame to another at
+one moment, and which moment is the latest that all of them have. `path` works out poses.
+
+Setting takes one leading slash off a name, asking takes off none and refuses it: tf2's rule,
+which accepts old publishers and points the mistake out to the program that asks.
+"""
+
+from collections.abc import Iterable
+from typing import TypeAlias
+
+from tftool.base.stamps import Duration, Stamp
+from tftool.buffer.history import AUTHORITY_SHIFT, NO_PARENT, History, Link, StaticLink
+
+NO_PARENT_NAME = "NO_PARENT"
+"""The name that tf2 reserves for the parent of a root."""
+
+EMPTY = "in tf2 frame_ids cannot be empty"
+SLASHED = "in tf2 frame_ids cannot start with a '/'"
+
+MAX_DEPTH = 1000
+"""How many links one side of a walk may have; beyond it, tf2 takes the tree for a loop."""
+
+# How a walk ended.
+ARRIVED = 0
+UNCONNECTED = 1
+REFUSED = 2
+LOOP = 3
+
+
+MAX_AUTHORITIES = 65_536
+"""How many names of authorities are kept; samples of later ones count as of an unnamed one."""
+
+
+def stripped(name: str) -> str:
+    """The name as it is remembered: without the one leading slash it may have.
+
+    Raises:
+        TypeError: If it is not a string.
+    """
+    require_text(name)
+    return name[1:] if name.startswith("/") else name
+
+
+def fault(name: str) -> str:
+    """Why a name can never be asked for, in tf2's words; empty if it can.
+
+    Raises:
+        TypeError: If it is not a string.
+    """
+    require_text(name)
+    if not name:
+        return EMPTY
+    if name.startswith("/"):
+        return SLASHED
+    return ""
+
+
+def require_text(*names: object) -> None:
+    """See that names of frames are texts.
+
+    Raises:
+        TypeError: If one is not a string.
+    """
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"a frame's name is a string, not {name!r}")
+
+
+class Frame:
+    """One named frame, and what it hangs by.
+
+    Attributes:
+        name: Its name.
+        number: Its place in the order of first registration.
+        link: What it hangs by; None if no sample of it was ever set.
+        authority: Who sent its newest sample; None if no sample of it was ever set.
+    """
+
+    __slots__ = ("authority", "link", "name", "number")
+
+    def __init__(self, name: str, number: int) -> None:
+        self.name = name
+        self.number = number
+        self.link: Link | None = None
+        self.authority: str | None = None
+
+
+Sender: TypeAlias = tuple[str, str | None, int, History]
+"""Where the newest sample of a link that moves came from, and the link; for the next one.
+
+The parent it was sent with, who sent it, the numbers of both as `history` packs them, and what
+the child hangs by. A plain tuple, which takes half the time of a named one to take apart, and
+which the native kernel reads as well: see `native`.
+"""
+
+
+class Walk:
+    """How a question about two frames went, by parents alone.
+
+    Attributes:
+        ended: ARRIVED, UNCONNECTED, REFUSED or LOOP.
+        up: Frames whose links lead from the source toward the meeting point.
+        down: The same from the target.
+        top: Where the source's side ended.
+        end: Where the target's side ended.
+        refused: The frame whose link has nothing for the moment, if REFUSED.
+        timeless: Whether it would go the same way at any moment: nothing was refused, and
+            no link that was passed leads elsewhere at times.
+        above: If ARRIVED, the frames that were passed above the meeting point.
+    """
+
+    __slots__ = ("above", "down", "end", "ended", "refused", "timeless", "top", "up")
+
+    def __init__(self, source: int, target: int) -> None:
+        self.ended = UNCONNECTED
+        self.up: list[int] = []
+        self.down: list[int] = []
+        self.top = source
+        self.end = target
+        self.refused = NO_PARENT
+        self.timeless = True
+        self.above: list[int] = []
+
+    def close(self, ended: int) -> "Walk":
+        """Note how it ended; cut off the upper part that both sides share."""
+        self.ended = ended
+        if ended == ARRIVED:
+            up, down = self.up, self.down
+            while up and down and up[-1] == down[-1]:
+                self.above.append(up.pop())
+                down.pop()
+        return self
+
+    def visited(self) -> list[int]:
+        """Every frame that was looked at, but those above the meeting point."""
+        return [*self.up, *self.down, self.top, self.end]
+
+
+class FrameTree:
+    """All frames, by name and by number, of however many trees.
+
+    Attributes:
+        frames: In the order in which they were first registered.
+        numbers: Each frame's place in that order.
+        senders: By name, each frame whose link moves: for their next samples.
+        authorities: Every name that a sample was sent under, in the order of their numbers.
+        limit: Nanoseconds for which samples are kept.
+        max_name: How many bytes a name may have.
+    """
+
+    __slots__ = (
+        "_authority_numbers",
+        "authorities",
+        "frames",
+        "limit",
+        "max_name",
+        "numbers",
+        "senders",
+    )
+
+    def __init__(self, limit: Duration, max_name: int) -> None:
+        self.limit = limit
+        self.max_name = max_name
+        self.frames: list[Frame] = []
+        self.numbers: dict[str, int] = {}
+        self.senders: dict[str, Sender] = {}
+        self.authorities: list[str] = [""]
+        self._authority_numbers: dict[str, int] = {"": 0}
+
+    # Growing
+
+    def register(self, name: str) -> Frame:
+        """The frame of that name, made when it first comes up."""
+        number = self.numbers.get(name)
+        if number is not None:
+            return self.frames[number]
+        frame = Frame(name, len(self.frames))
+        self.numbers[name] = frame.number
+        self.frames.append(frame)
+        return frame
+
+    def has_room(self, child: str, parent: str, limit: int) -> bool:
+        """Whether both names are known, or fit in without there being more than `limit`."""
+        new = (child not in self.numbers) + (parent not in self.numbers)
+        return new == 0 or len(self.frames) + new <= limit
+
+    def hang(self, child: str, parent: str, static: bool) -> tuple[Frame, Link, bool]:
+        """Register both names, and make sure that the child has a link of this kind.
+
+        A link of the other kind is replaced by an empty one, and all it held is gone.
+
+        Returns:
+            The child, its link, and whether the link is a new one.
+        """
+        frame = self.register(child)
+        link = frame.link
+        fresh = link is None or link.is_static != static
+        if link is None or fresh:
+            if static:
+                link = StaticLink()
+                self.senders.pop(child, None)
+            else:
+                link = History(self.limit)
+                self.senders[child] = ("", None, NO_PARENT, link)
+            frame.link = link
+        self.register(parent)
+        return frame, link, fresh
+
+    def note(self, frame: Frame, parent: str, authority: str, origin: int) -> None:
+        """Note where an accepted sample of a frame came from."""
+        frame.authority = authority
+        if isinstance(frame.link, History):
+            self.senders[frame.name] = (parent, authority, origin, frame.link)
+
+    def origin(self, parent: str, authority: str) -> int:
+        """A registered parent's and an authority's number in one word; see `history`."""
+        number = self._authority_numbers.get(authority)
+        if number is None:
+            number = 0
+            if len(self.authorities) < MAX_AUTHORITIES:
+                number = self._authority_numbers[authority] = len(self.authorities)
+                self.authorities.append(authority)
+        return number << AUTHORITY_SHIFT | self.numbers[parent]
+
+    # Asking
+
+    def newest_stamp(self, number: int) -> Stamp:
+        """Stamp of a frame's newest sample; 0 if it has none, or holds at all times."""
+        link = self.frames[number].link
+        return 0 if link is None else link.newest_stamp
+
+    def walk(self, target: int, source: int, time: Stamp) -> Walk:
+        """Look for the way from source to target at one moment (0: by each newest sample).
+
+        As tf2 does it: up from the source, to the root unless it meets the target or a
+        link that has nothing for the moment; then up from the target until it meets
+        where the source's side ended, or the source itself. Missing data above the
+        meeting point does not matter.
+        """
+        walk = Walk(source, target)
+        frames, up, down = self.frames, walk.up, walk.down
+        refused = NO_PARENT
+        frame = source
+        while True:
+            link = frames[frame].link
+            if link is None:
+                break
+            parent = link.parent
+            if link.mixed or not (link.oldest_stamp <= time <= link.newest_stamp or time == 0):
+                parent = link.parent_at(time)
+                walk.timeless = walk.timeless and not link.mixed
+            if parent < 0:
+                refused = frame
+                walk.timeless = False
+                break
+            if frame == target:
+                walk.top = frame
+                return walk.close(ARRIVED)
+            up.append(frame)
+            frame = parent
+            if len(up) > MAX_DEPTH:
+                walk.top = frame
+                return walk.close(LOOP)
+        walk.top = top = frame
+
+        frame = target
+        while frame != top:
+            link = frames[frame].link
+            if link is None:
+                break
+            parent = link.parent
+            if link.mixed or not (link.oldest_stamp <= time <= link.newest_stamp or time == 0):
+                parent = link.parent_at(time)
+                walk.timeless = walk.timeless and not link.mixed
+            if parent < 0:
+                walk.end = walk.refused = frame
+                return walk.close(REFUSED)
+            if frame == source:
+                walk.above = up[:]
+                up.clear()
+                walk.end = frame
+                return walk.close(ARRIVED)
+            down.append(frame)
+            frame = parent
+            if len(down) > MAX_DEPTH:
+                walk.end = frame
+                return walk.close(LOOP)
+        walk.end = frame
+        if frame == walk.top:
+            return walk.close(ARRIVED)
+        if refused >= 0:
+            walk.refused = refused
+            return walk.close(REFUSED)
+        return walk.close(UNCONNECTED)
+
+    def is_steady(self, walk: Walk) -> bool:
+        """Whether a walk by newest parents goes the same way at any moment it has data for.
+
+        Above the meeting point links may lead elsewhere at times, as long as no way up from
+        there can run in a circle, or be too long.
+        """
+        frames = self.frames
+        for number in (*walk.up, *walk.down):
+            link = frames[number].link
+            if link is not None and link.mixed:
+                return False
+        reached: dict[int, None] = dict.fromkeys((*walk.above, walk.top))
+        # Where the target was met on the way up, nothing above it was looked at.
+        if not walk.down or not any(self.parents(number)[1:] for number in reached):
+            return True
+        # Every frame that may ever be passed above.
+        waiting = list(reached)
+        while waiting:
+            for parent in self.parents(waiting.pop()):
+                if parent not in reached:
+                    reached[parent] = None
+                    waiting.append(parent)
+        if len(reached) + len(walk.up) + len(walk.down) > MAX_DEPTH:
+            return False
+        return not self._may_circle(reached)
+
+    def parents(self, number: int) -> list[int]:
+        """Every parent that the remembered samples of a frame have."""
+        link = self.frames[number].link
+        if link is None:
+            return []
+        if link.mixed and not link.is_static:
+            return list(link.parents())
+        return [] if link.parent < 0 else [link.parent]
+
+    def _may_circle(self, numbers: Iterable[int]) -> bool:
+        """Whether some ways up among these frames, at whatever moments, form a circle."""
+        above = {number: self.parents(number) for number in numbers}
+        while above:
+            # Those that only lead to frames that lead nowhere any more.
+            ends = [number for number, up in above.items() if not any(p in above for p in up)]
+            if not ends:
+                return True
+            for number in ends:
+                del above[number]
+        return False
+
+    def latest_common(self, target: int, source: int) -> tuple[int, Stamp]:
+        """The newest moment for which every link between two frames has data.
+
+        Stamps of 0 do not count: that is how links that hold at all times drop out.
+
+        Returns:
+            How it ended (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 where no link
+            has one.
+        """
+        if target == source:
+            return ARRIVED, self.newest_stamp(target)
+        frames = self.frames
+        # Up from the source, by each newest sample: stamps, and where each link leads.
+        stamps: list[Stamp] = []
+        parents: dict[int, int] = {}
+        frame = source
+        while True:
+            link = frames[frame].link
+            if link is None or link.parent < 0:
+                break
+            stamps.append(link.newest_stamp)
+            frame = link.parent
+            if frame == target:
+                return ARRIVED, _oldest(stamps)
+            if len(stamps) > MAX_DEPTH:
+                return LOOP, 0
+            parents[frame] = len(stamps)
+        # Then up from the target, until something the source hangs from.
+        ours: list[Stamp] = []
+        frame = target
+        while True:
+            link = frames[frame].link
+            if link is None or link.parent < 0:
+                return UNCONNECTED, 0
+            ours.append(link.newest_stamp)
+            frame = link.parent
+            if frame in parents:
+                return ARRIVED, _oldest(ours + stamps[: parents[frame]])
+            if frame == source:
+                return ARRIVED, _oldest(ours)
+            if len(ours) > MAX_DEPTH:
+                return LOOP, 0
+
+
+def _oldest(stamps: list[Stamp]) -> Stamp:
+    return min((stamp for stamp in stamps if stamp), default=0)

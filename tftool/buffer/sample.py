@@ -1,0 +1,111 @@
+"""What goes into the buffer and what comes out: samples, and all frames at one moment."""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from tftool.base.stamps import Duration, Stamp
+from tftool.geometry.rigid import Transform, refuses_arithmetic
+
+
+@refuses_arithmetic
+class TransformStamped(NamedTuple):
+    """The pose of `child_frame_id` in `frame_id` at one moment.
+
+    The answer of `lookup_transform(target, source)` is one of these too: the pose of
+    the source (`child_frame_id`) in the target (`frame_id`).
+
+    Attributes:
+        stamp: Nanoseconds.
+        frame_id: The parent, or the target of a lookup.
+        child_frame_id: The child, or the source of a lookup.
+        transform: Moves points given in the child into the parent.
+    """
+
+    stamp: Stamp
+    frame_id: str
+    child_frame_id: str
+    transform: Transform
+
+
+@refuses_arithmetic
+class FrameInfo(NamedTuple):
+    """One frame, and the link it hangs by.
+
+    Attributes:
+        frame: Its name.
+        parent: What it hangs from at the moment shown; None for a root.
+        is_static: Whether that link holds at all times.
+        authority: Who sent its newest sample; None for a frame that was never sent.
+        samples: How many are remembered.
+        rate: Samples per second by tf2's formula, hertz: a single one, or a static, shows 10000.
+        oldest: Stamp of its oldest sample; 0 for a static.
+        newest: Stamp of its newest sample; 0 for a static.
+        buffer_length: `newest` − `oldest`, nanoseconds.
+        age: Nanoseconds from `newest` to the snapshot's `now`; 0 for statics and roots.
+        transform: Its pose in its parent at the moment shown, identity for a root; None where
+            its history does not reach that moment.
+        root: The root it hangs from; None where its chain runs in a loop.
+        root_from_frame: Its pose in that root; None where a link on the way has no data.
+    """
+
+    frame: str
+    parent: str | None
+    is_static: bool
+    authority: str | None
+    samples: int
+    rate: float
+    oldest: Stamp
+    newest: Stamp
+    buffer_length: Duration
+    age: Duration
+    transform: Transform | None
+    root: str | None
+    root_from_frame: Transform | None
+
+
+@dataclass(frozen=True, slots=True)
+class Snapshot:
+    """All frames at one moment, frozen.
+
+    Attributes:
+        now: What the clock read.
+        at: The moment shown; 0 for the latest data of every chain.
+        frames: In the order in which their names first came up, roots included.
+    """
+
+    now: Stamp
+    at: Stamp
+    frames: tuple[FrameInfo, ...]
+    _by_name: dict[str, FrameInfo] = field(init=False, repr=False, compare=False)
+    _children: dict[str, list[str]] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        children: dict[str, list[str]] = {}
+        for info in self.frames:
+            if info.parent is not None:
+                children.setdefault(info.parent, []).append(info.frame)
+        object.__setattr__(self, "_by_name", {info.frame: info for info in self.frames})
+        object.__setattr__(self, "_children", children)
+
+    def __contains__(self, frame: object) -> bool:
+        return frame in self._by_name
+
+    def roots(self) -> tuple[str, ...]:
+        """Every frame that hangs from nothing: one for each tree."""
+        return tuple(info.frame for info in self.frames if info.parent is None)
+
+    def children(self, name: str) -> tuple[str, ...]:
+        """The frames that hang from `name` directly."""
+        return tuple(self._children.get(name, ()))
+
+    def frame(self, name: str) -> FrameInfo:
+        """All about one frame.
+
+        Raises:
+            KeyError: If there is none of that name.
+        """
+        return self._by_name[name]
+
+    def loops(self) -> tuple[str, ...]:
+        """The frames whose chain never ends; no root reaches them."""
+        return tuple(info.frame for info in self.frames if info.root is None)

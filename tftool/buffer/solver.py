@@ -1,0 +1,207 @@
+"""Questions put to the trees by walking them; paths are kept for when they are asked again."""
+
+from typing import Final
+
+from tftool.base.errors import TransformException
+from tftool.base.stamps import Duration, Stamp
+from tftool.buffer import forest as tree
+from tftool.buffer import refusals, snapshot
+from tftool.buffer.forest import ARRIVED, LOOP, REFUSED, FrameTree, Walk
+from tftool.buffer.history import History, Sample
+from tftool.buffer.path import Path, path_of
+from tftool.buffer.requests import AVAILABLE, EXPIRED, PENDING, Lookup
+
+MOST_PATHS: Final = 20_000
+"""How many paths are cached; a program that cycles through more pairs of frames than this
+recomputes each path, and memory stays bounded."""
+
+_LOOKUP = "lookupTransform"
+
+_HERE: Final = Path((), (), ())
+
+
+class Solver:
+    """Answers questions about two frames.
+
+    Attributes:
+        paths: By target and then by source; all dropped when a link leads elsewhere than before.
+    """
+
+    __slots__ = ("_cache_time", "_kept", "_tree", "paths")
+
+    def __init__(self, tree: FrameTree, cache_time: Duration) -> None:
+        self._tree = tree
+        self._cache_time = cache_time
+        self.paths: dict[str, dict[str, Path]] = {}
+        self._kept = 0
+
+    def pose(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Sample]:
+        """The pose of source in target and the moment it holds for, by walking.
+
+        Raises:
+            TransformException: As `Buffer.lookup_transform` says.
+        """
+        time, path, _ = self.way(target, source, time)
+        pose = path.solve(time)
+        assert pose is not None, "a link that answers for its parent answers for its pose"
+        return time, (*pose.translation, *pose.rotation)
+
+    def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
+        """The moment that is asked for, and the way then, by walking.
+
+        Keeps the path for the next time where that is possible; whether it did is told last.
+
+        Raises:
+            TransformException: As `Buffer.lookup_transform` says.
+        """
+        trees = self._tree
+        if target == source:
+            if time == 0:
+                number = trees.numbers.get(target)
+                time = 0 if number is None else trees.newest_stamp(number)
+            return time, _HERE, False
+        target_number = self.number(target, "target_frame", _LOOKUP, target, source)
+        source_number = self.number(source, "source_frame", _LOOKUP, target, source)
+        time = time or self.latest_common(target_number, source_number)
+        walk = trees.walk(target_number, source_number, time)
+        if walk.ended != ARRIVED:
+            raise self._refusal(walk, time, target, source)
+        path = path_of(trees, walk)
+        return time, path, self._remember(target_number, source_number, walk, path)
+
+    def latest_common(self, target: int, source: int) -> Stamp:
+        """The newest moment for which every link between two frames has data.
+
+        Raises:
+            TransformException: If nothing joins them, or a chain does not end.
+        """
+        ended, latest = self._tree.latest_common(target, source)
+        if ended == ARRIVED:
+            return latest
+        frames = self._tree.frames
+        target_name, source_name = frames[target].name, frames[source].name
+        if ended == LOOP:
+            raise self._looped(target_name, source_name)
+        raise refusals.unconnected(target_name, source_name)
+
+    def why_not(self, target: str, source: str, time: Stamp) -> str | TransformException | None:
+        """Why a lookup would be refused, as `can_transform` has it; None if it would not."""
+        if target == source:
+            return None
+        for frame, argument in ((target, "target_frame"), (source, "source_frame")):
+            if why := self.fault(frame):
+                return refusals.invalid_frame(frame, argument, why)
+        numbers = self._tree.numbers
+        target_number, source_number = numbers[target], numbers[source]
+        try:
+            time = time or self.latest_common(target_number, source_number)
+        except TransformException as refused:
+            return refused
+        walk = self._tree.walk(target_number, source_number, time)
+        if walk.ended == ARRIVED:
+            self._remember(target_number, source_number, walk, path_of(self._tree, walk))
+            return None
+        return self._refusal(walk, time, target, source)
+
+    def chain(self, target: str, source: str, time: Stamp) -> list[str]:
+        """The frames from source to target, both included; empty if they are the same."""
+        if target == source:
+            return []
+        time, _, _ = self.way(target, source, time)
+        trees = self._tree
+        walk = trees.walk(trees.numbers[target], trees.numbers[source], time)
+        # The two sides meet above the last link of either.
+        link = trees.frames[(walk.up or walk.down)[-1]].link
+        meeting = -1 if link is None else link.parent_at(time)
+        return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
+
+    def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
+        """How a waiting question stands, and which frames must change before that can."""
+        target, source, time = lookup
+        if target == source:
+            return AVAILABLE, ()
+        trees = self._tree
+        for name in (target, source):
+            if name not in trees.numbers:
+                # Nothing but this name's coming up can help.
+                return PENDING, (name,)
+        target_number, source_number = trees.numbers[target], trees.numbers[source]
+        ended, latest = trees.latest_common(target_number, source_number)
+        # A question for the latest never becomes too old.
+        expired = latest != 0 and time != 0 and time + self._cache_time < latest
+        if expired and not first:
+            return EXPIRED, ()
+        walk = trees.walk(target_number, source_number, time or latest)
+        if walk.ended == ARRIVED and (time != 0 or ended == ARRIVED):
+            return AVAILABLE, ()
+        if expired:
+            return EXPIRED, ()
+        newest = trees.walk(target_number, source_number, 0)
+        seen = dict.fromkeys([*walk.visited(), *newest.visited()])
+        return PENDING, tuple(trees.frames[number].name for number in seen)
+
+    def number(self, frame: str, argument: str, call: str, target: str, source: str) -> int:
+        """A frame's number.
+
+        Raises:
+            TransformException: If it can never have one, or has none yet.
+        """
+        if why := tree.fault(frame):
+            raise refusals.invalid(frame, argument, call, why, target=target, source=source)
+        number = self._tree.numbers.get(frame)
+        if number is None:
+            raise refusals.unknown(
+                frame, argument, call, self._tree.numbers.keys(), target=target, source=source
+            )
+        return number
+
+    def fault(self, frame: str) -> str:
+        """What is wrong with a frame's name, as `can_transform` has it; empty if nothing is."""
+        if why := tree.fault(frame):
+            return why
+        return "" if frame in self._tree.numbers else "frame does not exist"
+
+    def drop_paths(self) -> None:
+        """Forget every path."""
+        if self._kept:
+            self.paths.clear()
+            self._kept = 0
+
+    def _remember(self, target: int, source: int, walk: Walk, path: Path) -> bool:
+        """Keep the path of a walk that arrived, if no link on the way leads elsewhere at times.
+
+        Returns:
+            Whether it is kept.
+        """
+        trees = self._tree
+        if not walk.timeless:
+            # What leads elsewhere, or has no data, may lie above the way.
+            walk = trees.walk(target, source, 0)
+            if walk.ended != ARRIVED or not trees.is_steady(walk):
+                return False
+            path = path_of(trees, walk)
+        for link in path.moving:
+            # What is asked about once is asked about again.
+            if link.count >= link.large_from:
+                link.use_large_pages()
+        if self._kept >= MOST_PATHS:
+            self.drop_paths()
+        self.paths.setdefault(trees.frames[target].name, {})[trees.frames[source].name] = path
+        self._kept += 1
+        return True
+
+    def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
+        """What a walk that did not arrive is refused with."""
+        if walk.ended == LOOP:
+            return self._looped(target, source)
+        if walk.ended == REFUSED:
+            frame = self._tree.frames[walk.refused]
+            assert isinstance(frame.link, History), "a static link refuses nothing"
+            return refusals.extrapolation(
+                frame.link.refusal(time), frame.name, time, target, source
+            )
+        return refusals.unconnected(target, source)
+
+    def _looped(self, target: str, source: str) -> TransformException:
+        frames = snapshot.as_string(snapshot.snapshot(self._tree, 0, 0).frames)
+        return refusals.loop(frames, target, source)

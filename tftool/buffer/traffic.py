@@ -1,0 +1,163 @@
+"""How often transforms arrive, and how late: what `tf2_monitor` measures.
+
+Two sets of numbers. The plain properties are what they say. Those that begin
+with `tf2_` are computed as `tf2_monitor` does, so that they can be compared
+with its output: its rates are too high by one message, its net delay starts at
+zero and climbs for minutes, and a static transform counts as very late.
+"""
+
+from collections import deque
+from collections.abc import Iterable
+
+from tftool.base.stamps import Stamp, as_seconds
+from tftool.buffer.sample import TransformStamped
+
+KEEP = 1000
+"""How many of the newest messages count."""
+
+
+class Series:
+    """What one frame, or one sender, sent last.
+
+    Attributes:
+        total: How many messages came, forgotten ones included.
+    """
+
+    def __init__(self) -> None:
+        self.total = 0
+        self._arrivals: deque[Stamp] = deque(maxlen=KEEP)
+        self._delays: deque[float] = deque(maxlen=KEEP)
+        self._tf2_delays: deque[float] = deque(maxlen=KEEP)
+        self._tf2_maximum = 0.0
+
+    def add(self, now: Stamp, tf2_delay: float, *, dated: bool = True) -> None:
+        """Note a message.
+
+        Args:
+            now: When it arrived.
+            tf2_delay: `now` less its stamp, seconds.
+            dated: Whether its stamp says when it was measured; a static one's does not.
+        """
+        self.total += 1
+        self._arrivals.append(now)
+        self._tf2_delays.append(tf2_delay)
+        self._tf2_maximum = max(self._tf2_maximum, tf2_delay)
+        if dated:
+            self._delays.append(tf2_delay)
+
+    @property
+    def rate(self) -> float | None:
+        """Messages per second, hertz; None until two have come at different moments."""
+        span = self._span()
+        return (len(self._arrivals) - 1) / span if span > 0.0 else None
+
+    @property
+    def last(self) -> Stamp | None:
+        """When the newest message arrived; None before the first."""
+        return self._arrivals[-1] if self._arrivals else None
+
+    @property
+    def average_delay(self) -> float | None:
+        """Mean seconds from stamp to arrival; None where no stamp says when."""
+        return sum(self._delays) / len(self._delays) if self._delays else None
+
+    @property
+    def maximum_delay(self) -> float | None:
+        """Most seconds from stamp to arrival, negative if all came from the future."""
+        return max(self._delays) if self._delays else None
+
+    @property
+    def tf2_rate(self) -> float:
+        """Hertz as tf2_monitor counts: one message alone is 1e8."""
+        return len(self._arrivals) / max(1e-8, self._span())
+
+    @property
+    def tf2_average_delay(self) -> float:
+        """Mean seconds, statics included."""
+        return sum(self._tf2_delays) / len(self._tf2_delays) if self._tf2_delays else 0.0
+
+    @property
+    def tf2_maximum_delay(self) -> float:
+        """Most seconds, never below zero."""
+        return self._tf2_maximum
+
+    def _span(self) -> float:
+        if not self._arrivals:
+            return 0.0
+        return as_seconds(self._arrivals[-1] - self._arrivals[0])
+
+
+class FrameTraffic:
+    """A frame as its messages show it.
+
+    Attributes:
+        frame: Its name.
+        parent: What its newest message hangs it from.
+        sender: Who sent that.
+        is_static: Whether that was a static one.
+        series: Its messages.
+    """
+
+    def __init__(self, frame: str) -> None:
+        self.frame = frame
+        self.parent = ""
+        self.sender = ""
+        self.is_static = False
+        self.series = Series()
+
+
+class Traffic:
+    """Every message that came, by frame and by sender.
+
+    Attributes:
+        links: By frame, in the order of arrival.
+        senders: By authority, in the order of arrival.
+    """
+
+    def __init__(self) -> None:
+        self.links: dict[str, FrameTraffic] = {}
+        self.senders: dict[str, Series] = {}
+
+    def receive(
+        self,
+        now: Stamp,
+        transforms: Iterable[TransformStamped],
+        authority: str,
+        *,
+        is_static: bool = False,
+    ) -> None:
+        """Note one message of one sender."""
+        delays = []
+        for sample in transforms:
+            delay = as_seconds(now - sample.stamp)
+            delays.append(delay)
+            link = self.links.setdefault(sample.child_frame_id, FrameTraffic(sample.child_frame_id))
+            link.parent = sample.frame_id
+            link.sender = authority
+            link.is_static = is_static
+            link.series.add(now, delay, dated=not is_static)
+        if delays:
+            sender = self.senders.setdefault(authority, Series())
+            sender.add(now, sum(delays) / len(delays), dated=not is_static)
+
+
+class NetDelay:
+    """How old the latest answer to one question is, asked again and again."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.maximum = 0.0
+        self.tf2_average = 0.0
+        self._sum = 0.0
+
+    def add(self, delay: float) -> None:
+        """Note how many seconds old an answer was."""
+        self.count += 1
+        self._sum += delay
+        self.maximum = max(self.maximum, delay)
+        self.tf2_average = 0.01 * delay + 0.99 * self.tf2_average
+
+    @property
+    def average(self) -> float | None:
+        """Mean of all answers, seconds; None before the first."""
+        return self._sum / self.count if self.count else None

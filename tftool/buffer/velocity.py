@@ -1,0 +1,109 @@
+"""How one frame moves, seen from another: tf2's formula, and the plain twist beside it."""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tftool.base.stamps import Duration, Stamp, as_seconds, seconds, whole
+from tftool.geometry import conversions, quaternions
+from tftool.geometry.quaternions import Triple
+from tftool.geometry.rigid import Transform, Vector3
+
+if TYPE_CHECKING:
+    from tftool.buffer.buffer import Buffer
+
+
+@dataclass(frozen=True, slots=True)
+class Velocity:
+    """A linear and an angular velocity.
+
+    Attributes:
+        stamp: The middle of the time it was taken over.
+        frame: The frame the two vectors are given in.
+        body: The frame that moves.
+        linear: Metres per second.
+        angular: Radians per second.
+    """
+
+    stamp: Stamp
+    frame: str
+    body: str
+    linear: Vector3
+    angular: Vector3
+
+
+def full(
+    buffer: "Buffer",
+    tracking: str,
+    observation: str,
+    reference: str,
+    point: Triple,
+    point_frame: str,
+    time: Stamp,
+    interval: Duration,
+) -> Velocity:
+    """tf2's `lookup_velocity_full`, its formula to the letter, faults included.
+
+    What it gives is a spatial twist where the reference does not turn against the tracked
+    frame; where it does, tf2 turns the vectors by the wrong rotation, and it shifts to
+    another point element by element instead of by a cross product. `twist` is right.
+
+    Raises:
+        TransformException: What the lookups it is worked out from are refused with.
+        TypeError: If a moment or the interval is not a whole number.
+    """
+    # Times run through float seconds as they do in tf2, which rounds them the same way.
+    at, over = as_seconds(whole(time)), as_seconds(whole(interval))
+    end = min(at + over * 0.5, as_seconds(buffer.newest_common(observation, tracking)))
+    start = max(0.00001 + over, end) - over
+    duration = end - start
+    first = buffer.lookup_transform(observation, tracking, seconds(start)).transform
+    last = buffer.lookup_transform(observation, tracking, seconds(end)).transform
+    v, w = _difference(first, last, duration)
+
+    reference_from_body = buffer.lookup_transform(reference, tracking, time).transform
+    origin = reference_from_body.translation
+    w = reference_from_body.rotate(w)
+    v = reference_from_body.rotate(v) + origin.cross(w)
+    place = buffer.lookup_transform(reference, point_frame, time).transform.apply(point)
+    shift = place - origin
+    v += Vector3(w.x * shift.x, w.y * shift.y, w.z * shift.z)
+    return Velocity(seconds(start + over * 0.5), reference, tracking, v, w)
+
+
+def twist(
+    buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
+) -> Velocity:
+    """How the origin of `tracking` moves and how it turns, given in `observation`.
+
+    The mean over `interval` around `time`, or over what part of it the buffer holds.
+
+    Raises:
+        TransformException: As the lookups of its two ends.
+        TypeError: If a moment or the interval is not a whole number.
+        ValueError: If the interval is not positive.
+    """
+    time, interval = whole(time), whole(interval)
+    if interval <= 0:
+        raise ValueError(f"a velocity wants a positive interval, not {interval} ns")
+    newest = buffer.newest_common(observation, tracking)
+    middle = time or newest
+    end = min(middle + interval // 2, newest) if newest else middle + interval // 2
+    start = max(1, end - interval)
+    first = buffer.lookup_transform(observation, tracking, start).transform
+    last = buffer.lookup_transform(observation, tracking, end).transform
+    v, w = _difference(first, last, as_seconds(end - start))
+    return Velocity((start + end) // 2, observation, tracking, v, w)
+
+
+def _difference(first: Transform, last: Transform, duration: float) -> tuple[Vector3, Vector3]:
+    """The mean velocities between two poses, in the frame they are given in."""
+    if duration == 0.0:
+        unknown = Vector3(math.nan, math.nan, math.nan)
+        return unknown, unknown
+    turn = quaternions.multiply(quaternions.conjugate(first.rotation), last.rotation)
+    axis, angle = conversions.axis_angle_from_quaternion(turn)
+    return (
+        (last.translation - first.translation) / duration,
+        first.rotate(axis) * (angle / duration),
+    )

@@ -1,0 +1,267 @@
+"""Many recordings, worked on by one process, by several, or by a cluster: rows of facts.
+
+There is one path for all three: an executor of `concurrent.futures`. A recording that
+cannot be read is a row as well, and one that ends the process it is read by is tried again
+alone.
+"""
+
+import glob
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
+from itertools import islice
+from pathlib import Path
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.escaping import visible
+from tftool.commands.fleet.fleet_tasks import NONE_FOUND, UNREADABLE, FleetTask
+from tftool.commands.fleet.rows import Row, RowFile
+from tftool.commands.fleet.workers import Processes, Workers
+from tftool.commands.shared.notices import notice
+
+RECORDED_SUFFIXES = (".mcap", ".bag", ".db3", ".zstd")
+"""Files of a glob that are meant as recordings, whatever is in them."""
+
+
+# The work
+
+
+def sweep(
+    sources: Sequence[str], output: RowFile | None, workers: Workers, task: FleetTask
+) -> tuple[dict[str, int], list[Row]]:
+    """Work on many recordings, and write what is found as it comes.
+
+    Args:
+        sources: The recordings; those that the output holds already are passed over.
+        output: Where rows go; None to get them back.
+        workers: Who works.
+        task: What is done with each.
+
+    Returns:
+        How many recordings there are of each outcome, and the rows if there is no output.
+    """
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    left = [
+        source for source in dict.fromkeys(sources) if output is None or not output.holds(source)
+    ]
+    counts: dict[str, int] = {}
+    kept: dict[str, list[Row]] = {}
+    columns = (
+        TextColumn("Examining"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+        TextColumn("{task.fields[found]}"),
+    )  # fmt: skip
+    console = Console(stderr=True)
+    with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
+        bar = progress.add_task("", total=len(left), found="")
+        for source, rows in _results(left, workers, task):
+            if output is None:
+                kept[source] = rows
+            else:
+                output.write(rows)
+            outcome = task.outcome(rows)
+            counts[outcome] = counts.get(outcome, 0) + 1
+            progress.update(bar, advance=1, found=told(counts))
+    return counts, [row for source in left for row in kept.get(source, ())]
+
+
+def _results(
+    sources: Sequence[str], workers: Workers, task: FleetTask
+) -> Iterator[tuple[str, list[Row]]]:
+    waiting = list(sources)
+    while waiting:
+        finished: set[str] = set()
+        with workers.open() as pool:
+            try:
+                for source, rows in _worked(pool, waiting, workers, task):
+                    finished.add(source)
+                    yield source, rows
+                return
+            except BrokenExecutor:
+                # One of those that were worked on ended its process: they are tried alone.
+                waiting = [source for source in waiting if source not in finished]
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+        for source in waiting[: workers.count]:
+            yield source, _alone(source, task)
+        waiting = waiting[workers.count :]
+
+
+def _worked(
+    pool: Executor, sources: Sequence[str], workers: Workers, task: FleetTask
+) -> Iterator[tuple[str, list[Row]]]:
+    """What comes of each, as it comes.
+
+    Raises:
+        BrokenExecutor: If a process was ended; what others had finished came before.
+    """
+    queue = iter(sources)
+    pending: dict[Future[list[Row]], str] = {}
+    broken: BrokenExecutor | None = None
+    while broken is None:
+        for source in islice(queue, workers.window - len(pending)):
+            pending[pool.submit(task.rows, source, workers.place(source))] = source
+        if not pending:
+            return
+        done, _ = wait(pending, return_when=FIRST_COMPLETED)
+        for future in done:
+            source = pending.pop(future)
+            try:
+                rows = future.result()
+            except BrokenExecutor as error:
+                broken = error
+                continue
+            except UsageError:
+                raise
+            except Exception as error:
+                rows = [task.unreadable(source, _failure(error))]
+            yield source, rows
+    raise broken
+
+
+def _failure(error: Exception) -> str:
+    """Why a worker of a cluster failed with one recording.
+
+    Raises:
+        UsageError: If it cannot do this work at all.
+        InputError: If the cluster is gone: nothing is wrong with the recording.
+    """
+    if isinstance(error, ModuleNotFoundError) and (error.name or "").startswith("tftool"):
+        raise UsageError("The workers of the cluster do not have this tftool installed.") from error
+    if type(error).__name__ == "KilledWorker":
+        return "the workers that read it were ended (memory?)"
+    if isinstance(error, CancelledError) or type(error).__module__.startswith("distributed"):
+        raise InputError(
+            "The connection with the cluster was lost: --resume goes on with what is left."
+        ) from error
+    return f"{type(error).__name__}: {error}"
+
+
+def _alone(source: str, task: FleetTask) -> list[Row]:
+    """In a process of its own, so that one that ends it harms no other."""
+    with Processes(1).open() as pool:
+        try:
+            return pool.submit(task.rows, source, source).result()
+        except BrokenExecutor:
+            return [task.unreadable(source, "the process that read it was ended (memory?)")]
+
+
+# Which recordings, and what came of them
+
+
+def expanded(words: Sequence[str]) -> list[str]:
+    """The recordings that files, folders, globs and URLs name, each once.
+
+    Of a glob, files with the ending of a recording are meant as recordings, even if they
+    cannot be read.
+
+    Raises:
+        InputError: If a glob or a folder of the web names nothing, or cannot be listed.
+    """
+    from tftool.commands.shared.from_kind import named
+    from tftool.recordings.find import METADATA, Kind
+    from tftool.recordings.remote_files import is_url, listed
+
+    found: list[str] = []
+    for word in words:
+        if is_url(word):
+            found += listed(word)
+            continue
+        if glob.has_magic(word) and not os.path.lexists(word):
+            matches = sorted(glob.glob(word, recursive=True))
+            found += [
+                match
+                for match in matches
+                if match.lower().endswith(RECORDED_SUFFIXES)
+                or (Path(match) / METADATA).exists()
+                or (os.path.isfile(match) and _is_recording(match))
+            ]
+            if not matches:
+                raise InputError(f"No file is named by '{visible(word)}'.")
+            continue
+        try:
+            what = named(word)
+        except InputError:
+            found.append(word)
+            continue
+        several = what.kind is Kind.SEVERAL
+        if several:
+            for text in what.told():
+                notice(visible(text))
+        found += [str(path) for path in what.paths] if several else [word]
+    return list(dict.fromkeys(found))
+
+
+def _is_recording(path: str) -> bool:
+    from tftool.recordings.find import kind_of_file
+
+    try:
+        return kind_of_file(Path(path)).is_recording
+    except InputError:
+        return False
+
+
+def told(counts: dict[str, int]) -> str:
+    """The counts in words."""
+    words = {
+        "error": "with errors",
+        "warning": "with warnings",
+        "note": "with notes only",
+        NONE_FOUND: "fine",
+        "whole": "whole",
+        "damaged": "damaged",
+        UNREADABLE: "unreadable",
+    }
+    return ", ".join(f"{counts[key]:,} {word}" for key, word in words.items() if key in counts)
+
+
+def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
+    """Say on stdout what came of a sweep, and what of the recordings that were passed over."""
+    total = sum(counts.values())
+    passed = sum(earlier.values())
+    over = f" ({passed:,} were in it already: {told(earlier)})" if passed else ""
+    what = told(counts) or "nothing left to do"
+    name = "recording" if total == 1 else "recordings"
+    sys.stdout.write(f"{total:,} {name}: {what}. Rows are in {visible(str(output))}{over}.\n")
+
+
+def swept_into(
+    words: Sequence[str], path: Path, workers: Workers, task: FleetTask, *, resume: bool
+) -> dict[str, int]:
+    """Work on many recordings, write a file of rows, and say what came of it.
+
+    Returns:
+        How many recordings there are of each outcome, in all of the file.
+    """
+    sources = expanded(words)
+    if not sources:
+        raise UsageError("Name the recordings: files, folders, globs, URLs.")
+    output = RowFile(path, task.columns, task.judged, resume=resume)
+    try:
+        counts, _ = sweep(sources, output, workers, task)
+    finally:
+        output.close()
+    earlier: dict[str, int] = Counter(
+        task.outcome(output.earlier(source))
+        for source in dict.fromkeys(sources)
+        if output.holds(source)
+    )
+    announce(counts, earlier, path)
+    return {key: counts.get(key, 0) + earlier.get(key, 0) for key in {**counts, **earlier}}

@@ -1,0 +1,255 @@
+"""What is asked of each of many recordings, as rows of a table."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Protocol
+
+from tftool.base.errors import TftoolError, UsageError
+from tftool.base.stamps import as_seconds
+from tftool.commands.fleet.rows import ColumnKind, Row
+
+if TYPE_CHECKING:
+    from tftool.doctor.model import Settings
+    from tftool.doctor.scope import Scope
+
+_TEXT, _TEXTS, _INTEGER, _NUMBER = (
+    ColumnKind.TEXT,
+    ColumnKind.TEXTS,
+    ColumnKind.INTEGER,
+    ColumnKind.NUMBER,
+)
+
+FINDINGS: Mapping[str, ColumnKind] = {
+    "source": _TEXT,
+    "id": _TEXT,
+    "severity": _TEXT,
+    "area": _TEXT,
+    "message": _TEXT,
+    "confidence": _TEXT,
+    "because_of": _TEXT,
+    "edges": ColumnKind.EDGES,
+    "frames": _TEXTS,
+    "topics": _TEXTS,
+    "publishers": _TEXTS,
+    "since": _INTEGER,
+    "until": _INTEGER,
+    "count": _INTEGER,
+    "consequence": _TEXT,
+    "fix": _TEXT,
+    "command": _TEXT,
+}
+"""What a row of a finding tells."""
+
+
+FACTS: Mapping[str, ColumnKind] = {
+    "source": _TEXT,
+    "kind": _TEXT,
+    "bytes": _INTEGER,
+    "start": _INTEGER,
+    "end": _INTEGER,
+    "seconds": _NUMBER,
+    "messages": _INTEGER,
+    "topics": _TEXTS,
+    "transforms": _INTEGER,
+    "edges": ColumnKind.EDGES,
+    "frames": _INTEGER,
+    "trees": _INTEGER,
+    "damage": _TEXTS,
+    "unreadable": _TEXT,
+}
+"""What a row of a recording tells."""
+
+NONE_FOUND = "none"
+"""The id of the one row of a recording in which nothing was found."""
+
+UNREADABLE = "unreadable"
+"""The id of the one row of a recording that cannot be read."""
+
+
+class FleetTask(Protocol):
+    """What is done with each recording; it is sent to other processes."""
+
+    @property
+    def columns(self) -> Mapping[str, ColumnKind]:
+        """What a row tells."""
+
+    def rows(self, source: str, place: str) -> list[Row]:
+        """The rows of one recording; what cannot be read is a row too, and raises nothing.
+
+        Args:
+            source: What to call it.
+            place: Where it is.
+        """
+
+    def unreadable(self, source: str, why: str) -> Row:
+        """The row of a recording that cannot be read."""
+
+    @property
+    def judged(self) -> Sequence[str]:
+        """The columns that `outcome` looks at."""
+
+    def outcome(self, rows: Sequence[Row]) -> str:
+        """What came of a recording, in a word of `told`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Examination:
+    """The doctor's task.
+
+    Attributes:
+        settings: What the listener is like.
+        select: Checks to run.
+        ignore: Checks to leave out.
+        scope: What of a recording is looked at.
+    """
+
+    settings: "Settings"
+    select: tuple[str, ...]
+    ignore: tuple[str, ...]
+    scope: "Scope"
+
+    @property
+    def columns(self) -> Mapping[str, ColumnKind]:
+        """What a row tells."""
+        return FINDINGS
+
+    def rows(self, source: str, place: str) -> list[Row]:
+        """One recording's findings."""
+        return _told(self, source, place, partial(self._examined, source))
+
+    def _examined(self, source: str, path: str) -> list[Row]:
+        from tftool.doctor.judge import judge
+        from tftool.recordings.recording import open_recording
+        from tftool.scenario.doctor_expectations import rules_beside
+
+        rules, _ = rules_beside(path)
+        with open_recording(path) as recording:
+            material = self.scope.material(recording)
+        diagnosis = judge(
+            material,
+            rules.settings(self.settings),
+            select=self.select,
+            ignore=(*self.ignore, *rules.ignore),
+        )
+        rows: list[Row] = []
+        for one in diagnosis.findings:
+            first = one.fixes[0] if one.fixes else None
+            rows.append(
+                {
+                    "source": source,
+                    "id": one.id,
+                    "severity": one.severity.value,
+                    "area": one.area.value,
+                    "message": one.message,
+                    "confidence": one.confidence.value,
+                    "because_of": one.because_of,
+                    "edges": [list(edge) for edge in one.edges],
+                    "frames": list(one.frames),
+                    "topics": list(one.topics),
+                    "publishers": list(one.publishers),
+                    "since": one.since,
+                    "until": one.until,
+                    "count": one.count,
+                    "consequence": one.consequence,
+                    "fix": first.text if first else "",
+                    "command": first.command if first else "",
+                }
+            )
+        return rows or [
+            {"source": source, "id": NONE_FOUND, "message": "nothing found", "count": 0}
+        ]
+
+    def unreadable(self, source: str, why: str) -> Row:
+        """The row of a recording that cannot be read."""
+        return {
+            "source": source,
+            "id": UNREADABLE,
+            "severity": "error",
+            "message": why,
+            "count": 1,
+        }
+
+    @property
+    def judged(self) -> Sequence[str]:
+        """The columns that `outcome` looks at."""
+        return ("id", "severity", "because_of")
+
+    def outcome(self, rows: Sequence[Row]) -> str:
+        """The worst severity among what is no consequence."""
+        if rows[0]["id"] in (UNREADABLE, NONE_FOUND):
+            return str(rows[0]["id"])
+        severities = {row["severity"] for row in rows if row.get("because_of") is None}
+        return next((one for one in ("error", "warning", "note") if one in severities), NONE_FOUND)
+
+
+@dataclass(frozen=True, slots=True)
+class Inventory:
+    """The task of `info`: a row a recording."""
+
+    @property
+    def columns(self) -> Mapping[str, ColumnKind]:
+        """What a row tells."""
+        return FACTS
+
+    def rows(self, source: str, place: str) -> list[Row]:
+        """What one recording holds."""
+        return _told(self, source, place, partial(self._listed, source))
+
+    @staticmethod
+    def _listed(source: str, path: str) -> list[Row]:
+        from tftool.doctor.evidence import Material
+        from tftool.doctor.model import Model
+        from tftool.recordings.recording import open_recording
+
+        with open_recording(path) as recording:
+            held, transforms = recording.source, recording.transforms
+            model = Model(Material(source, held.kind, transforms, start=held.start, end=held.end))
+            row = {
+                "source": source,
+                "kind": held.kind,
+                "bytes": held.size,
+                "start": held.start,
+                "end": held.end,
+                "seconds": as_seconds(held.end - held.start),
+                "messages": sum(topic.count for topic in held.topics),
+                "topics": [topic.name for topic in held.topics],
+                "transforms": len(transforms),
+                "edges": [[edge.parent, edge.child] for edge in transforms.edges],
+                "frames": len(model.frames),
+                "trees": len(model.trees),
+                "damage": list(recording.damage),
+                "unreadable": None,
+            }
+        return [row]
+
+    def unreadable(self, source: str, why: str) -> Row:
+        """The row of a recording that cannot be read."""
+        return {"source": source, "unreadable": why}
+
+    @property
+    def judged(self) -> Sequence[str]:
+        """The columns that `outcome` looks at."""
+        return ("damage", "unreadable")
+
+    def outcome(self, rows: Sequence[Row]) -> str:
+        """Whether it can be read, and whole."""
+        if rows[0].get("unreadable") is not None:
+            return UNREADABLE
+        return "damaged" if rows[0]["damage"] else "whole"
+
+
+def _told(task: FleetTask, source: str, place: str, work: Callable[[str], list[Row]]) -> list[Row]:
+    """What a task found in a recording, wherever that is; what cannot be read is a row."""
+    from tftool.recordings.remote_files import fetched
+
+    try:
+        with fetched(place) as path:
+            return work(path)
+    except UsageError:
+        raise
+    except (TftoolError, OSError, MemoryError) as error:
+        return [task.unreadable(source, str(error) or type(error).__name__)]
+
+
+# Who works

@@ -1,0 +1,257 @@
+"""Rows of facts in a file that grows while work goes on: JSON lines, a table, or Parquet."""
+
+import csv
+import io
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.escaping import visible
+from tftool.base.named_files import open_regular, reader_there
+
+if TYPE_CHECKING:
+    import pyarrow
+
+Row = dict[str, Any]
+"""The facts of one finding, or of one recording, by the name of their column."""
+
+
+class ColumnKind(Enum):
+    """What the cells of a column hold."""
+
+    TEXT = "text"
+    TEXTS = "a list of texts"
+    EDGES = "a list of parents and children"
+    INTEGER = "a whole number"
+    NUMBER = "a number"
+
+
+SUFFIXES = (".jsonl", ".csv", ".parquet")
+
+
+class RowFile:
+    """A file of rows, all of one recording written at once.
+
+    Parquet cannot be added to: rows are collected as JSON lines in a file beside it,
+    `NAME.part`, which becomes the table when it is closed, and is gone on with after a crash.
+
+    Attributes:
+        path: The file.
+        source: The column that names the recording.
+    """
+
+    source = "source"
+
+    def __init__(
+        self,
+        path: Path,
+        columns: Mapping[str, ColumnKind],
+        judged: Sequence[str] = (),
+        *,
+        resume: bool,
+    ) -> None:
+        """Open it.
+
+        Args:
+            path: Its suffix says what is written: .jsonl, .csv or .parquet.
+            columns: The columns of a table.
+            judged: The columns that are kept of what it holds already; see `earlier`.
+            resume: Whether to keep what it holds, and go on.
+
+        Raises:
+            UsageError: If the suffix is another, or an extra is not installed.
+            InputError: If it cannot be opened, or what it holds is none of ours.
+        """
+        self.path = path
+        self._columns = columns
+        self._suffix = path.suffix.lower()
+        if self._suffix not in SUFFIXES:
+            raise UsageError(
+                f"'{path}' does not say what to write: end it in .jsonl, .csv or .parquet."
+            )
+        self._is_parquet = self._suffix == ".parquet"
+        if self._is_parquet:
+            _arrow()
+        self._growing = path.with_name(f"{path.name}.part") if self._is_parquet else path
+        self._judged = (self.source, *judged)
+        self._done: dict[str, list[Row]] = {}
+        try:
+            for row in self._held() if resume else ():
+                if not set(row) <= columns.keys():
+                    raise ValueError  # as of another command, which say nothing here
+                rows = self._done.setdefault(row[self.source], [])
+                rows.append({name: row.get(name) for name in self._judged})
+            mode = "ab" if self._done else "wb"
+            # Without a buffer: rows of one recording are in the file together or not at all.
+            self._file = io.FileIO(self._growing, mode, opener=reader_there)
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            reason = getattr(error, "strerror", None) or "it holds something else than such rows"
+            what = "gone on with" if resume else "written"
+            raise InputError(f"'{path}' cannot be {what}: {reason}.") from error
+        if self._suffix == ".csv" and not self._done:
+            self._file.write(self._table([self._columns]))
+
+    def holds(self, source: str) -> bool:
+        """Whether rows of a recording were in it when it was opened."""
+        return bool(self.earlier(source))
+
+    def earlier(self, source: str) -> list[Row]:
+        """The rows of a recording that were in it when it was opened, in the judged columns."""
+        written = _cell(source) if self._suffix == ".csv" else source
+        return self._done.get(str(written)) or (
+            self._done.get(_utf8(source), []) if self._is_parquet else []
+        )
+
+    def _held(self) -> Iterator[Row]:
+        """The rows it has, at least in the judged columns; half a line at its end is taken away."""
+        if self._is_parquet and self.path.exists() and self.path.stat().st_size:
+            arrow = _arrow()
+            try:
+                table = arrow.parquet.read_table(self.path, columns=list(self._judged))
+            except arrow.ArrowException as error:
+                raise ValueError from error
+            yield from table.to_pylist()
+        if not self._growing.exists():
+            return
+        with open_regular(self._growing) as file:
+            whole = file.read()
+        # A process that was killed may have left half a line.
+        kept = whole[: whole.rfind(b"\n") + 1]
+        if len(kept) < len(whole):
+            self._growing.write_bytes(kept)
+        lines = kept.decode("utf-8").splitlines()
+        if self._suffix == ".csv":
+            # A cell without anything is what was None.
+            yield from (
+                {name: cell or None for name, cell in row.items()} for row in csv.DictReader(lines)
+            )
+        else:
+            yield from (json.loads(line) for line in lines if line)
+
+    def write(self, rows: Sequence[Row]) -> None:
+        """All rows of one recording, at once.
+
+        Raises:
+            InputError: If the disk is full, or gone.
+        """
+        if self._suffix == ".csv":
+            content = self._table([_cell(row.get(c)) for c in self._columns] for row in rows)
+        else:
+            content = "".join(f"{json.dumps(row, allow_nan=False)}\n" for row in rows).encode()
+        try:
+            self._file.write(content)
+        except OSError as error:
+            raise InputError(f"'{self.path}' cannot be written: {error.strerror}.") from error
+
+    @staticmethod
+    def _table(lines: Any) -> bytes:
+        text = io.StringIO(newline="")
+        csv.writer(text).writerows(lines)
+        return text.getvalue().encode("utf-8", "backslashreplace")
+
+    def close(self) -> None:
+        """Close the file; of Parquet, make the table.
+
+        Raises:
+            InputError: If it cannot be written.
+        """
+        self._file.close()
+        if not self._is_parquet:
+            return
+        try:
+            self._make_parquet()
+        except OSError as error:
+            raise InputError(
+                f"'{self.path}' cannot be written: {error.strerror or error}. The rows are in "
+                f"'{self._growing}': --resume goes on from there."
+            ) from error
+
+    def _make_parquet(self) -> None:
+        """What the table held before, and the rows beside it, as one table in place of both."""
+        arrow = _arrow()
+        schema = arrow.schema([(name, _type(kind)) for name, kind in self._columns.items()])
+        whole = self.path.with_name(f"{self.path.name}.tmp")
+        with arrow.parquet.ParquetWriter(whole, schema) as writer:
+            if self._done and self.path.exists() and self.path.stat().st_size:
+                for batch in arrow.parquet.ParquetFile(self.path).iter_batches():
+                    writer.write_batch(batch)
+            with self._growing.open("rb") as lines:
+                for rows in _blocks(lines):
+                    columns = [
+                        [_clean(row.get(name), kind) for row in rows]
+                        for name, kind in self._columns.items()
+                    ]
+                    arrays = [
+                        arrow.array(column, field.type)
+                        for column, field in zip(columns, schema, strict=True)
+                    ]
+                    writer.write_table(arrow.Table.from_arrays(arrays, schema=schema))
+        os.replace(whole, self.path)
+        self._growing.unlink()
+
+
+def _blocks(lines: BinaryIO, size: int = 10_000) -> Iterator[list[Row]]:
+    block: list[Row] = []
+    for line in lines:
+        block.append(json.loads(line))
+        if len(block) == size:
+            yield block
+            block = []
+    if block:
+        yield block
+
+
+def _arrow() -> Any:
+    """The package that writes Parquet.
+
+    Raises:
+        UsageError: If it is not installed.
+    """
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise UsageError(
+            "Parquet needs an extra: pip install 'tftool-tf2[parquet]'; .jsonl and .csv do not."
+        ) from None
+    return pyarrow
+
+
+def _type(kind: ColumnKind) -> "pyarrow.DataType":
+    arrow = _arrow()
+    edge = arrow.struct([("parent", arrow.string()), ("child", arrow.string())])
+    return {
+        ColumnKind.TEXT: arrow.string(),
+        ColumnKind.TEXTS: arrow.list_(arrow.string()),
+        ColumnKind.EDGES: arrow.list_(edge),
+        ColumnKind.INTEGER: arrow.int64(),
+        ColumnKind.NUMBER: arrow.float64(),
+    }[kind]
+
+
+def _clean(value: Any, kind: ColumnKind) -> Any:
+    """A cell of Parquet, whose texts are UTF-8: what is none is escaped."""
+    if value is None or kind in (ColumnKind.INTEGER, ColumnKind.NUMBER):
+        return value
+    if kind is ColumnKind.EDGES:
+        return [{"parent": _utf8(parent), "child": _utf8(child)} for parent, child in value]
+    return [_utf8(text) for text in value] if kind is ColumnKind.TEXTS else _utf8(value)
+
+
+def _utf8(text: str) -> str:
+    return text.encode("utf-8", "backslashreplace").decode()
+
+
+def _cell(value: object) -> object:
+    """A cell of a table."""
+    if isinstance(value, list):
+        return json.dumps(value) if value else ""
+    if isinstance(value, str):
+        # A name that a spreadsheet would take for a formula is none; lines stay lines.
+        text = visible(value)
+        return f"'{text}" if text[:1] in ("=", "+", "-", "@") else text
+    return "" if value is None else value

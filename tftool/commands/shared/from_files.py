@@ -1,0 +1,90 @@
+"""What FROM names where it is a file: how it is read, as options say, and what is got of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from tftool.base.errors import UsageError
+
+if TYPE_CHECKING:
+    from tftool.base.stamps import Stamp
+    from tftool.buffer.buffer import Buffer
+
+
+@dataclass(frozen=True, slots=True)
+class RobotOptions:
+    """What the command line says about the robot description that FROM names or goes with it.
+
+    Attributes:
+        joints: Positions by joint, radians or metres.
+        arguments: Values of xacro arguments.
+        urdf: A description for a recording that has none.
+    """
+
+    joints: Mapping[str, float] = field(default_factory=dict)
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    urdf: Path | None = None
+
+    def refuse(self, what: str) -> None:
+        """Refuse them for a FROM that is no robot description.
+
+        Args:
+            what: What it is, as the beginning of a sentence.
+
+        Raises:
+            UsageError: If one was given.
+        """
+        given = [f"--joint {name}={value:g}" for name, value in self.joints.items()]
+        given += [f"{name}:={value}" for name, value in self.arguments.items()]
+        given += [] if self.urdf is None else [f"--urdf {self.urdf}"]
+        if given:
+            raise UsageError(f"{what}: leave out {', '.join(given)}.")
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingOptions:
+    """What the command line says about how a recording is read.
+
+    Attributes:
+        no_cache: Whether its columns are read again, and not kept.
+        with_odometry: Whether odometry and poses count as transforms.
+    """
+
+    no_cache: bool = False
+    with_odometry: bool = False
+
+    def refuse(self, what: str) -> None:
+        """Refuse what changes the answer for a FROM that is no recording.
+
+        Args:
+            what: What it is, as the beginning of a sentence.
+
+        Raises:
+            UsageError: If that was given.
+        """
+        if self.with_odometry:
+            raise UsageError(f"{what}: leave out --with-odometry.")
+
+
+class StoredFrames(Protocol):
+    """Frames that are all there: those of a recording, or of a robot description."""
+
+    @property
+    def name(self) -> str:
+        """What it is called: "run.mcap"."""
+
+    @property
+    def start(self) -> "Stamp":
+        """The moment from which `--at` counts."""
+
+    @property
+    def end(self) -> "Stamp":
+        """The last moment there is data of."""
+
+    @property
+    def buffer(self) -> "Buffer":
+        """All of it."""
+
+    def close(self) -> None:
+        """Close its files."""

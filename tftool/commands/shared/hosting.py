@@ -1,0 +1,425 @@
+"""Join or host: the one place that decides where a command's frames come from.
+
+FROM is a word that names a scenario (a built-in one, or a file), a recording (a file, a
+folder, a glob) or a robot description; what a file is its content says. What is named is
+always hosted. Without a word, the session that runs on this machine is joined; if none
+runs, the command hosts one, and others join it. Processes that only look are no session:
+they wait, and share what is hosted next. While one world is hosted another keeps to
+itself, so that the two never mix.
+
+A command that works in a world while it lives (``echo``, ``monitor``, ``view``) opens a session::
+
+        session = open_session(connection, place)
+        session.run(work(session.world))
+
+`cli.observing` is for those that ask about one moment.
+"""
+
+import asyncio
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from tftool.base.errors import LinkError, UsageError
+from tftool.base.escaping import visible
+from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
+from tftool.commands.shared.command_session import Session, lived, shared
+from tftool.commands.shared.connection import Connection, Mode
+from tftool.commands.shared.from_files import StoredFrames
+from tftool.commands.shared.from_kind import kind_in_words, kind_word, named, scenario_named
+from tftool.commands.shared.notices import notice
+from tftool.recordings.find import Found, Kind
+from tftool.world.clock import Clock, Phase, SimClock
+from tftool.world.supervisor import live
+from tftool.world.world import World
+
+if TYPE_CHECKING:
+    from tftool.recordings.recording import Recording
+    from tftool.scenario.scenario import NodeEntry, Scenario
+    from tftool.world.link.session import Link
+
+HOME = "turtles"
+"""The scenario a command hosts when nothing runs and none was named."""
+
+NO_SESSION = "No session is running here"
+A_MOMENT = "A chosen moment is always simulated"
+"""Why a world that was not named is hosted."""
+
+HEAD_START = seconds(3)
+"""How long a hosted world has lived when its command first looks: both turtles are there."""
+
+
+@dataclass(frozen=True, slots=True)
+class JoinDecision:
+    """What a command finds when it looks for others to share a world with.
+
+    Attributes:
+        session: The session it has joined; None where it has to host.
+        link: By which a host lets others in; None where it keeps to itself.
+        alone: Why it does, as a sentence.
+    """
+
+    session: Session | None = None
+    link: "Link | None" = None
+    alone: str = ""
+
+
+def join_or_host(
+    connection: Connection,
+    word: str | None,
+    *,
+    needs_turtles: bool = False,
+    cache_time: Duration | None = None,
+) -> JoinDecision:
+    """Join what runs here, else become the one to host; no other process decides meanwhile.
+
+    Args:
+        connection: What the command's options say.
+        word: What was named, which is hosted; None for the session that runs.
+        needs_turtles: Whether only a session with a turtle simulator will do.
+        cache_time: How far back the buffer of a joined world remembers.
+
+    Raises:
+        LinkError: If a session was asked for and there is none, or no link.
+        UsageError: If --join was given: what is named is hosted.
+    """
+    _refuse_to_join(connection, word)
+    link, alone = _open_link(connection)
+    if link is None:
+        return JoinDecision(alone=alone)
+    there = link.graph.has_sources
+    if word is None and connection.mode is not Mode.HOST:
+        # --connect means what is at the other end, or comes there; turtles of our own have no
+        # place among a robot's frames.
+        if connection.looks or (there and (not needs_turtles or _has_host(link))):
+            world = World(connection.providers.joined_clock(), cache_time=cache_time or CACHE_TIME)
+            name = _name_of(connection, link)
+            notice(f"Joined {name}.")
+            return JoinDecision(Session(world, False, name, lived(world, link, "guest"), link=link))
+        if link.unanswering and not there:
+            # It may host: a second world of the same names would mix with it later.
+            link.close()
+            raise LinkError(
+                f"{link.unanswering} Or leave it be: --domain N makes a session of its own, "
+                "--host a world that keeps to itself."
+            )
+        if connection.mode is Mode.JOIN or connection.read_only:
+            link.close()
+            what = "session with turtles" if there else "session"
+            raise LinkError(
+                f"No {what} is running in domain {connection.domain}: start one with "
+                "'tftool demo', or leave out the option to host one here."
+            )
+    elif link.unanswering and not _has_host(link):
+        link.close()
+        alone = f"This world keeps to itself. {link.unanswering}"
+        notice(alone)
+        return JoinDecision(alone=alone)
+    elif _has_host(link):
+        link.close()
+        alone = (
+            f"A session is running here, {_name_of(connection, link)}; this world keeps to itself "
+            "(--domain N would give it a session of its own)."
+        )
+        notice(alone)
+        return JoinDecision(alone=alone)
+    return JoinDecision(link=link)
+
+
+def open_session(
+    connection: Connection,
+    word: str | None = None,
+    *,
+    simulated: bool = False,
+    head_start: Duration = HEAD_START,
+    cache_time: Duration | None = None,
+    without: Callable[["NodeEntry"], bool] | None = None,
+    needs_turtles: bool = False,
+    needs_messages: bool = False,
+    plays: bool = False,
+    because: str = NO_SESSION,
+    by_hand: bool = False,
+) -> Session:
+    """Give the world a command works in, and say so on stderr when it had to be made.
+
+    Args:
+        connection: What the command's options say.
+        word: What FROM names, which is hosted; None for the session that runs.
+        simulated: Whether a hosted world lives on simulated time, from its beginning on.
+        head_start: How much of a hosted scenario on the wall clock is lived through at once.
+        cache_time: How far back the world's buffer remembers, in place of the scenario's own.
+        without: Says which of a hosted scenario's nodes to leave out.
+        needs_turtles: Whether only a session with a turtle simulator will do.
+        needs_messages: Whether messages have to arrive: those of a recording have.
+        plays: Whether those of a recording are to arrive again, as fast as can be simulated.
+        because: Why a world that was not named is hosted, for people.
+        by_hand: Whether a person drives in it, in place of the scenario's own script.
+
+    Raises:
+        InputError: If the word names nothing, or it cannot be read.
+        LinkError: If a session was asked for and there is none.
+        UsageError: If sharing was asked for where time is simulated.
+    """
+    found = None if word is None else named(word)
+    if found is not None and found.kind is not Kind.SCENARIO:
+        if needs_messages and not plays:
+            raise _without_messages(found)
+        refuse_to_share(connection, word)
+        if plays:
+            return _played(connection, found, cache_time)
+        refuse_to_forget(found, cache_time)
+        return _recorded(connection, found, simulated=simulated)
+    refuse_options_of_files(connection, word)
+    link = None
+    if simulated:
+        refuse_to_share(connection, word)
+    else:
+        joined = join_or_host(connection, word, needs_turtles=needs_turtles, cache_time=cache_time)
+        if joined.session is not None:
+            return joined.session
+        link = joined.link
+    try:
+        scenario = _scenario_to_host(word, without, because)
+        if by_hand:
+            from tftool.scenario.play import left_to_a_person
+
+            scenario = left_to_a_person(scenario)
+        if cache_time:
+            scenario = replace(scenario, cache_time=cache_time)
+        if simulated:
+            return _hosted(scenario, SimClock(), 0, None)
+        clock = connection.providers.wall_clock(head_start=head_start)
+        return _hosted(scenario, clock, head_start, link)
+    except BaseException:
+        if link is not None:
+            link.close()
+        raise
+
+
+def _scenario_to_host(
+    word: str | None, without: Callable[["NodeEntry"], bool] | None, because: str
+) -> "Scenario":
+    """Give a scenario that nothing judges; say so where it was not named."""
+    scenario = scenario_named(word or HOME)
+    if without is not None:
+        kept = tuple(node for node in scenario.nodes if not without(node))
+        scenario = replace(scenario, nodes=kept)
+    if word is None:
+        # For a program of the user's, nothing of the scenario moves.
+        alone = [node.kind for node in scenario.nodes] == ["turtlesim"]
+        hosted = "a turtlesim alone" if alone else f"scenario '{HOME}'"
+        notice(f"{because}: hosting {hosted}.")
+    return replace(scenario, expect=())
+
+
+def join_session(
+    connection: Connection, *, needs_turtles: bool = False, cache_time: Duration | None = None
+) -> Session | None:
+    """Give the world of the session that runs here; None where none does.
+
+    For commands that host on simulated time: nothing is opened for others to join.
+
+    Raises:
+        LinkError: If a session was asked for and there is none.
+    """
+    if connection.mode is Mode.HOST or (
+        not connection.needs_link and not _is_session_here(connection)
+    ):
+        return None
+    joined = join_or_host(connection, None, needs_turtles=needs_turtles, cache_time=cache_time)
+    if joined.link is not None:
+        joined.link.close()
+    return joined.session
+
+
+def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:
+    """Give a world with nothing in it to a command that brings its own nodes; others see it."""
+    if simulated:
+        world, link = World(SimClock()), None
+    else:
+        world, link = World(connection.providers.wall_clock()), _open_link(connection)[0]
+    return Session(world, True, "an empty world", lived(world, link, "source"), link=link)
+
+
+def tell_where_to_look(connection: Connection, session: Session) -> None:
+    """Say, to a person, how another terminal shows what runs here from now on."""
+    if session.link is None or not sys.stderr.isatty():
+        return
+    domain = f" --domain {connection.domain}" if connection.domain else ""
+    notice(f"See it from another terminal: tftool demo --join{domain} · tftool view{domain}")
+
+
+def refuse_to_share(connection: Connection, word: str | None) -> None:
+    """Refuse the options of sharing for a world on simulated time."""
+    _refuse_to_join(connection, word)
+    if connection.needs_link:
+        raise UsageError(
+            f"'{visible(word or HOME)}' is played on simulated time here, which cannot be shared: "
+            "leave out --join, --listen, --connect, --zenoh-config, --dds and --read-only."
+        )
+
+
+def _refuse_to_join(connection: Connection, word: str | None) -> None:
+    if word is not None and connection.mode is Mode.JOIN:
+        raise UsageError(f"'{visible(word)}' is always hosted: leave out --join, or the name.")
+
+
+def refuse_options_of_files(connection: Connection, word: str | None) -> None:
+    """Refuse the options of recordings and descriptions, where FROM is neither.
+
+    Raises:
+        UsageError: If one was given.
+    """
+    what = "The session that runs" if word is None else f"'{visible(word)}'"
+    connection.robot.refuse(f"{what} is no robot description and no recording")
+    connection.recording.refuse(f"{what} is no recording")
+
+
+def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
+    """Refuse --cache-time where FROM is all there, and lookups reach back to its beginning.
+
+    Raises:
+        UsageError: If it was given.
+    """
+    if cache_time is not None:
+        raise UsageError(
+            f"All of '{visible(found.name)}' is known, to its beginning: leave out --cache-time."
+        )
+
+
+def _hosted(
+    scenario: "Scenario", clock: Clock, head_start: Duration, link: "Link | None"
+) -> Session:
+    """Host a world to look at."""
+    from tftool.scenario.play import build
+
+    play = build(scenario, clock)
+
+    async def alive(until: Stamp | None) -> None:
+        with shared(link, play.world):
+            # People look for as long as they like, whatever the scenario's duration.
+            await play.live(until, endless=until is None)
+
+    name = f"scenario '{visible(scenario.name)}'"
+    return Session(play.world, True, name, alive, head_start, scenario.duration, link)
+
+
+def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Session:
+    """A world in which all of a recording is known, at its end; its clock began with it."""
+    stored = connection.open_stored(found)
+    lasting = stored.end - stored.start
+    # Where nothing was recorded both are 0, at which no clock can begin.
+    start = max(stored.start, 1)
+    clock: Clock = (
+        SimClock(start) if simulated else connection.providers.still_clock(start, start + lasting)
+    )
+    world = World(clock, stored.buffer)
+
+    async def alive(until: Stamp | None) -> None:
+        if until is None:
+            await asyncio.get_running_loop().create_future()
+        else:
+            await clock.sleep_until(until, Phase.END)
+
+    name = f"{kind_word(found)} '{visible(stored.name)}'"
+    robot = getattr(stored, "robot", None)
+    return Session(
+        world,
+        True,
+        name,
+        alive,
+        lasting,
+        lasting,
+        is_recorded=True,
+        robot=robot,
+        recording=recording_of(stored) if found.kind.is_recording else None,
+    )
+
+
+def recording_of(stored: StoredFrames) -> "Recording | None":
+    """The recording that stored frames are; None where they are others."""
+    from tftool.recordings.recording import Recording
+
+    return stored if isinstance(stored, Recording) else None
+
+
+def _played(connection: Connection, found: Found, cache_time: Duration | None) -> Session:
+    """A world in which a recording's messages arrive, as fast as they can be simulated.
+
+    Raises:
+        UsageError: If it is no recording.
+    """
+    from tftool.recordings.recording import Recording
+    from tftool.recordings.timeline import Timeline
+    from tftool.world.nodes.player import Player
+
+    recording = connection.open_stored(found) if found.kind.is_recording else None
+    if not isinstance(recording, Recording):
+        raise _without_messages(found)
+    timeline = Timeline(recording.source, recording.transforms)
+    clock = SimClock(max(timeline.start, 1))
+    world = World(clock, cache_time=cache_time or CACHE_TIME)
+    Player(world, "player", timeline=timeline, pace=clock, is_silent=True, names_topics=True)
+
+    async def alive(until: Stamp | None) -> None:
+        await live(world, until=until)
+
+    name = f"recording '{visible(recording.name)}'"
+    lasting = timeline.end - timeline.start
+    return Session(world, True, name, alive, 0, lasting, is_played=True)
+
+
+def _without_messages(found: Found) -> UsageError:
+    return UsageError(
+        f"'{visible(found.name)}' is {kind_in_words(found)}, from which no message "
+        f"arrives: 'tftool tree {visible(found.name)}' shows its frames."
+    )
+
+
+def _open_link(connection: Connection) -> tuple["Link | None", str]:
+    """Open the link; a place that has none can still host, and says why it is alone.
+
+    Raises:
+        LinkError: If something was asked for that only a link can give.
+    """
+    try:
+        return connection.open_link(), ""
+    except LinkError as error:
+        if connection.needs_link:
+            raise
+        alone = f"No other process can join this world: {visible(str(error))}."
+        notice(alone)
+        return None, alone
+
+
+def _is_session_here(connection: Connection) -> bool:
+    """Whether some process of this machine waits to be joined, without opening anything."""
+    from tftool.world.link.zenoh.rendezvous import has_members
+
+    return has_members(connection.domain)
+
+
+def _has_host(link: "Link") -> bool:
+    """Whether a world runs here: one of ours, or turtles of a launch file or of ROS."""
+    from tftool.world.link.graph import SERVER, hosts
+
+    # A host that has only just begun has no turtles yet, and will have some.
+    return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))
+
+
+def _name_of(connection: Connection, link: "Link") -> str:
+    from tftool.world.link.graph import NODE, Role, hosts
+
+    processes = link.graph.processes()
+    sources = [one for one in processes if one.role is not Role.GUEST]
+    first = next(iter(hosts(processes) or sources), None)
+    if first is not None:
+        return f"the session of {visible(str(first))}"
+    nodes = sorted({one.node for one in link.graph.entities(NODE)})
+    if nodes:
+        return f"the session of ROS node '{visible(nodes[0])}'"
+    others = sorted({one.node for one in link.graph.entities()})
+    if others:
+        return f"'{visible(others[0])}' at {visible(connection.place)}"
+    return f"what is at {visible(connection.place)}, where nothing has answered yet"

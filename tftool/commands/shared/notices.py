@@ -1,0 +1,166 @@
+"""What a command says beside its results, and the log of its world: on stderr."""
+
+import os
+import re
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from tftool.base.escaping import visible, visible_lines
+from tftool.base.near_names import near_names
+from tftool.base.stamps import Duration, as_seconds
+
+if TYPE_CHECKING:
+    from tftool.world.log import LogRecord
+
+MOST_NAMED = 12
+"""How many frames a hint names."""
+
+_COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
+"""ROS 2's: green, yellow, red; INFO keeps the terminal's own."""
+
+
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+
+
+def notice(sentence: str) -> None:
+    """Tell the user something that is no result; a terminal gets it broken between words."""
+    _write(fitting(sentence))
+
+
+def complain(who: str, sentence: str) -> None:
+    """Tell the user what went wrong, whatever names are in the sentence.
+
+    Args:
+        who: The command.
+        sentence: What it was.
+    """
+    notice(f"{who}: {visible_lines(sentence.rstrip())}")
+
+
+def name_frames(
+    frames: Sequence[str], asked: Iterable[str | None], when: str = "", advice: str = ""
+) -> bool:
+    """Name the frames there are, when one of those asked for is not among them.
+
+    Args:
+        frames: The frames there are.
+        asked: Those asked for; None is none.
+        when: When they are all there are; "so far" where more may come.
+        advice: A sentence that goes behind it.
+
+    Returns:
+        Whether they were named.
+    """
+    missing = [frame for frame in asked if frame is not None and frame not in frames]
+    if not frames and not when:
+        notice("There are no frames at all.")
+    if not missing or not frames:
+        return False
+    near = near_names(missing[0], frames)
+    named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
+    more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
+    there = f"Frames there are {when}".rstrip()
+    meant = f" Did you mean {visible(near[0])}?" if near else ""
+    notice(f"{there}: {named}{more}.{meant} {advice}".rstrip())
+    return True
+
+
+def tell_listening(lasting: Duration) -> None:
+    """Say for how long a session is listened to."""
+    notice(f"Listening for {as_seconds(lasting):g} s ...")
+
+
+def _write(text: str) -> None:
+    sys.stderr.write(text + "\n")
+    sys.stderr.flush()
+
+
+def fitting(sentence: str) -> str:
+    """Give a text as stderr shows it whole: on a terminal broken between words.
+
+    Lines that begin with a blank stay as they are: excerpts of files, and tracebacks.
+    """
+    try:
+        width = os.get_terminal_size(sys.stderr.fileno()).columns
+    except (OSError, ValueError):
+        # No terminal, or one that does not say how wide it is.
+        return sentence
+    # No sign is wider than two cells.
+    if width < 20 or all(len(line) <= width // 2 for line in sentence.split("\n")):
+        return sentence
+    from tftool.base.fixed_width import wrap_words
+
+    return "\n".join(
+        piece
+        for line in sentence.split("\n")
+        for piece in ([line] if line.startswith(" ") else wrap_words(line, width))
+    )
+
+
+def is_news(record: "LogRecord") -> bool:
+    """Whether the link has something to say that every user wants to know."""
+    return record.node == "link" and record.level == "WARN"
+
+
+def tell_news(record: "LogRecord") -> None:
+    """Tell the user what the link has to say, and nothing else."""
+    if is_news(record):
+        notice(visible(record.text))
+
+
+def tell_record(record: "LogRecord", *, label: str = "") -> None:
+    """Show a line of the world's log, as ROS 2's console does.
+
+    Args:
+        record: The line.
+        label: The program it comes from, where there are several.
+    """
+    line = visible_lines(str(record).rstrip())
+    label = f"[{label}] " if label else ""
+    line = fitting(label + line)[len(label) :]
+    color = _COLORS.get(record.level)
+    if color is not None and wants_color(os.environ, is_terminal=sys.stderr.isatty()):
+        line = f"\033[{color}m{line}\033[0m"
+    _write(label + line)
+
+
+class FoldedLog:
+    """Shows the lines of a world's log, and of lines that are alike the first; counts the others.
+
+    Lines are alike if one node said both, and they differ in nothing but numbers.
+    """
+
+    def __init__(self, *, whole: bool = False) -> None:
+        """Begin.
+
+        Args:
+            whole: Show every line.
+        """
+        self._whole = whole
+        self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
+
+    def tell(self, record: "LogRecord") -> None:
+        """Show a line, or count it."""
+        kind = (record.node, record.level, _NUMBER.sub("#", record.text))
+        first, more = self._more.get(kind, (record, -1))
+        self._more[kind] = (first, more + 1)
+        if self._whole or more < 0:
+            tell_record(record)
+
+    def end(self) -> None:
+        """Say how many lines were not shown, and start counting again."""
+        for first, more in () if self._whole else self._more.values():
+            if more:
+                text = visible(first.text.splitlines()[0] if first.text else "")
+                lines = "1 more line" if more == 1 else f"{more} more lines"
+                notice(f"[{visible(first.node)}]: {lines} like '{text}'; --verbose shows them")
+        self._more.clear()
+
+
+def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
+    """Whether lines are to be coloured; ROS 2's own variable decides before all others."""
+    asked = environment.get("RCUTILS_COLORIZED_OUTPUT", "")
+    if asked in ("0", "1"):
+        return asked == "1"
+    return is_terminal and not environment.get("NO_COLOR") and environment.get("TERM") != "dumb"

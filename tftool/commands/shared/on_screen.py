@@ -1,0 +1,105 @@
+"""What `demo` and `teleop` share: is there a terminal, and the app on it."""
+
+import os
+import sys
+from collections.abc import Callable, Coroutine
+from typing import TYPE_CHECKING, Any
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import seconds
+
+if TYPE_CHECKING:
+    from tftool.screens.terminal.scene import Scene
+    from tftool.screens.terminal.screen_options import Setting
+    from tftool.world.nodes.idle_drawing import IdleDrawing
+    from tftool.world.nodes.turtle_teleop import Teleop
+    from tftool.world.nodes.turtlesim import Turtlesim
+    from tftool.world.world import World
+
+SETTLED = seconds(1)
+"""When a screen knows which turtles there are."""
+
+
+def screen_lacks() -> str:
+    """Half a sentence that says why no full-screen app can be seen here; empty where one can."""
+    if os.environ.get("TERM") == "dumb":
+        return "TERM=dumb is one without a screen"
+    # textual draws on stderr, so that one counts too.
+    streams = {"stdin": sys.stdin, "stdout": sys.stdout, "stderr": sys.stderr}
+    lacking = [name for name, one in streams.items() if one is None or not one.isatty()]
+    return f"{lacking[0]} is none" if lacking else ""
+
+
+def simulator_of(world: "World") -> "Turtlesim | None":
+    """The turtle simulator of a world, where it has one."""
+    from tftool.world.nodes.turtlesim import Turtlesim
+
+    return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
+
+
+def driver_of(world: "World", turtle: str) -> "Teleop":
+    """The node that takes keys for `turtle`; it is added where there is none.
+
+    Raises:
+        UsageError: If that cannot be a turtle's name.
+    """
+    from tftool.world.nodes.turtle_teleop import Teleop
+
+    for node in world.nodes:
+        if isinstance(node, Teleop) and node.turtle == turtle:
+            return node
+    names = {node.name for node in world.nodes}
+    name = "teleop_turtle" if "teleop_turtle" not in names else f"teleop_{turtle}"
+    return Teleop(world, name, turtle=turtle)
+
+
+def run_app(
+    world: "World",
+    life: Coroutine[Any, Any, None],
+    driver: "Teleop | None",
+    setting: "Setting",
+    idle: "IdleDrawing | None" = None,
+) -> str | None:
+    """Show a world on the terminal while it lives.
+
+    Args:
+        world: What to show.
+        life: Lives the world through; it is cancelled when the user quits.
+        driver: Who takes the keys.
+        setting: How to show it.
+        idle: Draws while no key is pressed, where something does.
+
+    Returns:
+        The scenario to show instead, where the user chose one.
+
+    Raises:
+        NodeFailed: If a node raised.
+        KeyboardInterrupt: If a signal or Ctrl-C ended it.
+    """
+    from tftool.screens.terminal.run_screen import show
+    from tftool.screens.terminal.scene import Scene
+    from tftool.screens.terminal.screen_options import setting_from
+    from tftool.screens.terminal.turtle_app import TurtleApp
+    from tftool.world.clock import run
+    from tftool.world.nodes.remote_turtles import FarTurtles
+
+    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
+    scene = Scene(world, simulator_of(world) or FarTurtles(world))
+    app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting, idle)
+    run(world.clock, show(app, life))
+    return app.chosen
+
+
+def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
+    """What takes the keys: the driver, but where its turtle is missing that is said."""
+
+    def press(key: str) -> None:
+        simulator, turtle = scene.simulator, driver.turtle
+        # One of another process is known by its poses: they need a moment to come.
+        settled = scene.world.clock.now() - scene.start >= SETTLED
+        if settled and simulator is not None and turtle not in simulator.turtles:
+            there = ", ".join(simulator.turtles) or "none"
+            raise UsageError(f"there is no turtle '{turtle}' here; there are: {there}")
+        driver.press(key)
+
+    return press

@@ -1,0 +1,405 @@
+"""Options that several commands share, and what their values become.
+
+Every duration and moment on a command line is read as exact decimals and reaches its
+command in whole nanoseconds.
+"""
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
+
+if TYPE_CHECKING:
+    from decimal import Decimal
+
+MOST = 9e9
+"""The largest number an option takes: as seconds, about what a stamp of 64 bits can hold."""
+
+LONGEST_SIMULATED = seconds(86_400)
+"""How much simulated time a command plays: a day, as long as a scenario may last."""
+
+LISTENING = seconds(10)
+"""How long a command listens to a live session before it judges or writes what it heard."""
+
+FIRST_STAMP = 100_000_000
+"""In seconds: a moment from here on is a stamp; a smaller one counts from the beginning."""
+
+_FRACTION = re.compile(r"[.,](\d+)")
+
+
+# Numbers
+
+
+def finite(value: float | None) -> float | None:
+    """Let a finite number pass.
+
+    Raises:
+        typer.BadParameter: If it is NaN or infinite, or beyond `MOST`.
+    """
+    if value is not None and not math.isfinite(value):
+        raise typer.BadParameter(f"{value} is not a finite number.")
+    return _bounded(value)
+
+
+def positive(value: float | None) -> float | None:
+    """Let a finite number above zero pass.
+
+    Raises:
+        typer.BadParameter: If it is zero, negative, NaN or infinite, or beyond `MOST`.
+    """
+    if value is not None and not (math.isfinite(value) and value > 0):
+        raise typer.BadParameter(f"{value:g} is not a positive number.")
+    return _bounded(value)
+
+
+def not_negative(value: float | None) -> float | None:
+    """Let a finite number from zero on pass.
+
+    Raises:
+        typer.BadParameter: If it is negative, NaN or infinite, or beyond `MOST`.
+    """
+    if value is not None and not (math.isfinite(value) and value >= 0):
+        raise typer.BadParameter(f"{value:g} is not zero or more.")
+    return _bounded(value)
+
+
+def within(least: float, most: float) -> Callable[[float | None], float | None]:
+    """Make a check that lets numbers from `least` to `most` pass; NaN is not among them."""
+
+    def check(value: float | None) -> float | None:
+        if value is not None and not least <= value <= most:
+            raise typer.BadParameter(f"{value:g} is not between {least:g} and {most:g}.")
+        return value
+
+    return check
+
+
+def _bounded(value: float | None) -> float | None:
+    if value is not None and abs(value) > MOST:
+        raise typer.BadParameter(f"{value:g} is too large: beyond {MOST:g}.")
+    return value
+
+
+# Durations
+
+
+def duration(check: Callable[[float | None], float | None]) -> Callable[[str | int], Duration]:
+    """Make a parser of seconds that gives whole nanoseconds.
+
+    Args:
+        check: What number it may be, by its seconds: `positive`, `not_negative`, `finite`.
+    """
+
+    def parse(text: str | int) -> Duration:
+        if isinstance(text, int):
+            return text  # a default, in nanoseconds already
+        try:
+            check(float(text))
+            found, exact = _nanoseconds(text)
+        except ValueError:
+            raise typer.BadParameter(f"'{text}' is not a number.") from None
+        if exact and not found:
+            raise typer.BadParameter(f"{text} is less than a nanosecond.")
+        return found
+
+    return parse
+
+
+def _nanoseconds(text: str) -> "tuple[int, Decimal]":
+    """Nanoseconds of a number of seconds, and what they are before rounding.
+
+    Raises:
+        ValueError: If it is no number.
+    """
+    # Imported here: the help of a command does without it.
+    from decimal import Decimal, InvalidOperation
+
+    try:
+        exact = Decimal(text) * NANOSECONDS
+    except InvalidOperation as error:
+        raise ValueError(text) from error
+    return int(exact.to_integral_value("ROUND_HALF_UP")), exact
+
+
+def refuse_long_simulation(lasting: Duration | None) -> None:
+    """Refuse more simulated time than a command plays.
+
+    Raises:
+        UsageError: If it is more than a day.
+    """
+    if lasting is not None and lasting > LONGEST_SIMULATED:
+        raise UsageError(
+            f"--for {as_seconds(lasting):g} is too long for simulated time, of which a day is "
+            f"played at most: --for {as_seconds(LONGEST_SIMULATED):.0f}"
+        )
+
+
+# Moments
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """A moment as `--at` names it: since the beginning of what is asked, or a stamp.
+
+    Attributes:
+        nanoseconds: How much, in nanoseconds.
+        is_stamp: Whether they count from 1970 (or a recording's own zero), not from the
+            beginning.
+    """
+
+    nanoseconds: int
+    is_stamp: bool = False
+
+    def stamp(self, epoch: Stamp) -> Stamp:
+        """The stamp of it in what began at `epoch`."""
+        return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
+
+    def __str__(self) -> str:
+        whole, rest = divmod(self.nanoseconds, NANOSECONDS)
+        digits = f"{whole}.{rest:09}".rstrip("0").rstrip(".")
+        return digits if self.is_stamp else f"{digits} s"
+
+
+def moment(text: str) -> At:
+    """Read a moment: seconds since the start; from 10⁸ on, or written as a date, a stamp.
+
+    `12.5` and `+12.5` count from the start (`+` also what is larger); `1663952504.7` is a
+    stamp, and so is `2022-09-23T17:01:44.7Z`; without a time zone it is UTC.
+
+    Raises:
+        typer.BadParameter: If it is neither.
+    """
+    if re.match(r"\d{4}-?\d\d-?\d\d[T ]", text):
+        return _date(text)
+    if re.fullmatch(r"[0-9]{18,19}", text):
+        raise typer.BadParameter(
+            f"'{text}' is too large for seconds; if it is nanoseconds, write "
+            f"{text[:-9]}.{text[-9:]}."
+        )
+    try:
+        not_negative(float(text))
+        found, exact = _nanoseconds(text)
+    except ValueError:
+        raise typer.BadParameter(
+            f"'{text}' is no moment: give seconds since the start, such as 12.5, or a stamp, "
+            "such as 1663952504.7 or 2022-09-23T17:01:44.7Z."
+        ) from None
+    return At(found, exact >= FIRST_STAMP * NANOSECONDS and not text.startswith("+"))
+
+
+def _date(text: str) -> At:
+    from datetime import UTC, datetime
+
+    # Its own reader drops what is less than a microsecond.
+    fraction = _FRACTION.search(text)
+    try:
+        found = datetime.fromisoformat(_FRACTION.sub("", text, count=1))
+    except ValueError as error:
+        raise typer.BadParameter(f"'{text}' is no date and time: {error}.") from None
+    if found.tzinfo is None:
+        found = found.replace(tzinfo=UTC)
+    whole = round((found - datetime(1970, 1, 1, tzinfo=UTC)).total_seconds()) * NANOSECONDS
+    digits = fraction[1][:9].ljust(9, "0") if fraction else "0"
+    if whole <= 0:
+        raise typer.BadParameter(f"'{text}' lies before 1970.")
+    return At(whole + int(digits), is_stamp=True)
+
+
+# Options
+
+WHEN = "When"
+OUTPUT = "Output"
+MANY = "Many recordings"
+"""Headings of the help under which options are listed; "Options" is that of all others."""
+
+
+def option(words: str, *names: str, metavar: str | None = None, panel: str | None = None) -> Any:
+    """An option of a command.
+
+    Args:
+        words: What the help says of it.
+        names: What it is called; by its parameter where none is given.
+        metavar: What stands for its value in the help.
+        panel: The heading it is listed under; None for that of all others.
+    """
+    return typer.Option(*names, metavar=metavar, rich_help_panel=panel, help=words)
+
+
+def output_file(words: str) -> Any:
+    """The option `-o FILE` of a command; `words` say what it writes there."""
+    return option(words, "-o", "--output", metavar="FILE", panel=OUTPUT)
+
+
+def seconds_option(
+    words: str,
+    *names: str,
+    check: Callable[[float | None], float | None] = positive,
+    panel: str | None = WHEN,
+) -> Any:
+    """An option that takes seconds and gives nanoseconds.
+
+    The help does not say its default, which would be in nanoseconds: the words do.
+
+    Args:
+        words: What the help says of it.
+        names: What it is called; by its parameter where none is given.
+        check: What number it may be.
+        panel: The heading it is listed under; None for that of all others.
+    """
+    return typer.Option(
+        *names,
+        metavar="SECONDS",
+        parser=duration(check),
+        rich_help_panel=panel,
+        show_default=False,
+        help=words,
+    )
+
+
+def moment_option(words: str, *names: str, panel: str | None = WHEN) -> Any:
+    """An option that takes a moment; `words` say in the help of what."""
+    return typer.Option(*names, metavar="MOMENT", parser=moment, rich_help_panel=panel, help=words)
+
+
+def decimals(words: str) -> Any:
+    """The option `--precision N` of a command that prints numbers; `words` say of what."""
+    return typer.Option(
+        "--precision", "-p", min=0, max=17, metavar="N", rich_help_panel=OUTPUT, help=words
+    )
+
+
+Target = Annotated[
+    str, typer.Argument(metavar="TARGET", help="Frame to look from: the answer is given in it.")
+]
+Source = Annotated[str, typer.Argument(metavar="SOURCE", help="Frame to look at.")]
+
+From = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[FROM]",
+        help="Whose frames: a scenario (name or file), a recording (file, folder, glob) or a robot "
+        "description; if not said, the session that runs, else the turtles.",
+        show_default=False,
+    ),
+]
+
+AtOption = Annotated[
+    At | None,
+    moment_option(
+        "Ask about one moment: seconds since the start of FROM, or a stamp (1e8 or more, or "
+        "an ISO date and time).",
+        "--at",
+        "-t",
+    ),
+]
+
+FromOption = Annotated[
+    At | None,
+    moment_option(
+        "Leave out what is before: seconds since the start of FROM, or a stamp.", "--from"
+    ),
+]
+
+ToOption = Annotated[At | None, moment_option("Leave out what is after; likewise.", "--to")]
+
+Every = Annotated[
+    Duration | None,
+    seconds_option("Ask so often, in place of the stamps of the fastest link.", "--every"),
+]
+
+Pairs = Annotated[
+    list[str] | None,
+    option("A pair of frames. Again for more.", "--pair", metavar="TARGET:SOURCE"),
+]
+
+StampsOf = Annotated[
+    str | None,
+    option(
+        "Ask at the stamps of a recorded topic's messages.",
+        "--at-stamps-of",
+        metavar="TOPIC",
+        panel=WHEN,
+    ),
+]
+
+Rate = Annotated[
+    float | None,
+    typer.Option(
+        "--rate",
+        "-r",
+        metavar="HZ",
+        rich_help_panel=WHEN,
+        callback=within(0.001, 1000),
+        help="The same as a frequency.",
+    ),
+]
+
+CacheTime = Annotated[
+    Duration | None,
+    seconds_option("How far back the buffer remembers; 10 unless the scenario says otherwise."),
+]
+
+RunFor = Annotated[Duration | None, seconds_option("Stop after so long.", "--for")]
+
+SkippedFolders = Annotated[bool, option("Say which folders are skipped.", "--verbose", "-v")]
+
+RosFree = Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free")]
+
+Simulated = Annotated[
+    bool, option("On simulated time: at once, the same every time.", "--simulated")
+]
+
+Junit = Annotated[
+    Path | None, option("Write a JUnit report for a build server.", "--junit", metavar="FILE")
+]
+
+Force = Annotated[bool, option("Replace what is there.", "--force", panel=OUTPUT)]
+
+Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT)]
+
+Ascii = Annotated[
+    bool, option("Draw with plain characters, for fonts that have no others.", "--ascii")
+]
+
+Light = Annotated[
+    bool, option("For a terminal with a light ground; on a screen m changes it.", "--light")
+]
+
+Rows = Annotated[
+    Path | None,
+    option(
+        "Write rows to a .jsonl, .csv or .parquet file, whatever the number of recordings.",
+        "--output",
+        "-o",
+        metavar="FILE",
+        panel=MANY,
+    ),
+]
+Jobs = Annotated[
+    int,
+    typer.Option(
+        "--jobs",
+        "-j",
+        min=1,
+        max=256,
+        metavar="N",
+        rich_help_panel=MANY,
+        help="Work on so many recordings at once.",
+    ),
+]
+Resume = Annotated[bool, option("Pass over what the file already holds.", "--resume", panel=MANY)]
+Scheduler = Annotated[
+    str,
+    option(
+        "Let a cluster of Dask workers do it that you trust: tcp://HOST:8786.",
+        metavar="ADDRESS",
+        panel=MANY,
+    ),
+]

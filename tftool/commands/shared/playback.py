@@ -1,0 +1,112 @@
+"""What a person sees of a recording that plays, and the keys that steer it."""
+
+import os
+import shutil
+import sys
+from typing import TYPE_CHECKING, Final
+
+from tftool.base.escaping import visible
+from tftool.base.stamps import Duration, seconds
+from tftool.commands.shared.notices import is_news, notice, tell_record
+from tftool.drawing.playback_line import Playback, line
+from tftool.world.clock import Clock, Phase
+
+if TYPE_CHECKING:
+    from tftool.world.log import LogRecord
+    from tftool.world.nodes.player import Player
+
+REDRAW: Final = seconds(0.1)
+FASTER: Final = 1.1
+"""What a press of an arrow makes of the rate; rosbag2's own figure."""
+
+NEAR, FAR = seconds(1), seconds(10)
+
+_ERASE = "\r\x1b[2K"
+
+
+def press(player: "Player", key: str) -> None:
+    """Do what a key says: pause, next message, seek, rate, quit. Any other does nothing."""
+    if key == "space":
+        if player.is_paused:
+            player.resume()
+        else:
+            player.pause()
+    elif key in ("right", "s"):
+        player.step()
+    elif key in ("up", "down"):
+        player.set_rate(player.rate * (FASTER if key == "up" else 1.0 / FASTER))
+    elif key in _SEEKS:
+        player.seek(player.position + _SEEKS[key])
+    elif key in ("0", "home"):
+        player.seek(player.start)
+    elif key in ("q", "Q"):
+        player.world.stop()
+
+
+_SEEKS: Final[dict[str, Duration]] = {
+    "[": -NEAR,
+    "]": NEAR,
+    "left": -NEAR,
+    "{": -FAR,
+    "}": FAR,
+}
+
+
+class Display:
+    """A line on stderr that says where a player stands, if that is a terminal."""
+
+    def __init__(self, player: "Player", clock: Clock) -> None:
+        """Show nothing yet.
+
+        Args:
+            player: Who plays.
+            clock: When to draw.
+        """
+        self._player = player
+        self._clock = clock
+        self._is_shown = False
+        self.has_keys = False
+        self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+        encoding = (getattr(sys.stderr, "encoding", "") or "ascii").lower()
+        self._ascii_only = not encoding.startswith("utf")
+
+    def tell(self, record: "LogRecord") -> None:
+        """Say what the link and the player have to say."""
+        if is_news(record):
+            self.clear()
+            notice(visible(record.text))
+        elif record.node == self._player.name:
+            self.clear()
+            tell_record(record)
+
+    def draw(self) -> None:
+        """Redraw the line."""
+        if not self._is_terminal:
+            return
+        player = self._player
+        now = Playback(
+            player.position - player.start,
+            player.end - player.start,
+            player.rate,
+            player.is_paused,
+            player.laps,
+        )
+        # The last column stays free: some terminals wrap there.
+        width = shutil.get_terminal_size().columns - 1
+        text = line(now, width, with_keys=self.has_keys, ascii_only=self._ascii_only)
+        sys.stderr.write(_ERASE + text)
+        sys.stderr.flush()
+        self._is_shown = True
+
+    def clear(self) -> None:
+        """Take the line away."""
+        if self._is_shown:
+            sys.stderr.write(_ERASE)
+            sys.stderr.flush()
+            self._is_shown = False
+
+    async def keep(self) -> None:
+        """Draw for as long as this runs."""
+        while True:
+            self.draw()
+            await self._clock.sleep(REDRAW, Phase.WATCH)

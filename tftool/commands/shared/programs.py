@@ -1,0 +1,41 @@
+"""What commands share that run programs of users: their packages, and what they log."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tftool.base.escaping import visible_lines
+from tftool.commands.shared.notices import notice, tell_record
+from tftool.ros.host.workspace import Workspace
+
+if TYPE_CHECKING:
+    from tftool.world.log import LogRecord
+    from tftool.world.world import World
+
+
+def workspace_here(*, verbose: bool) -> Workspace:
+    """The packages below this folder, or in the src it belongs to.
+
+    Args:
+        verbose: Whether to tell of folders that are skipped, and why.
+    """
+    workspace = Workspace(Path.cwd())
+    for skipped in workspace.skipped if verbose else ():
+        notice(visible_lines(skipped))
+    return workspace
+
+
+def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = None) -> None:
+    """Show what is logged in a world from now on.
+
+    Args:
+        world: Which.
+        label_of: Names the program a line comes from, where there are several.
+    """
+
+    def tell(record: "LogRecord") -> None:
+        # What the link has to say the session tells.
+        if record.node != "link":
+            tell_record(record, label="" if label_of is None else label_of(record))
+
+    world.log.listen(tell, "console")

@@ -1,0 +1,66 @@
+"""A picture on the terminal that takes the place of the one before, among the lines there."""
+
+import os
+import sys
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.live import Live
+
+    from tftool.world.clock import Clock
+
+
+def can_redraw() -> bool:
+    """Whether stdout is a terminal whose cursor can be moved."""
+    return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+
+
+class Redrawing:
+    """Draws over what it drew; what is said on stderr meanwhile goes above.
+
+    Nothing is drawn, and the cursor stays, until the first picture.
+    """
+
+    def __init__(self, clock: "Clock") -> None:
+        """Prepare to draw.
+
+        Args:
+            clock: When it is killed, the terminal gets its cursor back.
+        """
+        from rich.console import Console
+
+        from tftool.commands.shared.suspend import left_while_stopped
+        from tftool.world.stopping import leave_screen
+
+        self.console: Console = Console()
+        self._live: Live | None = None
+        self._undo = clock.when_killed.add(leave_screen, "screen")
+        self._stopping = left_while_stopped(self._leave, lambda: None)
+
+    def show(self, picture: "RenderableType") -> None:
+        """Draw it in place of the last."""
+        from rich.live import Live
+
+        if self._live is None:
+            # stderr that goes to a file goes on to the file.
+            self._live = Live(
+                console=self.console, auto_refresh=False, redirect_stderr=sys.stderr.isatty()
+            )
+            self._live.start()
+        self._live.update(picture, refresh=True)
+
+    def __enter__(self) -> Self:
+        self._stopping.__enter__()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._stopping.__exit__(None, None, None)
+        self._leave()
+        self._undo()
+
+    def _leave(self) -> None:
+        """Keep the last picture where it is; the next one goes below."""
+        if self._live is not None:
+            self._live.stop()
+            self._live = None

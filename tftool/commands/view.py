@@ -1,0 +1,354 @@
+"""`tftool view`: the frames in 3-D, in a browser."""
+
+import shutil
+import sys
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.exit_status import ExitStatus
+from tftool.base.stamps import Duration, as_seconds
+from tftool.commands.shared.connection_options import ROBOT
+from tftool.commands.shared.options import (
+    CacheTime,
+    Force,
+    From,
+    RunFor,
+    option,
+    output_file,
+    within,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from tftool.commands.shared.command_session import Session
+    from tftool.commands.shared.connection import Connection
+    from tftool.commands.shared.from_files import StoredFrames
+    from tftool.recordings.find import Found
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.screens.browser.server import PageServer
+    from tftool.screens.browser.standalone import StandaloneData
+    from tftool.world.world import World
+
+_MOST_TOLD = 5
+
+
+def view(
+    connection: "Connection",
+    place: From = None,
+    port: Annotated[
+        int,
+        typer.Option(
+            metavar="PORT",
+            min=0,
+            max=65535,
+            help="Where to serve the page; the next free one if it is taken.",
+        ),
+    ] = 8765,
+    open_browser: Annotated[bool, option("Open the page in your browser.", "--open")] = False,
+    run_for: RunFor = None,
+    rate: Annotated[
+        float,
+        typer.Option(
+            "--rate", "-r", metavar="HZ", callback=within(0.1, 120), help="Pictures a second."
+        ),
+    ] = 30.0,
+    cache_time: CacheTime = None,
+    meshes: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--meshes",
+            metavar="FOLDER",
+            rich_help_panel=ROBOT,
+            file_okay=False,
+            exists=True,
+            help="Where packages with meshes lie; again for more. Nothing outside is shown.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        output_file("Write the page with all of its data into one .html file, and serve nothing."),
+    ] = None,
+    force: Force = False,
+) -> ExitStatus:
+    """Show the frames in 3-D, in a browser (rviz2 with its TF display).
+
+    The page is served on this machine alone, and asks no other for anything. It shows axes,
+    names and arrows in any fixed frame, scrubs back through the buffer, and tells the transform
+    of a pair you pick. A robot is drawn by its description: FROM itself, the one in a
+    recording, or what is published on /robot_description; sliders move the joints of FROM.
+    With -o the page becomes one file that opens anywhere, without tftool: a recording or a
+    scenario as a whole, a session for so long as --for says.
+
+    tftool view --open
+    tftool view robot --port 8800
+    tftool view arm.urdf --meshes ~/ws/src --open
+    tftool view run.mcap -o run.html
+    """
+    if output is not None:
+        if cache_time is not None:
+            raise UsageError("A file holds everything: leave out --cache-time.")
+        return _write(connection, place, output, run_for, meshes or [], force, open_browser)
+    if force:
+        raise UsageError("--force goes with -o FILE.")
+    try:
+        from tftool.screens.browser.server import PageServer
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.partition(".")[0] != "websockets":
+            raise
+        raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
+    from tftool.commands.shared.from_kind import named
+    from tftool.commands.shared.hosting import open_session
+    from tftool.commands.shared.notices import notice
+    from tftool.recordings.find import Kind
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+
+    found = None if place is None else named(place)
+    shown = None
+    if found is not None and found.kind is Kind.DESCRIPTION:
+        session, shown = _alive(connection, found, meshes or [])
+    else:
+        session = open_session(connection, place, cache_time=cache_time)
+        if session.robot is not None:
+            folders = MeshFolders(connection.robot.urdf, meshes or [])
+            shown = ShownRobot(session.robot, folders)
+    page = PageServer(session.world, port=port, rate=rate, tell=notice, name=session.name)
+    recording = session.recording
+    if recording is not None:
+        from tftool.screens.browser.recorded_messages import tracks_named
+
+        page.show_tracks(partial(tracks_named, recording.name))
+    else:
+        from tftool.screens.browser.live_messages import LiveDisplays
+
+        page.show_live(LiveDisplays(session.world))
+    if shown is not None:
+        page.show_robot(shown)
+        _tell_missing(shown)
+    else:
+        _listen(session, page, meshes or [])
+    session.run(_show(session, page, run_for, open_browser))
+    return ExitStatus.DONE
+
+
+def _write(
+    connection: "Connection",
+    place: str | None,
+    output: Path,
+    run_for: Duration | None,
+    meshes: "Sequence[Path]",
+    force: bool,
+    open_browser: bool,
+) -> ExitStatus:
+    """Write the page with its data into one file."""
+    from tftool.base.escaping import visible
+    from tftool.base.short_numbers import short_size
+    from tftool.commands.shared.interrupts import interruptible
+    from tftool.commands.shared.notices import notice
+    from tftool.commands.shared.recorded import Bar
+    from tftool.frames.export.trajectory_files import whole_file
+    from tftool.recordings.target import refuse_existing
+    from tftool.screens.browser.standalone import MOST_BYTES, standalone_page
+
+    if output.suffix.lower() not in (".html", ".htm"):
+        raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
+    refuse_existing(output, force=force)
+    data = _page_data(connection, place, run_for, meshes)
+    if not data.buffer.frames():
+        raise InputError(f"{visible(data.name)} has no frames: there is nothing to show.")
+    bar = Bar("Packing")
+    with interruptible(), whole_file(output, force=force) as file:
+        try:
+            page = standalone_page(data, progress=bar)
+        finally:
+            bar.stop()
+        file.write(page.content)
+    if data.robot is not None:
+        _tell_missing(data.robot)
+    size = len(page.content)
+    notice(visible(f"Wrote {output}, {short_size(size)}: it opens in any browser, from disk."))
+    if page.is_rounded:
+        notice(
+            "Its numbers are rounded to a micrometre, and to 1e-7 in quaternions, because all "
+            f"digits would not fit {MOST_BYTES / 1e6:g} MB."
+        )
+    if size > MOST_BYTES:
+        notice("'tftool edit --from --to' cuts a part out of a recording, which is smaller.")
+    if open_browser:
+        import webbrowser
+
+        if not webbrowser.open(output.resolve().as_uri()):
+            notice("No browser could be started: open the file yourself.")
+    return ExitStatus.DONE
+
+
+def _page_data(
+    connection: "Connection", place: str | None, run_for: Duration | None, meshes: "Sequence[Path]"
+) -> "StandaloneData":
+    """Read or listen to everything that a page without a server shows."""
+    from tftool.commands.shared.hosting import recording_of
+    from tftool.commands.shared.stored import stored_frames
+    from tftool.screens.browser.live_messages import LiveDisplays
+    from tftool.screens.browser.recorded_messages import IN_A_FILE, recorded_tracks
+    from tftool.screens.browser.standalone import StandaloneData
+    from tftool.screens.first_moment import first_moment
+
+    published: list[ShownRobot] = []
+    displays: list[LiveDisplays] = []
+
+    def listen(world: "World") -> None:
+        _hear_description(world, published.append, meshes)
+        displays.append(LiveDisplays(world, IN_A_FILE))
+
+    stored = stored_frames(connection, place, run_for, beside=listen)
+    # 0 would mean the latest; what only holds at all times has no other moment.
+    epoch = max(1, stored.start)
+    now = max(epoch, stored.end)
+    robot = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
+    begin = first_moment(stored.buffer, epoch, now)
+    recording = recording_of(stored)
+    if recording is not None:
+        tracks = recorded_tracks(recording, IN_A_FILE)
+    else:
+        tracks = [track for one in displays for track in one.latest(IN_A_FILE.points)]
+    return StandaloneData(stored.name, stored.buffer, epoch, now, begin, robot, tracks=tracks)
+
+
+def _robot_of(
+    connection: "Connection", stored: "StoredFrames", meshes: "Sequence[Path]"
+) -> "ShownRobot | None":
+    """The robot of a description, or that of a recording."""
+    from tftool.commands.shared.from_kind import named
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+
+    robot = getattr(stored, "robot", None)
+    if robot is None:
+        return None
+    from tftool.commands.shared.robot_at_rest import RobotAtRest
+
+    described = connection.robot.urdf
+    rest = None
+    if isinstance(stored, RobotAtRest):
+        described = named(stored.name).paths[0]
+        rest = robot.positions(connection.robot.joints)
+    return ShownRobot(robot, MeshFolders(described, meshes), rest=rest)
+
+
+def _alive(
+    connection: "Connection", found: "Found", meshes: "Sequence[Path]"
+) -> "tuple[Session, ShownRobot]":
+    """A world with one robot, whose joints the page moves."""
+    from tftool.base.escaping import visible
+    from tftool.commands.shared.command_session import Session, lived
+    from tftool.commands.shared.hosting import refuse_to_share
+    from tftool.commands.shared.robot_at_rest import load_described, tell_beyond
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.world.nodes.joints import JointStatePublisher, RobotStatePublisher
+    from tftool.world.world import World
+
+    refuse_to_share(connection, found.name)
+    robot = load_described(found, connection.robot)
+    joints = connection.robot.joints
+    robot.positions(joints)
+    tell_beyond(robot, joints)
+    world = World(connection.providers.wall_clock())
+    RobotStatePublisher(world, robot=robot, publish_frequency=0.0)
+    mover = JointStatePublisher(world, robot=robot, positions=joints, rate=30.0)
+    name = f"robot description '{visible(found.name)}'"
+    session = Session(world, True, name, lived(world, None, "host"))
+    return session, ShownRobot(robot, MeshFolders(found.paths[0], meshes), mover)
+
+
+def _listen(session: "Session", page: "PageServer", meshes: "Sequence[Path]") -> None:
+    """Show the robot whose description is published, as soon as it is."""
+
+    def show(shown: "ShownRobot") -> None:
+        page.show_robot(shown)
+        _tell_missing(shown)
+
+    _hear_description(session.world, show, meshes)
+
+
+def _hear_description(
+    world: "World", show: "Callable[[ShownRobot], object]", meshes: "Sequence[Path]"
+) -> None:
+    """Hand on each robot whose description is published."""
+    from tftool.base.escaping import visible
+    from tftool.commands.shared.notices import notice
+    from tftool.robots.robot_model import Robot
+    from tftool.robots.urdf import parse_description
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.world.nodes.joints import DESCRIPTION, LATCHED, description_type
+
+    def described(message: Any) -> None:
+        try:
+            robot = Robot(parse_description(message.data))
+        except InputError as error:
+            notice(f"The description on /{DESCRIPTION} is not shown: {visible(str(error))}")
+            return
+        show(ShownRobot(robot, MeshFolders(given=meshes)))
+
+    world.subscribe("view", DESCRIPTION, description_type(), described, LATCHED)
+
+
+def _tell_missing(shown: "ShownRobot") -> None:
+    from tftool.base.escaping import visible
+    from tftool.commands.shared.notices import notice
+
+    missing = shown.missing
+    for sentence in missing[:_MOST_TOLD]:
+        notice(f"A box stands for a mesh: {visible(sentence)}.")
+    if len(missing) > _MOST_TOLD:
+        notice(f"... and for {len(missing) - _MOST_TOLD} more.")
+
+
+async def _show(
+    session: "Session", page: "PageServer", duration: Duration | None, open_browser: bool
+) -> None:
+    import asyncio
+
+    from tftool.commands.shared.notices import notice
+
+    async with page:
+        if page.asked_port not in (0, page.port):
+            notice(f"Port {page.asked_port} is not free: taking {page.port}.")
+        # What is all there is shown from its beginning on, and stands still.
+        begin = session.first_look()
+        at = 0 if begin is None else as_seconds(begin - session.world.clock.epoch)
+        url = page.url if begin is None else f"{page.url}#at={at:.9f}"
+        said = f"The frames of {session.name} are at"
+        # An address that is broken at the edge of the terminal cannot be clicked.
+        is_long = len(f"{said} {url}") > shutil.get_terminal_size().columns
+        between = "\n" if is_long and sys.stdout.isatty() else " "
+        sys.stdout.write(f"{said}{between}{url}\n")
+        sys.stdout.flush()
+        if open_browser and not await _opened(url):
+            notice("No browser could be started: open that address yourself.")
+        tasks = {
+            asyncio.ensure_future(page.run()),
+            asyncio.ensure_future(session.lasting(duration)),
+        }
+        try:
+            ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            for task in ended:
+                task.result()
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def _opened(url: str) -> bool:
+    import asyncio
+    import webbrowser
+
+    # Some browsers are started and waited for: not in the loop the world lives in.
+    return await asyncio.get_running_loop().run_in_executor(None, webbrowser.open, url)

@@ -1,0 +1,378 @@
+"""Checks of stamps: two clocks, time that goes back, stamps that stand still."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
+from tftool.doctor.findings import Confidence, Hit, Severity
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
+from tftool.doctor.wording import several
+from tftool.recordings.contract import Stamps
+
+
+def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Part of the stamps count from the simulation's start, part from 1970."""
+    streams: list[Track | Heard] = [*model.dynamic, *model.heard]
+    simulated = [one for one in streams if one.families[0]]
+    wall = [one for one in streams if one.families[1]]
+    if not simulated or not wall:
+        return
+    read, _ = model.material.clock
+    if len(read):
+        sim_is_odd = bool(np.median(read) >= SIMULATED_BELOW)
+    else:
+        weights = [(len(group), _stamps(group, i)) for i, group in enumerate((simulated, wall))]
+        sim_is_odd = weights[0] < weights[1]
+    odd = simulated if sim_is_odd else wall
+    others = wall if sim_is_odd else simulated
+    tracks = [one for one in odd if isinstance(one, Track)]
+    heards = [one for one in odd if isinstance(one, Heard)]
+    sample, usual = _example(odd, sim_is_odd), _example(others, not sim_is_odd)
+    yield Hit(
+        edges=tuple(track.edge for track in tracks),
+        topics=tuple(sorted({heard.topic for heard in heards})),
+        publishers=tuple(sorted({node for track in tracks for node in track.nodes})),
+        since=min(int(one.logs[0]) for one in odd),
+        count=sum(one.families[0 if sim_is_odd else 1] for one in odd),
+        facts={
+            "odd": [_name(one) for one in odd],
+            "odd_stamp": sample,
+            "usual_stamp": usual,
+            "odd_clock": "the simulation's clock" if sim_is_odd else "the wall clock",
+            "usual_clock": "the wall clock" if sim_is_odd else "the simulation's",
+            "setting": "false" if sim_is_odd else "true",
+        },
+        alone=True,
+    )
+
+
+def _stamps(group: "list[Track | Heard]", family: int) -> int:
+    return sum(one.families[family] for one in group)
+
+
+def _example(group: "list[Track | Heard]", simulated: bool) -> int:
+    stamps = group[0].stamps
+    mask = (stamps != 0) & ((stamps < SIMULATED_BELOW) == simulated)
+    return int(stamps[mask][0])
+
+
+def _name(stream: "Track | Heard") -> str:
+    return stream.name if isinstance(stream, Track) else stream.topic
+
+
+def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Transforms dated ahead of their arrival."""
+    for track in model.dynamic:
+        if not len(track.stamps):
+            continue
+        ahead = -track.median_latency
+        least = limits["localisation"] if track.is_localisation else limits["seconds"]
+        if ahead > least * NANOSECONDS:
+            yield _ahead(model, track, ahead, Severity.WARNING)
+        elif not track.is_localisation and ahead > limits["note"] * NANOSECONDS:
+            yield _ahead(model, track, ahead, Severity.NOTE)
+
+
+def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    # Streams of one computer are ahead by the same amount; a tolerance is one publisher's own.
+    also = [
+        _name(other)
+        for other in streams
+        if other is not track and abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
+    ]
+    told = f"; so are {several(also)}: their computer's clock is ahead" if also else ""
+    return Hit(
+        edges=(track.edge,),
+        publishers=track.nodes,
+        since=int(track.logs[0]),
+        count=len(track.stamps),
+        severity=severity,
+        facts={"edge": track.name, "ahead": ahead, "also": also, "clock": told},
+    )
+
+
+def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Single stamps far from those before and after."""
+    streams: list[Track | Heard] = [*model.dynamic, *model.heard]
+    for one in streams:
+        places = np.flatnonzero(one.wild)
+        if not len(places):
+            continue
+        # How much further off than the one beside it, which is at home.
+        beside = np.where(places > 0, places - 1, places + 1)
+        off = one.latency[beside] - one.latency[places]
+        worst = int(np.abs(off).argmax())
+        place = int(places[worst])
+        yield Hit(
+            edges=(one.edge,) if isinstance(one, Track) else (),
+            topics=() if isinstance(one, Track) else (one.topic,),
+            frames=() if isinstance(one, Track) else (one.frame,),
+            publishers=one.nodes if isinstance(one, Track) else (),
+            since=int(one.logs[place]),
+            count=len(places),
+            facts={
+                "what": _name(one),
+                "count": len(places),
+                "of": len(one.stamps),
+                "stamp": int(one.stamps[place]),
+                "off": abs(int(off[worst])),
+                "side": "ahead of" if off[worst] > 0 else "behind",
+            },
+        )
+
+
+def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Transforms or messages dated long before their arrival."""
+    cache = model.settings.cache_time
+    for track in model.dynamic:
+        least = limits["transforms"] * NANOSECONDS
+        if track.is_localisation:
+            least = max(least, track.period)
+        if len(track.stamps) > 1 and track.median_latency > least:
+            severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
+            yield Hit(
+                edges=(track.edge,),
+                publishers=track.nodes,
+                since=int(track.logs[0]),
+                count=len(track.stamps),
+                severity=severity,
+                facts={"what": track.name, "late": track.median_latency},
+            )
+    for heard in model.heard:
+        # What was latched once is old by intention.
+        if len(heard.stamps) < 3 or not heard.is_spatial:
+            continue
+        if heard.median_latency > limits["messages"] * NANOSECONDS:
+            yield Hit(
+                topics=(heard.topic,),
+                frames=(heard.frame,),
+                since=int(heard.logs[0]),
+                count=len(heard.stamps),
+                facts={"what": heard.topic, "late": heard.median_latency},
+            )
+
+
+def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A sensor's messages come from the future: two clocks."""
+    found = False
+    for heard in model.heard:
+        if len(heard.stamps) < 3 or not heard.is_spatial:
+            continue
+        allowed = limits["seconds"] * NANOSECONDS
+        if heard.type == "sensor_msgs/LaserScan":
+            # Some drivers stamp a scan with its end, some with its start.
+            steps = np.diff(np.sort(heard.stamps))
+            allowed += float(np.median(steps)) if len(steps) else 0.0
+        ahead = -heard.median_latency
+        if ahead > allowed:
+            found = True
+            yield Hit(
+                topics=(heard.topic,),
+                frames=(heard.frame,),
+                since=int(heard.logs[0]),
+                count=len(heard.stamps),
+                facts={
+                    "topic": heard.topic,
+                    "ahead": ahead,
+                    "groups": _offsets(model),
+                },
+                alone=True,
+            )
+    if not found:
+        yield from _groups_apart(model, limits)
+
+
+def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Streams that are all steady, in groups that differ by a constant."""
+    steady: list[tuple[int, str]] = []
+    streams: list[Track | Heard] = [t for t in model.dynamic if not t.is_localisation]
+    streams += [heard for heard in model.heard if heard.is_spatial]
+    for one in streams:
+        if len(one.stamps) < limits["samples"]:
+            continue
+        least, high = int(one.latency.min()), float(np.percentile(one.latency, 95))
+        if high - least < limits["spread"] * NANOSECONDS:
+            steady.append((least, _name(one)))
+    steady.sort()
+    groups: list[list[tuple[int, str]]] = []
+    for item in steady:
+        if not groups or item[0] - groups[-1][-1][0] > limits["apart"] * NANOSECONDS:
+            groups.append([])
+        groups[-1].append(item)
+    if len(groups) > 1:
+        lines = [f"{', '.join(name for _, name in g[:5])}: {_span(g[0][0])}" for g in groups]
+        yield Hit(
+            topics=tuple(name for g in groups[1:] for _, name in g if name.startswith("/")),
+            severity=Severity.NOTE,
+            confidence=Confidence.LIKELY,
+            facts={
+                "topic": groups[-1][0][1],
+                "ahead": groups[-1][0][0] - groups[0][0][0],
+                "groups": lines,
+            },
+            alone=True,
+        )
+
+
+def _span(nanoseconds: int) -> str:
+    return f"{nanoseconds / 1e6:.0f} ms"
+
+
+def _offsets(model: Model) -> list[str]:
+    """Streams by their latency, in steps of 20 ms."""
+    grouped: dict[int, list[str]] = defaultdict(list)
+    streams: list[Track | Heard] = [*model.dynamic, *model.heard]
+    for one in streams:
+        if len(one.stamps) > 2:
+            grouped[round(one.median_latency / seconds(0.02))].append(_name(one))
+    return [
+        f"{', '.join(dict.fromkeys(names[:4]))}: {step * 20} ms"
+        for step, names in sorted(grouped.items())
+    ]
+
+
+def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A moving frame with stamp 0."""
+    for track in model.dynamic:
+        zeros = np.flatnonzero(track.stamps == 0)
+        if len(zeros):
+            yield Hit(
+                edges=(track.edge,),
+                publishers=track.nodes,
+                since=int(track.logs[zeros[0]]),
+                count=len(zeros),
+                facts={"edge": track.name, "count": len(zeros), "of": len(track.stamps)},
+            )
+
+
+def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """The stamp stands still while the message repeats."""
+    for track in model.dynamic:
+        frozen = _frozen(track, limits)
+        if frozen is not None:
+            stamp, count, lasted = frozen
+            yield Hit(
+                edges=(track.edge,),
+                publishers=track.nodes,
+                since=int(track.logs[0]),
+                count=count,
+                facts={"edge": track.name, "count": count, "stamp": stamp, "lasted": lasted},
+            )
+
+
+def _frozen(track: Track, limits: Limits) -> tuple[int, int, int] | None:
+    """A stamp that came again and again, how often, and for how long."""
+    if track.is_orderly and limits["times"] > 1:
+        return None
+    stamped = track.stamps != 0
+    if np.count_nonzero(stamped) < max(limits["times"], 1):
+        return None
+    values, counts = np.unique(track.stamps[stamped], return_counts=True)
+    most = int(np.argmax(counts))
+    if counts[most] < limits["times"]:
+        return None
+    logs = track.logs[track.stamps == values[most]]
+    lasted = int(logs.max() - logs.min())
+    if lasted <= limits["seconds"] * NANOSECONDS:
+        return None
+    return int(values[most]), int(counts[most]), lasted
+
+
+_FROZEN = {"times": 10, "seconds": 1.0}
+
+
+def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """The same stamp twice, with the same value."""
+    for track in model.dynamic:
+        places = track.by_stamp
+        if track.is_orderly:
+            continue
+        again = np.flatnonzero(np.diff(track.sorted_stamps) == 0)
+        if len(again) <= limits["samples"] or _frozen(track, _FROZEN) is not None:
+            continue
+        some, others = places[again], places[again + 1]
+        alike = (track.apart(some, others) < 1e-6) & (track.turned(some, others) < 1e-4)
+        count = int(np.count_nonzero(alike))
+        if count > limits["samples"] and count > limits["share"] * len(places):
+            yield Hit(
+                edges=(track.edge,),
+                publishers=track.nodes,
+                since=int(track.logs[some[alike]].min()),
+                count=count,
+                facts={"edge": track.name, "count": count, "of": len(places)},
+            )
+
+
+def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Time went back."""
+    if not model.laps:
+        return
+    first = model.laps[0]
+    yield Hit(
+        since=first.log,
+        until=model.laps[-1].log,
+        count=len(model.laps),
+        facts={
+            "moment": first.log,
+            "before": first.before,
+            "after": first.after,
+            "back": first.before - first.after,
+            "streams": first.streams,
+            "count": len(model.laps),
+        },
+        alone=True,
+    )
+
+
+def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Samples older than the cache allows."""
+    by_child: dict[str, list[Track]] = defaultdict(list)
+    for track in model.dynamic:
+        by_child[track.child].append(track)
+    for tracks in by_child.values():
+        if len(tracks) == 1 and tracks[0].is_orderly:
+            continue
+        stamps, newest = _newest_before(tracks)
+        old = (stamps < newest - model.settings.cache_time) & (stamps != 0)
+        if old.any():
+            logs = np.sort(np.concatenate([track.logs for track in tracks]), kind="stable")
+            behind = int((newest - stamps)[old].max())
+            count = int(np.count_nonzero(old))
+            yield Hit(
+                edges=tuple(track.edge for track in tracks),
+                publishers=tuple(sorted({n for track in tracks for n in track.nodes})),
+                since=int(logs[np.flatnonzero(old)[0]]),
+                count=count,
+                facts={"edge": tracks[0].name, "count": count, "behind": behind},
+            )
+
+
+def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
+    """Stamps in the order of arrival, and the newest of the same clock among those before."""
+    stamps = np.concatenate([track.stamps for track in tracks])
+    if len(tracks) > 1:
+        logs = np.concatenate([track.logs for track in tracks])
+        stamps = stamps[np.argsort(logs, kind="stable")]
+    is_sim = stamps < SIMULATED_BELOW
+    # A simulation's stamps are not old beside those of the wall clock: that is another fault.
+    low = np.iinfo(np.int64).min // 2
+    of_sim = np.maximum.accumulate(np.where(is_sim, stamps, low))
+    of_wall = np.maximum.accumulate(np.where(is_sim, low, stamps))
+    return stamps, np.where(is_sim, of_sim, of_wall)
+
+
+def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Samples overtake each other within the cache."""
+    for track in model.dynamic:
+        count = unsorted_share(track.stamps)
+        if count > limits["samples"] and count > limits["share"] * len(track.stamps):
+            yield Hit(
+                edges=(track.edge,),
+                publishers=track.nodes,
+                count=count,
+                facts={"edge": track.name, "count": count, "of": len(track.stamps)},
+            )

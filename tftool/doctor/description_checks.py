@@ -1,0 +1,131 @@
+"""Checks of a robot's description against its frames: links without a frame, other mounts."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from tftool.doctor.findings import Fix, Hit
+from tftool.doctor.model import Limits, Model
+from tftool.geometry.quaternions import angle_between
+from tftool.geometry.rigid_arrays import unit
+from tftool.robots.description import RobotJoint
+from tftool.robots.robot_model import Robot
+
+_STATES = "start joint_state_publisher or the controller's broadcaster; or make the joint fixed"
+
+
+def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
+    """The description has mistakes: no root or several, links that are missing, a circle."""
+    mistakes = model.material.mistakes
+    if mistakes:
+        yield Hit(count=len(mistakes), facts={"mistakes": list(mistakes)}, alone=True)
+
+
+def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A movable joint has no state, so its link has no frame."""
+    robot, told = model.material.robot, model.material.joints
+    if robot is None or told is None:
+        return
+    for joint in robot.joints.values():
+        child = model.prefix + joint.child
+        if not joint.moves or joint.mimic is not None or joint.name in told:
+            continue
+        if child in model.parents:
+            continue  # something else publishes where it is
+        below = [model.prefix + link for link in links_below(robot, joint)]
+        yield Hit(
+            edges=((model.prefix + joint.parent, child),),
+            frames=(child, *(link for link in below if link != child)),
+            facts={
+                "joint": joint.name,
+                "child": child,
+                "below": below,
+                "kind": joint.type,
+            },
+        )
+
+
+def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
+    """The links that have no frame where a joint has no state: below it, and what mimics it."""
+    joints_below: dict[str, list[RobotJoint]] = {}
+    followers: dict[str, list[RobotJoint]] = {}
+    for other in robot.joints.values():
+        joints_below.setdefault(other.parent, []).append(other)
+        if other.mimic is not None:
+            followers.setdefault(other.mimic.joint, []).append(other)
+    found: dict[str, None] = {}
+    waiting = [joint]
+    while waiting:
+        one = waiting.pop(0)
+        if one.child not in found:
+            found[one.child] = None
+            waiting += joints_below.get(one.child, ())
+            waiting += followers.get(one.name, ())
+    return list(found)
+
+
+def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A link of the description never appears in tf."""
+    robot = model.material.robot
+    if robot is None:
+        return
+    joint_of = {joint.child: joint for joint in robot.joints.values()}
+    missing = [link for link in robot.links if model.prefix + link not in model.frames]
+    strange = len(missing) == len(robot.links)
+    for link in missing:
+        frame, joint = model.prefix + link, joint_of.get(link)
+        if joint is None:
+            reason, fix = "the root of the description", "start robot_state_publisher"
+        elif joint.type == "fixed":
+            reason = f"fixed to {joint.parent}: the statics are missing"
+            fix = "start robot_state_publisher; record /tf_static too"
+        elif joint.type == "floating":
+            reason = f"floating in {joint.parent}: robot_state_publisher leaves it out"
+            fix = "publish where it is with a TransformBroadcaster"
+        else:
+            reason = f"moved by {joint.name} ({joint.type}): no state of it was published"
+            fix = _STATES
+        if strange:
+            fix = "compare the description with the robot: none of its links is in tf"
+        yield Hit(
+            edges=() if joint is None else ((model.prefix + joint.parent, frame),),
+            frames=(frame,),
+            facts={"frame": frame, "reason": reason},
+            fixes=(Fix(fix),),
+        )
+
+
+def urdf_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A static differs from the description's fixed joint."""
+    robot = model.material.robot
+    if robot is None:
+        return
+    statics = {track.edge: track for track in model.statics if len(track.by_stamp)}
+    for joint in robot.joints.values():
+        track = statics.get((model.prefix + joint.parent, model.prefix + joint.child))
+        if joint.type != "fixed" or track is None:
+            continue
+        place = track.by_stamp[-1]
+        apart = math.dist(track.translations[place].tolist(), joint.origin.translation)
+        qx, qy, qz, qw = unit(track.rotations[place]).tolist()
+        turned = angle_between((qx, qy, qz, qw), joint.origin.rotation)
+        if apart > limits["metres"] or turned > np.radians(limits["degrees"]):
+            yield Hit(
+                edges=(track.edge,),
+                frames=(track.child,),
+                publishers=track.nodes,
+                since=int(track.logs[0]),
+                facts={
+                    "edge": track.name,
+                    "joint": joint.name,
+                    "apart": apart,
+                    "turned": turned,
+                    "says": _numbers(joint.origin.translation),
+                    "has": _numbers(track.translations[place].tolist()),
+                },
+            )
+
+
+def _numbers(numbers: "list[float] | tuple[float, ...]") -> str:
+    return " ".join(f"{number:g}" for number in numbers)

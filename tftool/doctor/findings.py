@@ -1,0 +1,142 @@
+"""What the diagnosis of frames gives: frozen values, for people and for programs."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import TypeAlias
+
+from tftool.base.stamps import Stamp
+
+Edge: TypeAlias = tuple[str, str]
+"""A parent and its child."""
+
+Fact: TypeAlias = object
+"""A number, a text, or a list of them; stamps and durations in whole nanoseconds."""
+
+
+class Severity(Enum):
+    """How bad a finding is, worst first."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+    @property
+    def rank(self) -> int:
+        """0 for the worst."""
+        return list(Severity).index(self)
+
+
+class Confidence(Enum):
+    """How sure a finding is: of a fact, of a rule that may err, of a guess."""
+
+    CERTAIN = "certain"
+    LIKELY = "likely"
+    GUESS = "guess"
+
+
+class Area(Enum):
+    """What a check looks at, in the order of the report."""
+
+    PUBLISHERS = "publishers"
+    SHAPE = "shape"
+    NAMES = "names"
+    CLOCKS = "clocks"
+    COVERAGE = "coverage"
+    VALUES = "values"
+    DESCRIPTION = "robot description"
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """What to do about a finding.
+
+    Attributes:
+        text: A sentence.
+        command: The line to type; empty where there is none.
+    """
+
+    text: str
+    command: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One thing that is wrong with the frames. Names in it are exactly as they were recorded.
+
+    Attributes:
+        id: Which check found it; `tftool doctor --explain ID` tells more.
+        severity: How bad it is.
+        area: What the check looks at.
+        message: What is wrong, in one line.
+        confidence: How sure that is.
+        edges: Parent and child of each transform concerned.
+        frames: Frames concerned.
+        topics: Topics concerned.
+        publishers: Nodes concerned, where they are known.
+        since: Log time of the first evidence, else its stamp; None where it is no moment.
+        until: The same of the last.
+        count: How often it was seen.
+        facts: The numbers behind it; stamps and durations in whole nanoseconds.
+        evidence: What was seen, a line each.
+        consequence: What it breaks.
+        fixes: What to do, the likeliest first.
+        because_of: The id of the finding that explains this one; None where none does.
+    """
+
+    id: str
+    severity: Severity
+    area: Area
+    message: str
+    confidence: Confidence = Confidence.CERTAIN
+    edges: tuple[Edge, ...] = ()
+    frames: tuple[str, ...] = ()
+    topics: tuple[str, ...] = ()
+    publishers: tuple[str, ...] = ()
+    since: Stamp | None = None
+    until: Stamp | None = None
+    count: int = 1
+    facts: Mapping[str, Fact] = field(default_factory=dict, hash=False)
+    evidence: tuple[str, ...] = ()
+    consequence: str = ""
+    fixes: tuple[Fix, ...] = ()
+    because_of: str | None = None
+
+    def __repr__(self) -> str:
+        # Its facts may be those of a hundred edges.
+        return f"<Finding: {self.severity.value} {self.id}, {self.message!r}>"
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """A check that could not run.
+
+    Attributes:
+        id: Which one.
+        reason: Why.
+    """
+
+    id: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Hit:
+    """What a check saw once; `judge` joins alike ones and adds the texts.
+
+    Attributes are those of `Finding`. `facts` also fill the texts of the catalogue.
+    """
+
+    edges: tuple[Edge, ...] = ()
+    frames: tuple[str, ...] = ()
+    topics: tuple[str, ...] = ()
+    publishers: tuple[str, ...] = ()
+    since: Stamp | None = None
+    until: Stamp | None = None
+    count: int = 1
+    facts: Mapping[str, Fact] = field(default_factory=dict, hash=False)
+    severity: Severity | None = None
+    confidence: Confidence = Confidence.CERTAIN
+    fixes: tuple[Fix, ...] = ()
+    alone: bool = False
+    """Whether it makes a finding of its own, however many alike there are."""

@@ -1,0 +1,192 @@
+"""The way between two links of a robot description: its joints, and what a lookup lacks.
+
+A description publishes nothing and holds at all times; what a lookup in it lacks is a name, or the
+position of a joint that nothing but a publisher can tell.
+"""
+
+import shlex
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tftool.base.common_ancestor import climbed, up_to_join
+from tftool.base.errors import TransformException
+from tftool.base.near_names import near_names
+from tftool.doctor.shape_checks import static_publisher
+from tftool.doctor.wording import several
+from tftool.robots.description import RobotJoint
+from tftool.robots.robot_model import Robot
+
+
+@dataclass(frozen=True, slots=True)
+class ChainLink:
+    """One joint between the two links.
+
+    Attributes:
+        joint: The joint.
+        position: Where it is, radians or metres; None where it takes none.
+        is_given: Whether that was said, of itself or of the joint it follows.
+        leader: The joint whose position decides; its own name where it follows none.
+        is_known: Whether it gives a frame: a floating joint gives none.
+    """
+
+    joint: RobotJoint
+    position: float | None
+    is_given: bool
+    leader: str
+    is_known: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ChainExplanation:
+    """Why a lookup between two links of a description answers or refuses.
+
+    Attributes:
+        target: The link asked for.
+        source: The link asked about.
+        exception: What tf2 raises; empty where it answers.
+        text: What that says.
+        cause: "works", "unknown-frame" or "split".
+        links: The joints from source to target, in this order.
+        why: The same in sentences.
+        remedies: What helps, each a sentence and a line to type, which may be empty.
+    """
+
+    target: str
+    source: str
+    exception: str
+    text: str
+    cause: str
+    links: tuple[ChainLink, ...]
+    why: tuple[str, ...]
+    remedies: tuple[tuple[str, str], ...]
+
+    @property
+    def available(self) -> bool:
+        """Whether it answers."""
+        return not self.exception
+
+
+def chained(
+    robot: Robot, given: Mapping[str, float], target: str, source: str, name: str
+) -> ChainExplanation:
+    """Follow the joints from one link of a description to another.
+
+    Args:
+        robot: The description.
+        given: Positions by joint.
+        target: The link asked for.
+        source: The link asked about.
+        name: What the description is called on the command line.
+
+    Raises:
+        UsageError: If a joint is unknown or does not move.
+    """
+    exception = text = ""
+    try:
+        robot.buffer(given).lookup_transform(target, source)
+    except TransformException as refused:
+        exception, text = type(refused).__name__, str(refused).strip("\n")
+    unknown = [one for one in dict.fromkeys((target, source)) if one not in robot.links]
+    if unknown:
+        why, remedies = _unknown(robot, unknown)
+        return ChainExplanation(target, source, exception, text, "unknown-frame", (), why, remedies)
+    links = tuple(_link(robot, joint, given) for joint in _way(robot, target, source))
+    lost = [link for link in links if not link.is_known]
+    if lost:
+        why, remedies = _lost(lost)
+        return ChainExplanation(target, source, exception, text, "split", links, why, remedies)
+    why, remedies = _answered(links, target, source, name)
+    return ChainExplanation(target, source, exception, text, "works", links, why, remedies)
+
+
+def _way(robot: Robot, target: str, source: str) -> list[RobotJoint]:
+    """The joints from source to target; a description has one root, so they always meet."""
+    joints = {joint.child: joint for joint in robot.joints.values()}
+    legs = up_to_join(source, target, lambda link: climbed(link, joints.get))
+    ups, downs = legs or ([], [])
+    return [*ups, *reversed(downs)]
+
+
+def _link(robot: Robot, joint: RobotJoint, given: Mapping[str, float]) -> ChainLink:
+    if not joint.moves:
+        return ChainLink(joint, None, False, joint.name, joint.type != "floating")
+    leader = robot.leader(joint.name, given)
+    return ChainLink(
+        joint, robot.positions(given)[joint.name], leader in given, leader, is_known=True
+    )
+
+
+Told = tuple[tuple[str, ...], tuple[tuple[str, str], ...]]
+
+
+def _unknown(robot: Robot, names: list[str]) -> Told:
+    why, remedies = [], []
+    for name in names:
+        if name in robot.joints:
+            child = robot.joints[name].child
+            why.append(f"'{name}' is a joint of robot '{robot.name}', and no link")
+            remedies.append((f"ask for the link it moves: {child}", ""))
+            continue
+        bare = name.lstrip("/")
+        why.append(f"'{name}' is no link of robot '{robot.name}'")
+        near = near_names(name, robot.links, 3)
+        if bare != name and bare in robot.links:
+            remedies.append((f"leave out ROS 1's leading slash: {bare}", ""))
+        elif near:
+            remedies.append((f"did you mean {' or '.join(near)}?", ""))
+        else:
+            remedies.append((f"its links are {several(list(robot.links))}", ""))
+    return tuple(why), tuple(remedies)
+
+
+def _lost(lost: list[ChainLink]) -> Told:
+    why = [
+        f"where {link.joint.child} is in {link.joint.parent} is not known: joint "
+        f"'{link.joint.name}' is floating, and its pose comes from another publisher than "
+        "robot_state_publisher, which skips it"
+        for link in lost
+    ]
+    first = lost[0].joint
+    return tuple(why), (
+        (
+            "ask a session or a recording in which that is published, or publish it:",
+            static_publisher(first.parent, first.child),
+        ),
+    )
+
+
+def _answered(links: tuple[ChainLink, ...], target: str, source: str, name: str) -> Told:
+    if not links:
+        return ("a link is always where it is itself",), ()
+    moving = [link for link in links if link.joint.moves]
+    if not moving:
+        return ("every joint on the way is fixed: this answers at all times",), ()
+    leaders = list(dict.fromkeys(link.leader for link in moving))
+    open_ones = list(dict.fromkeys(link.leader for link in moving if not link.is_given))
+    are, move = ("is", "it moves") if len(leaders) == 1 else ("are", "they move")
+    why = [
+        f"of a robot that runs this answers once joint states say where {several(leaders)} {are}: "
+        f"until then robot_state_publisher has no frame for what {move}"
+    ]
+    for link in moving:
+        limits = link.joint.limits
+        follows = link.leader != link.joint.name
+        if (
+            follows
+            and limits
+            and link.position is not None
+            and not limits[0] <= link.position <= limits[1]
+        ):
+            why.append(
+                f"joint '{link.joint.name}' follows '{link.leader}' beyond its limits, "
+                f"{limits[0]:.4g} to {limits[1]:.4g} {link.joint.unit}"
+            )
+    if not open_ones:
+        return tuple(why), ()
+    why.append(
+        f"no position was given for {several(open_ones)}: at rest a joint is at zero where its "
+        "limits allow that, else in the middle of them"
+    )
+    words = ("tftool", "explain", target, source, name, "--joint", f"{open_ones[0]}=0.5")
+    command = " ".join(map(shlex.quote, words))
+    return tuple(why), (("to say where a joint is:", command),)

@@ -1,0 +1,301 @@
+"""Material to findings: every check is run, consequences are put under their causes."""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from tftool.base.errors import UsageError
+from tftool.base.near_names import near_names
+from tftool.doctor import clock_checks as clocks
+from tftool.doctor import coverage_checks as coverage
+from tftool.doctor import description_checks as description
+from tftool.doctor import name_checks as names
+from tftool.doctor import publisher_checks as publishers
+from tftool.doctor import shape_checks as shape
+from tftool.doctor import value_checks as values
+from tftool.doctor.catalogue import CHECKS, FOLDS, NEEDS, Check
+from tftool.doctor.evidence import Material
+from tftool.doctor.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
+from tftool.doctor.model import Limits, Model, Settings
+from tftool.doctor.wording import filled, several
+
+Run = Callable[[Model, Limits], Iterator[Hit]]
+
+_ROOMS = (publishers, shape, names, clocks, coverage, values, description)
+
+RUNS: Mapping[str, Run] = {
+    name: getattr(room, name.replace("-", "_"))
+    for name in CHECKS
+    for room in _ROOMS
+    if hasattr(room, name.replace("-", "_"))
+}
+"""The function of each check: its id with underscores."""
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """What came of all checks.
+
+    Attributes:
+        findings: By area, errors first; consequences directly behind their cause.
+        skipped: Checks that could not run, and why.
+        ran: How many did.
+        model: What they looked at.
+    """
+
+    findings: tuple[Finding, ...]
+    skipped: tuple[Skipped, ...]
+    ran: int
+    model: Model
+
+    def count(self, severity: Severity) -> int:
+        """How many findings there are of a severity, consequences left out."""
+        return sum(f.severity is severity and f.because_of is None for f in self.findings)
+
+    @property
+    def worst(self) -> Severity | None:
+        """The worst severity of what is no consequence; None where there is nothing."""
+        found = [finding.severity for finding in self.findings if finding.because_of is None]
+        return min(found, key=lambda severity: severity.rank, default=None)
+
+
+def judge(
+    material: Material,
+    settings: Settings | None = None,
+    *,
+    select: Sequence[str] = (),
+    ignore: Sequence[str] = (),
+) -> Diagnosis:
+    """Run the checks.
+
+    Args:
+        material: What is known of the frames.
+        settings: What the listener is like, and thresholds.
+        select: Ids or areas to run; all where empty.
+        ignore: Ids or areas to leave out.
+
+    Raises:
+        UsageError: If there is no such check, area or threshold.
+    """
+    settings = settings or Settings()
+    refuse_unknown(settings, select, ignore)
+    limits = {name: _limits(check, settings) for name, check in CHECKS.items()}
+    chosen = _named(select) if select else list(CHECKS)
+    left_out = set(_named(ignore))
+    model = Model(material, settings)
+    hits: list[tuple[Check, Hit]] = []
+    skipped = []
+    ran = 0
+    for name in CHECKS:
+        if name not in chosen or name in left_out:
+            asked = "left out, as was asked" if name in left_out else "not selected"
+            skipped.append(Skipped(name, asked))
+            continue
+        check = CHECKS[name]
+        missing = [need for need in check.needs if not _has(material, need)]
+        if missing:
+            skipped.append(Skipped(name, NEEDS[missing[0]]))
+            continue
+        ran += 1
+        # Numbers in a recording may be of any size; what overflows is no number, and is told.
+        with np.errstate(all="ignore"):
+            hits += [(check, hit) for hit in RUNS[name](model, limits[name])]
+    return Diagnosis(_findings(hits, limits), tuple(skipped), ran, model)
+
+
+def _has(material: Material, need: str) -> bool:
+    if need == "log times":
+        return material.timed
+    if need == "recording":
+        return material.recorded
+    if need == "headers":
+        return any(len(headers) for headers in material.headers.values())
+    if need == "odometry":
+        return material.odometry is not None
+    if need == "description":
+        return material.robot is not None or bool(material.mistakes)
+    if need == "valid description":
+        return material.robot is not None
+    if need == "joint states":
+        return material.joints is not None
+    return any(publisher.durability for publisher in material.publishers)
+
+
+def _named(words: Sequence[str]) -> list[str]:
+    """The ids that ids and areas stand for."""
+    areas = {area.value.replace(" ", "-"): area for area in Area}
+    found: list[str] = []
+    for word in words:
+        if word in CHECKS:
+            found.append(word)
+        elif word.replace(" ", "-") in areas:
+            area = areas[word.replace(" ", "-")]
+            found += [name for name, check in CHECKS.items() if check.area is area]
+        else:
+            raise UsageError(unknown(word, [*CHECKS, *areas], "check or area"))
+    return found
+
+
+def unknown(word: str, known: Sequence[str], what: str) -> str:
+    """Why a word is refused, with what was probably meant."""
+    near = near_names(word, known)
+    hint = f"did you mean {near[0]}?" if near else "'tftool doctor --list' shows all."
+    return f"There is no {what} '{word}': {hint}"
+
+
+def _limits(check: Check, settings: Settings) -> Limits:
+    return {**check.limits, **settings.limits.get(check.id, {})}
+
+
+def refuse_unknown(settings: Settings, select: Sequence[str], ignore: Sequence[str]) -> None:
+    """Refuse checks, areas and thresholds that there are not.
+
+    Raises:
+        UsageError: If there is one.
+    """
+    _named(select)
+    _named(ignore)
+    for name, given in settings.limits.items():
+        if name not in CHECKS:
+            raise UsageError(unknown(name, list(CHECKS), "check"))
+        for limit in given:
+            known = sorted(CHECKS[name].limits)
+            if limit not in known:
+                has = f"it has {', '.join(known)}." if known else "it has none."
+                raise UsageError(f"{name} has no threshold '{limit}': {has}")
+
+
+def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tuple[Finding, ...]:
+    of_check: dict[str, list[int]] = defaultdict(list)
+    for number, (check, _) in enumerate(hits):
+        of_check[check.id].append(number)
+    causes = [_cause_of(number, hits, of_check) for number in range(len(hits))]
+    grouped: dict[tuple[object, ...], list[Hit]] = {}
+    for number, ((check, hit), cause) in enumerate(zip(hits, causes, strict=True)):
+        severity = hit.severity or check.severity
+        key = (check.id, severity, cause, number if hit.alone else -1)
+        grouped.setdefault(key, []).append(hit)
+    findings = [
+        replace(_joined(CHECKS[str(key[0])], group, limits[str(key[0])]), because_of=cause)
+        for key, group in grouped.items()
+        for cause in [key[2] if isinstance(key[2], str) else None]
+    ]
+    order = list(CHECKS)
+    areas = list(Area)
+
+    def rank(finding: Finding) -> tuple[int, int, int]:
+        return areas.index(finding.area), finding.severity.rank, order.index(finding.id)
+
+    roots = sorted((f for f in findings if f.because_of is None), key=rank)
+    rest = sorted((f for f in findings if f.because_of is not None), key=rank)
+    told: list[Finding] = []
+    placed: set[str] = set()
+    for place, finding in enumerate(roots):
+        told.append(finding)
+        if all(finding.id != later.id for later in roots[place + 1 :]):
+            told += [other for other in rest if other.because_of == finding.id]
+            placed.add(finding.id)
+    return (*told, *(other for other in rest if other.because_of not in placed))
+
+
+def _cause_of(
+    number: int, hits: list[tuple[Check, Hit]], of_check: Mapping[str, Sequence[int]]
+) -> str | None:
+    """The id of what explains a hit: of several, the first that nothing explains itself.
+
+    Args:
+        number: The hit's.
+        hits: All of them.
+        of_check: The numbers of those of each check.
+    """
+    check, hit = hits[number]
+    for causes, consequences, common in FOLDS:
+        if check.id not in consequences:
+            continue
+        for other_number in sorted(n for name in causes for n in of_check.get(name, ())):
+            other, cause = hits[other_number]
+            if not _share(hit, cause, common):
+                continue
+            if common not in ("edge", "frame") and _is_calm(other, cause) > _is_calm(check, hit):
+                # A note hides an error or a warning only where both are about the same thing.
+                continue
+            if _cause_of(other_number, hits, of_check) is None:
+                return other.id
+    return None
+
+
+def _is_calm(check: Check, hit: Hit) -> bool:
+    return (hit.severity or check.severity) is Severity.NOTE
+
+
+def _share(hit: Hit, cause: Hit, common: str) -> bool:
+    match common:
+        case "anything":
+            return True
+        case "edge":
+            return bool(set(hit.edges) & set(cause.edges))
+        case "child":
+            children = {child for _, child in cause.edges}
+            mine = {child for _, child in hit.edges} | set(hit.frames)
+            # A tree that one of two parents is left in is their doing, too.
+            parents = {parent for parent, _ in cause.edges}
+            return bool(children & mine) or bool(parents & set(hit.frames))
+        case "frame":
+            return bool(set(hit.frames) & set(cause.frames))
+        case "path":
+            path = hit.facts.get("path")
+            edges = {(str(a), str(b)) for a, b in path} if isinstance(path, list) else set()
+            return bool((edges | set(hit.edges)) & set(cause.edges)) or bool(
+                set(hit.topics) & set(cause.topics)
+            )
+    return bool(set(hit.edges) & set(cause.edges)) or bool(set(hit.topics) & set(cause.topics))
+
+
+def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
+    """One finding of the hits of one check that are alike."""
+    first = hits[0]
+    concerned = _concerned(hits)
+    facts = {
+        "frames": several(first.frames),
+        **first.facts,
+        "where": several(concerned, 3),
+        "concerned": len(concerned),
+    }
+    evidence = [filled(check.detail, {"frames": several(hit.frames), **hit.facts}) for hit in hits]
+    changed = {name: value for name, value in limits.items() if value != check.limits[name]}
+    if changed:
+        told = ", ".join(f"{name} = {value:g}" for name, value in changed.items())
+        evidence.append(f"with {told}")
+    own = [Fix(fix.text, fix.command) for fix in first.fixes]
+    usual = [Fix(filled(fix.text, facts), filled(fix.command, facts)) for fix in check.fixes]
+    since = [hit.since for hit in hits if hit.since is not None]
+    until = [hit.until for hit in hits if hit.until is not None]
+    return Finding(
+        id=check.id,
+        severity=first.severity or check.severity,
+        area=check.area,
+        message=filled(check.headline, facts),
+        confidence=min((hit.confidence for hit in hits), key=list(Confidence).index),
+        edges=tuple(dict.fromkeys(edge for hit in hits for edge in hit.edges)),
+        frames=tuple(dict.fromkeys(frame for hit in hits for frame in hit.frames)),
+        topics=tuple(dict.fromkeys(topic for hit in hits for topic in hit.topics)),
+        publishers=tuple(dict.fromkeys(node for hit in hits for node in hit.publishers)),
+        since=min(since, default=None),
+        until=max(until, default=None),
+        count=sum(hit.count for hit in hits),
+        facts=MappingProxyType(dict(first.facts)),
+        evidence=tuple(line for line in evidence if line),
+        consequence=filled(check.consequence, facts),
+        fixes=(*own, *usual),
+    )
+
+
+def _concerned(hits: list[Hit]) -> list[str]:
+    """The names of what is concerned, for a headline: edges, else topics, else frames."""
+    edges = dict.fromkeys(f"{child} in {parent}" for hit in hits for parent, child in hit.edges)
+    topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
+    frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)
+    return list(edges or topics or frames)

@@ -1,0 +1,376 @@
+"""What the checks look at: columns and headers on one clock, in laps, as trees.
+
+Nothing here reads a file; see `material` for what was given.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from tftool.base.common_ancestor import climbed, up_to_join
+from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
+from tftool.doctor.evidence import Material
+from tftool.doctor.stamp_stream import Heard, Stream, Track, last_part
+from tftool.recordings.contract import (
+    Stamps,
+)
+from tftool.recordings.timeline import through_clock
+from tftool.robots.description import RobotJoint
+
+Limits = Mapping[str, float]
+"""The thresholds of one check, by name."""
+
+
+LAP = seconds(1)
+"""How far a stream's stamps step back where a lap begins, and within which time all do."""
+
+WARM_UP = seconds(1)
+"""The start and the end of a recording, which checks of coverage leave out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What the listener that is thought of would do, and other limits than the usual ones.
+
+    Attributes:
+        cache_time: How far back its buffer remembers, nanoseconds.
+        fixed_frame: Where it wants to place sensors; empty for the usual one.
+        limits: Thresholds by check and name, in place of the catalogue's.
+        tf_topics: Topics it listens to for transforms; empty for the usual ones.
+    """
+
+    cache_time: Duration = CACHE_TIME
+    fixed_frame: str = ""
+    tf_topics: tuple[str, ...] = ()
+    limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Lap:
+    """A moment at which time went back.
+
+    Attributes:
+        log: When, as log time.
+        before: The last stamp before.
+        after: The first stamp after.
+        streams: How many streams did.
+    """
+
+    log: Stamp
+    before: Stamp
+    after: Stamp
+    streams: int
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """Frames that hang together.
+
+    Attributes:
+        root: The frame without a parent; some frame of the circle where there is none.
+        frames: All of them, the root included.
+        is_circle: Whether it has no root.
+    """
+
+    root: str
+    frames: frozenset[str]
+    is_circle: bool = False
+
+
+class Model:
+    """The material, read once for all checks.
+
+    Attributes:
+        material: What it was made of.
+        settings: What the listener is like.
+        tracks: One for each edge, without what no listener can use (see `nameless`).
+        nameless: Edges with an empty name, or whose ends are the same frame.
+        heard: One for each topic and frame of its messages.
+        laps: Where time went back; all else is about what came before the first.
+        reference: How latencies are reckoned, a sentence; empty where that is plain.
+    """
+
+    def __init__(self, material: Material, settings: Settings | None = None) -> None:
+        self.material = material
+        self.settings = settings or Settings()
+        tracks = [Track(edge, material.transforms) for edge in material.transforms.edges]
+        self.nameless = tuple(track for track in tracks if _is_nameless(track))
+        self.tracks = tuple(track for track in tracks if not _is_nameless(track))
+        self.heard = tuple(
+            Heard(headers, number)
+            for headers in material.headers.values()
+            for number in range(len(headers.names))
+        )
+        self.laps: tuple[Lap, ...] = ()
+        self.reference = ""
+        if material.timed:
+            self._find_laps()
+        self._put_on_one_clock()
+        # What only came after the first lap is not looked at.
+        self.tracks = tuple(track for track in self.tracks if len(track.stamps))
+        self.nameless = tuple(track for track in self.nameless if len(track.stamps))
+        self.heard = tuple(heard for heard in self.heard if len(heard.stamps))
+
+    @cached_property
+    def dynamic(self) -> tuple[Track, ...]:
+        """Edges that came on a topic that is not static."""
+        return tuple(track for track in self.tracks if not track.static)
+
+    @cached_property
+    def statics(self) -> tuple[Track, ...]:
+        """Edges that came on a static topic."""
+        return tuple(track for track in self.tracks if track.static)
+
+    @cached_property
+    def start(self) -> Stamp:
+        """Log time at which the first lap begins."""
+        return max(self.material.start, -(2**61))
+
+    @cached_property
+    def epoch(self) -> Stamp:
+        """The first stamp of what moves; log time where nothing does."""
+        firsts = [int(t.sorted_stamps[0]) for t in self.dynamic if len(t.sorted_stamps)]
+        return min(firsts, default=self.start)
+
+    @cached_property
+    def end(self) -> Stamp:
+        """Log time at which the first lap ends."""
+        return self.laps[0].log if self.laps else min(self.material.end, 2**61)
+
+    @cached_property
+    def parents(self) -> dict[str, Track]:
+        """The latest edge above each child."""
+        latest: dict[str, tuple[int, Track]] = {}
+        for track in self.tracks:
+            if not len(track.stamps):
+                continue
+            last = int((track.logs if self.material.timed else track.stamps)[-1])
+            held = latest.get(track.child)
+            if held is None or last >= held[0]:
+                latest[track.child] = (last, track)
+        return {child: track for child, (_, track) in latest.items()}
+
+    @cached_property
+    def frames(self) -> frozenset[str]:
+        """Every frame that a transform names."""
+        return frozenset(name for track in self.tracks for name in track.edge)
+
+    @cached_property
+    def prefix(self) -> str:
+        """What stands before a described link's name in that of its frame; usually nothing."""
+        robot = self.material.robot
+        if robot is None:
+            return ""
+        # Reads what is recorded, too, which takes its time to import.
+        from tftool.recordings.description_frames import prefix_of
+
+        return prefix_of(robot, self.frames)
+
+    @cached_property
+    def joint_above(self) -> Mapping[str, RobotJoint]:
+        """The description's joint above each frame; none without a description."""
+        robot = self.material.robot
+        joints = () if robot is None else robot.joints.values()
+        return {self.prefix + joint.child: joint for joint in joints}
+
+    @cached_property
+    def described(self) -> frozenset[str]:
+        """The frames that the description promises; none without one."""
+        robot = self.material.robot
+        return frozenset(() if robot is None else (self.prefix + link for link in robot.links))
+
+    @cached_property
+    def trees(self) -> tuple[Tree, ...]:
+        """By the latest parents, the largest first."""
+        root_of: dict[str, tuple[str, bool]] = {}
+        for frame in sorted(self.frames):
+            walked: dict[str, None] = {}
+            here, circle = frame, False
+            while here not in root_of:
+                if here in walked:
+                    way = list(walked)
+                    here, circle = min(way[way.index(here) :]), True
+                    break
+                walked[here] = None
+                above = self.parents.get(here)
+                if above is None:
+                    break
+                here = above.parent
+            root = root_of.get(here, (here, circle))
+            root_of.update(dict.fromkeys(walked, root))
+        members: dict[tuple[str, bool], set[str]] = {}
+        for frame, key in root_of.items():
+            members.setdefault(key, set()).add(frame)
+        trees = [Tree(root, frozenset(of), circle) for (root, circle), of in members.items()]
+        usual = {"map": 0, "odom": 1, "world": 2}
+        return tuple(
+            sorted(trees, key=lambda t: (-len(t.frames), usual.get(last_part(t.root), 3), t.root))
+        )
+
+    @cached_property
+    def tree_of(self) -> dict[str, Tree]:
+        """The tree of each frame."""
+        return {frame: tree for tree in self.trees for frame in tree.frames}
+
+    def above(self, frame: str) -> list[Track]:
+        """The edges from a frame up to its root, lowest first."""
+        return climbed(frame, self.parents.get)
+
+    def path(self, frame: str, other: str) -> list[Track] | None:
+        """The edges between two frames; None where they are not joined."""
+        if frame not in self.frames or other not in self.frames:
+            return None
+        legs = up_to_join(frame, other, self.above)
+        return None if legs is None else legs[0] + legs[1]
+
+    def below(self, frame: str) -> frozenset[str]:
+        """A frame and everything that hangs below it by the latest parents."""
+        found: set[str] = set()
+        waiting = [frame]
+        while waiting:
+            one = waiting.pop()
+            if one not in found:
+                found.add(one)
+                waiting += self._children.get(one, ())
+        return frozenset(found)
+
+    @cached_property
+    def _children(self) -> dict[str, list[str]]:
+        children: dict[str, list[str]] = {}
+        for child, track in self.parents.items():
+            children.setdefault(track.parent, []).append(child)
+        return children
+
+    @cached_property
+    def sensor_frame(self) -> str:
+        """Where sensors are to be placed: what was asked for, else odom, else the usual root."""
+        return self._fixed("odom", "map", "world")
+
+    @cached_property
+    def fixed_frame(self) -> str:
+        """Where everything is to be placed: what was asked for, else map, odom, world, a root."""
+        return self._fixed("map", "odom", "world")
+
+    def _fixed(self, *usual: str) -> str:
+        if self.settings.fixed_frame:
+            return self.settings.fixed_frame
+        if not self.trees:
+            return ""
+        main = self.trees[0]
+        for name in usual:
+            if name in main.frames:
+                return name
+        for name in usual:
+            parts = sorted(frame for frame in main.frames if last_part(frame) == name)
+            if parts:
+                return parts[0]
+        return main.root
+
+    @cached_property
+    def warm(self) -> tuple[Stamp, Stamp]:
+        """Log times between which coverage is judged."""
+        return self.start + WARM_UP, self.end - WARM_UP
+
+    def log_of(self, stamp: Stamp) -> Stamp:
+        """The log time of a moment on the clock of the stamps."""
+        read, received = self.material.clock
+        if stamp >= SIMULATED_BELOW or self.material.end < SIMULATED_BELOW:
+            return stamp
+        if len(read):
+            return int(through_clock(np.array([stamp]), received, read)[0])
+        return stamp + self._offset
+
+    def _streams(self) -> list[Stream]:
+        """What may step back: neither statics nor what came once."""
+        streams: list[Stream] = [
+            track for track in self.tracks if not track.static and len(track.stamps) > 1
+        ]
+        streams += [heard for heard in self.heard if len(heard.stamps) > 1]
+        return streams
+
+    def _find_laps(self) -> None:
+        streams = self._streams()
+        backs: list[tuple[int, int, int, int, int]] = []
+        for number, stream in enumerate(streams):
+            for place in _steps_back(stream.stamps):
+                at = int(stream.logs[place])
+                before, after = int(stream.stamps[place - 1]), int(stream.stamps[place])
+                backs.append((at, number, place, before, after))
+        backs.sort()
+        needed = max(2, (len(streams) + 1) // 2)
+        laps: list[Lap] = []
+        first: list[tuple[int, int, int, int, int]] = []
+        place = 0
+        while place < len(backs):
+            group = [one for one in backs[place:] if one[0] <= backs[place][0] + LAP]
+            if len({one[1] for one in group}) < needed:
+                place += 1
+                continue
+            first = first or group
+            befores = max(one[3] for one in group)
+            afters = min(one[4] for one in group)
+            laps.append(Lap(group[0][0], befores, afters, len({one[1] for one in group})))
+            place += len(group)
+        self.laps = tuple(laps)
+        if not laps:
+            return
+        own = {number: place for _, number, place, _, _ in reversed(first)}
+        numbers = {id(stream): number for number, stream in enumerate(streams)}
+        for every in (*self.tracks, *self.nameless, *self.heard):
+            number = numbers.get(id(every), -1)
+            if number in own:
+                every.lap = own[number]
+            elif not (isinstance(every, Track) and every.static):
+                every.lap = int(np.searchsorted(every.all_logs, laps[0].log, side="left"))
+
+    def _put_on_one_clock(self) -> None:
+        """Reckon arrivals on the clock of the stamps: 2.1 of the specification's latency."""
+        streams: list[Stream] = [*self.tracks, *self.nameless, *self.heard]
+        simulated = [one for one in streams if one.families[0]]
+        read, received = self.material.clock
+        self._offset = 0
+        for stream in streams:
+            stream.arrivals = stream.logs
+        if not simulated or self.material.end < SIMULATED_BELOW:
+            return  # log times are on the clock of the stamps already
+        if not len(read):
+            self._offset = self._freshest()
+            self.reference = (
+                "stamps are a simulation's and there is no /clock: the freshest stream counts "
+                "as not late at all, and only differences are true"
+            )
+        for stream in streams:
+            logs = stream.logs
+            if not stream.families[0]:
+                continue
+            on_clock = through_clock(logs, read, received) if len(read) else logs - self._offset
+            is_sim = stream.stamps < SIMULATED_BELOW
+            stream.arrivals = on_clock if is_sim.all() else np.where(is_sim, on_clock, logs)
+
+    def _freshest(self) -> int:
+        offsets = []
+        for stream in self._streams():
+            if isinstance(stream, Track) and stream.is_localisation:
+                continue
+            mask = (stream.stamps < SIMULATED_BELOW) & (stream.stamps != 0)
+            if mask.any():
+                offsets.append(int(np.median(stream.logs[mask] - stream.stamps[mask])))
+        return min(offsets, default=0)
+
+
+def _is_nameless(track: Track) -> bool:
+    return not track.parent or not track.child or track.parent == track.child
+
+
+def _steps_back(stamps: Stamps) -> list[int]:
+    """Places at which stamps of one clock step back by more than a lap's least."""
+    stamped = np.flatnonzero(stamps != 0)
+    kept = stamps[stamped]
+    back = np.flatnonzero(
+        (kept[1:] < kept[:-1] - LAP)
+        & ((kept[1:] < SIMULATED_BELOW) == (kept[:-1] < SIMULATED_BELOW))
+    )
+    # A stream that goes to and fro all the time tells of no lap.
+    return [int(stamped[place + 1]) for place in back[:1000]]

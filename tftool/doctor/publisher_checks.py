@@ -1,0 +1,376 @@
+"""Checks of who publishes what: two opinions of one frame, statics that move."""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS
+from tftool.doctor.findings import Confidence, Fix, Hit
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.shape_checks import quoted
+from tftool.doctor.stamp_stream import Places, Track, last_part, rate
+from tftool.geometry.quaternions import angle_between
+from tftool.geometry.rigid_arrays import Floats, unit
+
+MOST_FOLLOWED = 20_000
+"""Samples of one edge that are followed one by one; more are a beginning that tells enough."""
+
+
+def two_parents(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame gets two parents by turns, or two by statics."""
+    for child, tracks in _by_child(model.dynamic).items():
+        switches, stay, first = _switching(tracks)
+        if switches > limits["switches"] and stay < limits["stay"]:
+            yield _fight(model, child, tracks, switches, first)
+    for child, tracks in _by_child(model.statics).items():
+        yield _fight(model, child, tracks, len(tracks) - 1, int(tracks[1].logs[0]))
+
+
+def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame changed its parent and stayed."""
+    for child, tracks in _by_child(model.dynamic).items():
+        switches, stay, first = _switching(tracks)
+        if 0 < switches <= limits["switches"] or stay >= limits["stay"]:
+            yield Hit(
+                edges=tuple(track.edge for track in tracks),
+                frames=(child,),
+                since=first,
+                count=switches,
+                facts={
+                    "child": child,
+                    "parents": [track.parent for track in tracks],
+                    "switches": switches,
+                },
+            )
+
+
+def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, first: int) -> Hit:
+    roots = [_root(model, track.parent, child) for track in tracks]
+    return Hit(
+        edges=tuple(track.edge for track in tracks),
+        frames=(child,),
+        publishers=tuple(sorted({node for track in tracks for node in track.nodes})),
+        since=first,
+        count=switches,
+        facts={
+            "child": child,
+            "parents": [track.parent for track in tracks],
+            "first": first,
+            "sources": [_source(track) for track in tracks],
+            "switches": switches,
+            "lost": sorted(model.below(child)),
+            "root": roots[0] if roots[0] != child else tracks[0].parent,
+        },
+        fixes=tuple(_switches_off(track) for track in tracks if _is_odometry(track)),
+        alone=True,
+    )
+
+
+def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Two sources publish the same transform with different values."""
+    # Where fewer than two are known by name, no edge has two that are.
+    named = len({one.node for one in model.material.transforms.publishers if one.node}) > 1
+    for track in model.dynamic:
+        hit = _named_conflict(model, track, limits) if named else None
+        hit = hit or _unnamed_conflict(track, limits)
+        if hit is not None:
+            yield hit
+
+
+def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
+    """Two publishers that are known, at the same time, of different opinion."""
+    places = track.by_stamp
+    senders = track.senders[places]
+    numbers, counts = np.unique(senders, return_counts=True)
+    publishers = model.material.transforms.publishers
+    named = [
+        number
+        for number, count in zip(numbers.tolist(), counts.tolist(), strict=True)
+        if count >= limits["least"] and publishers[number].node
+    ]
+    for first, second in ((a, b) for i, a in enumerate(named) for b in named[i + 1 :]):
+        if publishers[first].node == publishers[second].node:
+            continue
+        mine, theirs = places[senders == first], places[senders == second]
+        stamps, others = track.stamps[mine], track.stamps[theirs]
+        if stamps[0] > others[-1] or others[0] > stamps[-1]:
+            continue
+        inside = (stamps >= others[0]) & (stamps <= others[-1])
+        stamps, mine = stamps[inside], mine[inside]
+        if len(mine) < limits["least"]:
+            continue
+        after = np.clip(np.searchsorted(others, stamps), 1, len(others) - 1)
+        nearer = np.abs(others[after] - stamps) < np.abs(others[after - 1] - stamps)
+        nearest = theirs[np.where(nearer, after, after - 1)]
+        apart = track.apart(mine, nearest)
+        step = float(np.median(track.apart(mine[1:], mine[:-1]))) if len(mine) > 1 else 0.0
+        if float(np.median(apart)) > limits["metres"] + step:
+            names = (publishers[first].node, publishers[second].node)
+            return _conflict(track, names, (mine, theirs), apart, Confidence.CERTAIN)
+    return None
+
+
+def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
+    """Two opinions seen from the values: each continues itself, and they alternate."""
+    places = track.by_stamp[:MOST_FOLLOWED]
+    if len(places) < max(2 * limits["samples"], 2):
+        return None
+    apart = track.strides[: len(places) - 1]
+    # Nor does one leave its own track that moves and turns so little, whatever the time it takes.
+    if apart.max() < 0.5 * limits["reach"] and not track.has_turns(
+        places[1:], places[:-1], 0.5 * limits["reach"]
+    ):
+        return None
+    times = track.stamps[places] / NANOSECONDS
+    jumps = apart + 0.5 * track.turned(places[1:], places[:-1])
+    # Who never leaves its own track needs no following.
+    leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
+    if np.count_nonzero(leaves) < limits["changes"]:
+        return None
+    owners = _follow(track, places, limits)
+    changes = int(np.count_nonzero(np.diff(owners)))
+    if changes < limits["changes"] or changes <= limits["share"] * (len(owners) - 1):
+        return None
+    counts = np.bincount(owners, minlength=3)
+    enough = np.flatnonzero(
+        (counts >= limits["samples"]) & (counts >= limits["share"] * len(owners))
+    )
+    if len(enough) < 2:
+        return None
+    first, second = enough[np.argsort(-counts[enough], kind="stable")][:2].tolist()
+    mine, theirs = places[owners == first], places[owners == second]
+    near = np.clip(np.searchsorted(track.stamps[theirs], track.stamps[mine]), 0, len(theirs) - 1)
+    apart = track.apart(mine, theirs[near])
+    return _conflict(track, ("A", "B"), (mine, theirs), apart, Confidence.LIKELY)
+
+
+def _follow(track: Track, places: Places, limits: Limits) -> Places:
+    """Which of at most three tracks each sample continues; the nearest where it continues none."""
+    stamps = (track.stamps[places] / NANOSECONDS).tolist()
+    poses = np.hstack((track.translations[places], unit(track.rotations[places]))).tolist()
+    reach, speed = limits["reach"], limits["speed"]
+    ends: list[tuple[float, list[float]]] = []
+    owners = []
+    for now, pose in zip(stamps, poses, strict=True):
+        best, least, continues = -1, np.inf, False
+        for number, (then, last) in enumerate(ends):
+            away = _pose_distance(pose, last)
+            fits = away < reach + speed * min(now - then, 0.2)
+            if (fits, -away) > (continues, -least):
+                best, least, continues = number, away, fits
+        if not continues and len(ends) < 3:
+            best = len(ends)
+            ends.append((now, pose))
+        ends[best] = (now, pose)
+        owners.append(best)
+    return np.array(owners)
+
+
+def _pose_distance(a: list[float], b: list[float]) -> float:
+    away = math.dist(a[:3], b[:3])
+    return away + 0.5 * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
+
+
+def _conflict(
+    track: Track,
+    names: tuple[str, str],
+    owned: tuple[Places, Places],
+    apart: Floats,
+    confidence: Confidence,
+) -> Hit:
+    rates, late = [], []
+    for places in owned:
+        stamps = track.stamps[places]
+        span = int(stamps[-1] - stamps[0])
+        rates.append((len(stamps) - 1) * NANOSECONDS / span if span else 0.0)
+        late.append(int(np.median(track.latency[places])))
+    known = confidence is Confidence.CERTAIN
+    return Hit(
+        edges=(track.edge,),
+        publishers=names if known else (),
+        since=int(max(track.logs[places].min() for places in owned)),
+        count=min(len(owned[0]), len(owned[1])),
+        confidence=confidence,
+        facts={
+            "edge": track.name,
+            "child": track.child,
+            "parent": track.parent,
+            "first": names[0],
+            "second": names[1],
+            "rates": rates,
+            "latencies": late,
+            "apart": float(np.median(apart)),
+            "worst": float(np.max(apart)),
+            "seen": "" if known else " (seen from the values, publishers unknown)",
+        },
+        fixes=(_switches_off(track),),
+        alone=True,
+    )
+
+
+def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame comes on a static and on a dynamic topic."""
+    moving = _by_child(model.dynamic, least=1)
+    for child, statics in _by_child(model.statics, least=1).items():
+        if child not in moving:
+            continue
+        tracks = [*moving[child], *statics]
+        kinds = np.concatenate([np.full(len(t.logs), t.static) for t in tracks])
+        logs = np.concatenate([t.logs for t in tracks])
+        order = np.argsort(logs, kind="stable")
+        turns = np.flatnonzero(np.diff(kinds[order].astype(np.int8)))
+        bounds = np.concatenate((logs[order][:1], logs[order][turns + 1], logs[order][-1:]))
+        yield Hit(
+            edges=tuple(dict.fromkeys(track.edge for track in tracks)),
+            frames=(child,),
+            publishers=tuple(sorted({node for track in tracks for node in track.nodes})),
+            since=int(bounds[1]) if len(turns) else int(bounds[0]),
+            count=len(turns),
+            facts={
+                "child": child,
+                "moving": [f"{t.name} on {', '.join(t.topics)}" for t in moving[child]],
+                "static": [f"{t.name} on {', '.join(t.topics)}" for t in statics],
+                "turns": len(turns),
+                "history": int(np.diff(bounds).max()) if len(bounds) > 1 else 0,
+            },
+            alone=True,
+        )
+
+
+def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A moving frame is published as static."""
+    for values, hit in _values_of_statics(model, limits):
+        if values >= limits["values"]:
+            yield hit
+
+
+def static_changed(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A static was published again with another value."""
+    for values, hit in _values_of_statics(model, limits):
+        if 2 <= values <= limits["values"]:
+            yield hit
+
+
+def _values_of_statics(model: Model, limits: Limits) -> Iterator[tuple[int, Hit]]:
+    for track in model.statics:
+        places = np.flatnonzero(track.usable)
+        if len(places) < 2:
+            continue
+        # Poses that differ by less than the limit fall together.
+        kept = [int(places[0])]
+        changes: list[int] = []
+        last = kept[0]
+        for place in places[1:].tolist():
+            if _same(track, place, last, limits):
+                continue
+            changes.append(place)
+            last = place
+            if len(kept) < 50 and not any(_same(track, place, one, limits) for one in kept):
+                kept.append(place)
+            if len(changes) > 1000:
+                break
+        if not changes:
+            continue
+        first = np.full(len(kept), kept[0])
+        yield (
+            len(kept),
+            Hit(
+                edges=(track.edge,),
+                publishers=track.nodes,
+                since=int(track.logs[changes[0]]),
+                until=int(track.logs[changes[-1]]),
+                count=len(changes),
+                facts={
+                    "edge": track.name,
+                    "values": len(kept),
+                    "moved": float(track.apart(np.array(kept), first).max()),
+                    "turned": float(track.turned(np.array(kept), first).max()),
+                },
+            ),
+        )
+
+
+def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
+    some, others = np.array([one]), np.array([other])
+    moved = float(track.apart(some, others)[0])
+    turned = float(track.turned(some, others)[0])
+    return moved <= limits["metres"] and turned <= limits["radians"]
+
+
+def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A constant on /tf that could be static."""
+    if not any(track.moves for track in model.dynamic):
+        return
+    carried = _by_child(model.dynamic)
+    for track in model.dynamic:
+        if track.is_localisation or track.moves or len(track.stamps) < limits["samples"]:
+            continue
+        joint = model.joint_above.get(track.child)
+        if joint is not None and joint.moves:
+            continue  # it could move, and rests
+        if track.child in carried:
+            continue  # it is moved from one parent to another
+        yield Hit(
+            edges=(track.edge,),
+            publishers=track.nodes,
+            count=len(track.stamps),
+            facts={"edge": track.name, "rate": rate(track), "period": track.period},
+        )
+
+
+def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
+    """The edges of each child that has at least `least` of them."""
+    grouped: dict[str, list[Track]] = defaultdict(list)
+    for track in tracks:
+        if len(track.by_stamp):
+            grouped[track.child].append(track)
+    return {child: edges for child, edges in grouped.items() if len(edges) >= least}
+
+
+def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
+    """How often the parent changes, how many seconds it stays on average, and when first."""
+    stamps = np.concatenate([track.sorted_stamps for track in tracks])
+    logs = np.concatenate([track.logs[track.by_stamp] for track in tracks])
+    owner = np.repeat(np.arange(len(tracks)), [len(track.by_stamp) for track in tracks])
+    order = np.argsort(stamps, kind="stable")
+    turns = np.flatnonzero(np.diff(owner[order]))
+    span = float(stamps[order[-1]] - stamps[order[0]]) / NANOSECONDS
+    first = int(logs[order][turns[0] + 1]) if len(turns) else 0
+    return len(turns), span / (len(turns) + 1), first
+
+
+def _root(model: Model, frame: str, without: str) -> str:
+    """The topmost frame above one, as long as the way does not lead over another."""
+    for track in model.above(frame):
+        if track.parent == without:
+            break
+        frame = track.parent
+    return frame
+
+
+def _source(track: Track) -> str:
+    by = f" by {', '.join(track.nodes)}" if track.nodes else ""
+    return f"{track.name} at {rate(track):.3g} Hz{by}"
+
+
+def _is_odometry(track: Track) -> bool:
+    return last_part(track.parent).startswith("odom")
+
+
+def _switches_off(track: Track) -> Fix:
+    """What turns one of the two publishers of an edge off, by what the edge is."""
+    if track.is_localisation:
+        return Fix(
+            "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "
+            "publish_map_tf: false (ZED); of a replayed one, take it out of the recording:",
+            f"tftool edit RECORDING -o CLEAN --drop {quoted(f'{track.parent}:{track.child}')}",
+        )
+    if _is_odometry(track):
+        return Fix(
+            "switch one of the odometry transforms off: publish_odom_tf: false (Gazebo), "
+            "enable_odom_tf: false (diff_drive_controller), publish_odom_tfs: false (Create 3), "
+            "publish_tf: false (robot_localization, RTAB-Map odometry)"
+        )
+    return Fix("stop one of the two publishers, or give the frames of one another name")

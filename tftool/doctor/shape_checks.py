@@ -1,0 +1,302 @@
+"""Checks of how the frames hang together: circles, several trees, names in the wrong order."""
+
+from collections import defaultdict, deque
+from collections.abc import Iterator
+
+from tftool.doctor.findings import Confidence, Fix, Hit, Severity
+from tftool.doctor.model import Limits, Model, Tree
+from tftool.doctor.stamp_stream import Track, last_part, overlap
+from tftool.geometry.rigid import Transform
+
+_LARGE = 64  # frames of a circle, from which on no other is looked for from each of them
+_BASES = ("base_link", "base_footprint", "base")
+
+JUDGED_EMPTY = frozenset(
+    {
+        "sensor_msgs/LaserScan",
+        "sensor_msgs/PointCloud2",
+        "sensor_msgs/Imu",
+        "sensor_msgs/Image",
+        "sensor_msgs/CameraInfo",
+        "sensor_msgs/Range",
+    }
+)
+"""Types whose messages are useless without a frame; others of sensor_msgs may do without."""
+
+
+def loop(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Frames hang from each other in a circle."""
+    sent = [track for track in model.tracks if len(track.by_stamp)]
+    circling = _circling({(track.child, track.parent) for track in sent})
+    above = defaultdict(list)
+    for track in sent:
+        if (track.child, track.parent) in circling:
+            above[track.child].append(track)
+    told: set[frozenset[str]] = set()
+    done: set[str] = set()
+    for start in sorted(above):
+        if start in done:
+            continue
+        # The shortest way up that comes back to where it began.
+        waiting = deque(above[start])
+        came: dict[str, Track] = {}
+        while waiting:
+            last = waiting.popleft()
+            here = last.parent
+            if here == start:
+                way = [last]
+                while way[-1].child != start:
+                    way.append(came[way[-1].child])
+                way.reverse()
+                circle = frozenset(track.child for track in way)
+                if len(circle) > _LARGE:
+                    done |= circle
+                if circle not in told and overlap(way):
+                    told.add(circle)
+                    yield Hit(
+                        edges=tuple(track.edge for track in way),
+                        frames=tuple(track.child for track in way),
+                        publishers=tuple(sorted({n for track in way for n in track.nodes})),
+                        facts={"circle": [track.name for track in way]},
+                        alone=True,
+                    )
+                break
+            if here not in came:
+                came[here] = last
+                waiting += above.get(here, ())
+
+
+def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
+    """Of links from child to parent those that lie in a circle, or lead from one to another."""
+    for _ in range(2):
+        parents, children = defaultdict(set), defaultdict(set)
+        for child, parent in links:
+            parents[child].add(parent)
+            children[parent].add(child)
+        # What hangs from a root alone, and from that alone, is in none; and the other way round.
+        roots = [name for name in children if name not in parents]
+        while roots:
+            root = roots.pop()
+            for child in children.pop(root, ()):
+                parents[child].discard(root)
+                if not parents[child]:
+                    roots.append(child)
+        links = {(parent, child) for parent, below in children.items() for child in below}
+    return links
+
+
+def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
+    """The frames form more than one tree, and the join is missing."""
+    if len(model.trees) < 2:
+        return
+    main, *others = model.trees
+    for number, tree in enumerate(others, start=2):
+        if tree.is_circle:
+            continue
+        topics = _messages_in(model, tree)
+        severity = Severity.ERROR if topics else Severity.WARNING
+        if _is_complete(main) and _is_complete(tree):
+            severity = Severity.NOTE
+        joint = _described_join(model, main, tree)
+        guess = missing_join(main, tree.root, is_base=_is_base(tree))
+        parent, child = guess if joint is None else joint
+        yield Hit(
+            frames=(tree.root, *sorted(tree.frames - {tree.root})),
+            topics=tuple(topics),
+            severity=severity,
+            facts={
+                "root": tree.root,
+                "main_root": main.root,
+                "number": number,
+                "used": [f"{topic} ({count} messages)" for topic, count in topics.items()],
+                "join": {"parent": parent, "child": child, "guess": joint is None},
+            },
+            fixes=(_join(model, tree, parent, child, certain=joint is not None),),
+            alone=True,
+        )
+
+
+def _described_join(model: Model, main: Tree, tree: Tree) -> tuple[str, str] | None:
+    """The joint of the robot description that joins a tree to the main one."""
+    for child in (tree.root, main.root):
+        joint = model.joint_above.get(child)
+        if joint is not None:
+            parent = model.prefix + joint.parent
+            if parent in (main.frames if child == tree.root else tree.frames):
+                return parent, child
+    return None
+
+
+def _join(model: Model, tree: Tree, parent: str, child: str, *, certain: bool) -> Fix:
+    if certain:
+        joint = model.joint_above[child]
+        if joint.type != "fixed":
+            return Fix(f"the robot description joins them by {joint.name}: publish its state")
+        return Fix(
+            f"the robot description joins them by {joint.name}: start robot_state_publisher, or",
+            static_publisher(parent, child, joint.origin),
+        )
+    if last_part(tree.root) == "body" and last_part(parent) in _BASES:
+        return Fix(
+            f"probably {child} is {parent} by another name; if so:",
+            static_publisher(parent, child, Transform()),
+        )
+    return Fix(
+        f"probably {child} belongs on {parent}; put in the measured mount:",
+        static_publisher(parent, child),
+    )
+
+
+def static_publisher(parent: str, child: str, pose: Transform | None = None) -> str:
+    """The line that publishes a mount; with letters for its numbers where they are not known."""
+    numbers = "--x X --y Y --z Z --yaw A"
+    if pose is not None:
+        names = ("x", "y", "z", "qx", "qy", "qz", "qw")
+        values = (*pose.translation, *pose.rotation)
+        numbers = " ".join(f"--{a} {b:.9g}" for a, b in zip(names, values, strict=True))
+    return (
+        f"ros2 run tf2_ros static_transform_publisher {numbers} "
+        f"--frame-id {quoted(parent)} --child-frame-id {quoted(child)}"
+    )
+
+
+def quoted(name: str) -> str:
+    """A name as a word of a shell's command line."""
+    import shlex
+
+    return shlex.quote(name)
+
+
+def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
+    """Topics whose messages are in a tree's frames, and how many."""
+    counts: dict[str, int] = defaultdict(int)
+    for heard in model.heard:
+        if heard.is_spatial and heard.frame in tree.frames:
+            counts[heard.topic] += len(heard.stamps)
+    return dict(sorted(counts.items()))
+
+
+def _is_complete(tree: Tree) -> bool:
+    """Whether a tree is a whole robot: odometry and a base of its own."""
+    parts = {last_part(frame) for frame in tree.frames}
+    return any(part.startswith("odom") for part in parts) and not parts.isdisjoint(_BASES)
+
+
+def missing_join(main: Tree, root: str, *, is_base: bool = False) -> tuple[str, str]:
+    """The likeliest parent and child of an edge that is missing.
+
+    Args:
+        main: The tree that something is to be joined to.
+        root: The root of what is.
+        is_base: Whether that holds a robot's base, and is no sensor.
+    """
+    part = last_part(root)
+    if part.startswith(("odom", "camera_init")) and "map" in main.frames:
+        return "map", root
+    if part == "map" or (part == "world" and main.root != "world"):
+        return root, main.root
+    base = base_of(main)
+    if not base or (is_base and last_part(base) not in _BASES):
+        return main.root, root
+    return base, root
+
+
+def _is_base(tree: Tree) -> bool:
+    return any(last_part(frame) in _BASES for frame in tree.frames)
+
+
+def base_of(tree: Tree) -> str:
+    """The frame on which a robot's sensors are mounted; empty where there is none."""
+    for name in (*_BASES, "body"):
+        found = sorted(frame for frame in tree.frames if last_part(frame) == name)
+        if found:
+            return found[0]
+    return ""
+
+
+def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame is its own parent."""
+    for track in model.nameless:
+        if track.parent and track.parent == track.child:
+            yield Hit(
+                edges=(track.edge,),
+                frames=(track.child,),
+                topics=track.topics,
+                publishers=track.nodes,
+                since=int(track.logs[0]),
+                count=len(track.stamps),
+                facts={"frame": track.child, "count": len(track.stamps)},
+            )
+
+
+def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A transform or a message without a frame name."""
+    for track in model.nameless:
+        if not track.parent or not track.child:
+            which = "parent" if not track.parent else "child"
+            yield Hit(
+                edges=(track.edge,),
+                topics=track.topics,
+                publishers=track.nodes,
+                since=int(track.logs[0]),
+                count=len(track.stamps),
+                severity=Severity.ERROR,
+                facts={
+                    "what": f"a transform on {', '.join(track.topics)}",
+                    "detail": f"its {which} is empty; the other is {track.parent or track.child!r}",
+                    "count": len(track.stamps),
+                },
+            )
+    for heard in model.heard:
+        if heard.frame or not (
+            heard.type in JUDGED_EMPTY
+            or heard.type.startswith("nav_msgs/")
+            or (heard.type.endswith("Stamped") and heard.is_spatial)
+        ):
+            continue
+        yield Hit(
+            topics=(heard.topic,),
+            frames=("",),
+            since=int(heard.logs[0]) if len(heard.logs) else None,
+            count=len(heard.stamps),
+            severity=Severity.WARNING,
+            facts={
+                "what": f"a message on {heard.topic}",
+                "detail": f"{heard.type} with an empty frame_id",
+                "count": len(heard.stamps),
+            },
+        )
+
+
+def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Are map, odom and base in one line?"""
+    named: dict[str, list[str]] = defaultdict(list)
+    for frame in sorted(model.frames):
+        named[last_part(frame)].append(frame)
+    if not named["map"] or not named["odom"]:
+        return
+    parent_of = {child: track.parent for child, track in model.parents.items()}
+    for name in ("base_footprint", "base_link"):
+        for base in named[name]:
+            above = parent_of.get(base, "")
+            chain = [track.parent for track in model.above(base)]
+            if above in named["map"] and not set(named["odom"]) & set(chain):
+                yield _shape((above, base), f"{base} hangs from {above}, beside odom")
+            for odom in named["odom"]:
+                if parent_of.get(odom) == base and set(chain) & set(named["map"]):
+                    yield _shape((base, odom), f"{odom} hangs from {base}, below map")
+    for foot in named["base_footprint"]:
+        for link in named["base_link"]:
+            above = parent_of.get(foot, "")
+            if above in named["odom"] and parent_of.get(link) == above:
+                text = f"{foot} and {link} both hang from {above}"
+                yield _shape((above, link), text, (above, foot))
+
+
+def _shape(edge: tuple[str, str], found: str, *more: tuple[str, str]) -> Hit:
+    return Hit(
+        edges=(edge, *more),
+        frames=tuple(dict.fromkeys(name for one in (edge, *more) for name in one)),
+        confidence=Confidence.LIKELY,
+        facts={"found": found},
+    )

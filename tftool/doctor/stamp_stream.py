@@ -1,0 +1,403 @@
+"""One stream of stamps and arrivals: of a link's samples, or of a topic's headers."""
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
+from tftool.geometry.rigid_arrays import Floats, angles_between, unit
+from tftool.recordings.contract import Edge, Headers, Publisher, Stamps, Transforms, median
+
+Number = TypeVar("Number", bound=np.generic)
+
+Mask = npt.NDArray[np.bool_]
+
+Places = npt.NDArray[np.intp]
+"""Rows of a track, shape (n,)."""
+
+NEVER = np.iinfo(np.int64).max
+"""The arrival of what never arrives."""
+
+FAR = 2**61
+"""Nanoseconds from 1970 beyond which no moment is looked for."""
+
+WILD = seconds(3600)
+"""How far from where it belongs a single stamp is no late message and no slow clock."""
+
+FEW = 0.01
+"""What share of the stamps may be such."""
+
+ZERO_QUATERNION = 1e-12
+"""A rotation whose squared length is below this has no direction: tf2 drops it."""
+
+
+class Stream:
+    """Stamped things that arrive one after the other, in the order of their log times.
+
+    Attributes:
+        stamps: Nanoseconds, shape (n,).
+        logs: Log times, shape (n,).
+        lap: How many of them belong to the first lap.
+        arrivals: Log times on the clock of the stamps; set once the clocks are known.
+    """
+
+    def __init__(self, stamps: Stamps, logs: Stamps) -> None:
+        logs = bounded(logs)
+        self.order = np.argsort(logs, kind="stable") if _falls(logs) else None
+        self.all_stamps = self.in_order(bounded(stamps))
+        self.all_logs = self.in_order(logs)
+        self.lap = len(stamps)
+        self.arrivals: Stamps = self.all_logs
+
+    def in_order(self, column: npt.NDArray[Number]) -> npt.NDArray[Number]:
+        """Rows in the order of log times."""
+        return column if self.order is None else column[self.order]
+
+    @property
+    def stamps(self) -> Stamps:
+        """Nanoseconds, of the first lap."""
+        return self.all_stamps[: self.lap]
+
+    @property
+    def logs(self) -> Stamps:
+        """Log times, of the first lap."""
+        return self.all_logs[: self.lap]
+
+    @cached_property
+    def latency(self) -> Stamps:
+        """How long after its stamp each arrived, nanoseconds."""
+        return self.arrivals - self.stamps
+
+    @cached_property
+    def median_latency(self) -> int:
+        """Nanoseconds; of those whose stamp is not 0."""
+        stamped = self.latency[self.stamps != 0]
+        return int(median(stamped)) if len(stamped) else 0
+
+    @cached_property
+    def wild(self) -> Mask:
+        """Which stamps lie far from where the arrivals before and after have theirs, shape (n,).
+
+        No stamp does where they are many: those are two clocks by turns, and no accident.
+        """
+        far = np.zeros(len(self.stamps), dtype=np.bool_)
+        if len(far) < 3:
+            return far
+        steps = self.latency[1:] - self.latency[:-1]
+        if steps.max() <= WILD and steps.min() >= -WILD:
+            return far
+        up, down = steps > WILD, steps < -WILD
+        far[1:-1] = (up[:-1] & down[1:]) | (down[:-1] & up[1:])
+        # At the ends there is one neighbour alone, which has to be at home itself.
+        # A first message that was latched is old by intention.
+        far[0] = up[0] and not far[1]
+        far[-1] = (up[-1] or down[-1]) and not far[-2]
+        # Where the stamp is none, or of the other clock, that is another fault.
+        is_sim = self.stamps < SIMULATED_BELOW
+        far &= (self.stamps != 0) & (is_sim == (2 * np.count_nonzero(is_sim) > len(is_sim)))
+        few = max(1.0, FEW * len(far))
+        return far if np.count_nonzero(far) <= few else np.zeros_like(far)
+
+    @cached_property
+    def families(self) -> tuple[int, int]:
+        """How many stamps count from a simulation's start, and from 1970; zeros aside."""
+        zero = int(np.count_nonzero(self.stamps == 0))
+        wall = int(np.count_nonzero(self.stamps >= SIMULATED_BELOW))
+        return len(self.stamps) - wall - zero, wall
+
+
+class Track(Stream):
+    """Every transform of one edge, in the order of their arrival.
+
+    Attributes:
+        parent: Name without its one leading slash.
+        child: Likewise.
+        static: Whether it came on a static topic.
+        slashed: How many had a leading slash.
+    """
+
+    def __init__(self, edge: Edge, transforms: Transforms) -> None:
+        super().__init__(edge.stamps, transforms.log_times_of(edge))
+        self.parent = edge.parent
+        self.child = edge.child
+        self.static = edge.static
+        self.slashed = edge.slashed
+        self._edge = edge
+        self._transforms = transforms
+
+    @property
+    def edge(self) -> tuple[str, str]:
+        """Parent and child."""
+        return self.parent, self.child
+
+    @property
+    def name(self) -> str:
+        """For people."""
+        return f"{self.child} in {self.parent}"
+
+    @cached_property
+    def translations(self) -> Floats:
+        """Metres, shape (n, 3), of the first lap."""
+        return self.in_order(self._edge.translations)[: self.lap]
+
+    @cached_property
+    def rotations(self) -> Floats:
+        """As recorded, shape (n, 4), of the first lap."""
+        return self.in_order(self._edge.rotations)[: self.lap]
+
+    @cached_property
+    def senders(self) -> npt.NDArray[np.int32]:
+        """Places in the publishers, shape (n,), of the first lap."""
+        senders: npt.NDArray[np.int32] = self.in_order(self._transforms.senders_of(self._edge))
+        return senders[: self.lap]
+
+    @cached_property
+    def _publishers(self) -> list[Publisher]:
+        senders = self.senders
+        if len(senders) and senders.min() == senders.max():
+            return [self._transforms.publishers[senders[0]]]
+        return [self._transforms.publishers[number] for number in np.unique(senders).tolist()]
+
+    @cached_property
+    def nodes(self) -> tuple[str, ...]:
+        """Who publishes it, where that is known."""
+        return tuple(sorted({one.node for one in self._publishers if one.node}))
+
+    @cached_property
+    def topics(self) -> tuple[str, ...]:
+        """Where it came from."""
+        return tuple(sorted({one.topic for one in self._publishers}))
+
+    @cached_property
+    def is_orderly(self) -> bool:
+        """Whether all are known to be usable, and to have come in the order of their stamps."""
+        return (
+            self.order is None
+            and self._edge.kept == len(self._edge) > 0
+            and (self.static or self._edge.stamps[0] > 0)
+            and bool(self._edge.stamps[-1] <= FAR)
+        )
+
+    @cached_property
+    def finite(self) -> Mask:
+        """Which have nothing but finite numbers, shape (n,)."""
+        if self.is_orderly:
+            return np.ones(self.lap, dtype=np.bool_)
+        finite = np.isfinite(self.translations).all(axis=1)
+        mask: Mask = np.asarray(finite & np.isfinite(self.rotations).all(axis=1))
+        return mask
+
+    @cached_property
+    def squares(self) -> Floats:
+        """Squared lengths of the rotations, shape (n,)."""
+        rotations = self.rotations
+        with np.errstate(all="ignore"):
+            squares: Floats = np.einsum("ij,ij->i", rotations, rotations)
+        return squares
+
+    @cached_property
+    def usable(self) -> Mask:
+        """Which tf2 would keep: finite, with a rotation, and a stamp unless static."""
+        if self.is_orderly:
+            return self.finite
+        mask: Mask = self.finite & (self.squares > ZERO_QUATERNION)
+        return mask if self.static else mask & (self.stamps != 0)
+
+    @cached_property
+    def by_stamp(self) -> npt.NDArray[np.intp]:
+        """Places of the usable ones in the order of their stamps; of equal ones, as they came."""
+        if self.is_orderly:
+            return np.arange(self.lap)
+        places = np.flatnonzero(self.usable)
+        stamps = self.stamps[places]
+        return places[np.argsort(stamps, kind="stable")] if _falls(stamps) else places
+
+    @cached_property
+    def sorted_stamps(self) -> Stamps:
+        """Of the usable ones, ascending."""
+        stamps: Stamps = self.stamps if self.is_orderly else self.stamps[self.by_stamp]
+        return stamps
+
+    @cached_property
+    def steps(self) -> Stamps:
+        """Differences of neighbouring sorted stamps, those of equal ones left out."""
+        steps = self.sorted_stamps[1:] - self.sorted_stamps[:-1]
+        positive: Stamps = steps[steps > 0]
+        return positive
+
+    @cached_property
+    def period(self) -> int:
+        """Median step, nanoseconds; 0 where there is none."""
+        return int(median(self.steps)) if len(self.steps) else 0
+
+    @cached_property
+    def first_arrivals(self) -> Stamps:
+        """When the first sample with this sorted stamp or a later one had arrived, shape (k,)."""
+        arrivals = self.arrivals[self.by_stamp]
+        earliest: Stamps = np.minimum.accumulate(arrivals[::-1])[::-1]
+        return earliest
+
+    def served_from(self, stamps: Stamps) -> Stamps:
+        """When the first sample of each stamp or later arrives; NEVER where none does."""
+        if self.static:
+            return np.full(len(stamps), np.iinfo(np.int64).min)
+        places = np.searchsorted(self.sorted_stamps, stamps, side="left")
+        padded = np.append(self.first_arrivals, NEVER)
+        served: Stamps = padded[places]
+        return served
+
+    def apart(self, some: Places, others: Places) -> Floats:
+        """Metres between poses, row by row."""
+        away = self.translations[some] - self.translations[others]
+        apart: Floats = np.sqrt(np.einsum("ij,ij->i", away, away))
+        return apart
+
+    @cached_property
+    def strides(self) -> Floats:
+        """Metres between neighbours by stamp, shape (k - 1,)."""
+        return self.apart(self.by_stamp[1:], self.by_stamp[:-1])
+
+    def turned(self, some: Places, others: Places) -> Floats:
+        """Radians between poses, row by row."""
+        return angles_between(unit(self.rotations[some]), unit(self.rotations[others]))
+
+    def has_turns(self, some: Places, others: Places, radians: float) -> bool:
+        """Whether two poses of a row differ by more than `radians`; faster than their angle."""
+        dots = np.einsum("ij,ij->i", self.rotations[some], self.rotations[others])
+        lengths = np.sqrt(self.squares[some] * self.squares[others])
+        return bool((np.abs(dots) < math.cos(radians / 2.0) * lengths).any())
+
+    @cached_property
+    def is_localisation(self) -> bool:
+        """Whether REP-105 lets it jump: it places odometry or a map in something larger."""
+        parent, child = last_part(self.parent), last_part(self.child)
+        return parent in ("map", "earth", "world") and child.startswith(("odom", "map"))
+
+    @cached_property
+    def moves(self) -> bool:
+        """Whether its poses differ."""
+        usable = np.flatnonzero(self.usable)
+        if len(usable) < 2:
+            return False
+        first = usable[0]
+        # Most that move do so soon.
+        if len(usable) > 4096 and self._differs(usable[:2048], first):
+            return True
+        return self._differs(usable, first)
+
+    def _differs(self, usable: Places, first: int) -> bool:
+        apart = np.abs(self.translations[usable] - self.translations[first]).max()
+        turned = np.abs(self.rotations[usable] - self.rotations[first]).max()
+        return bool(apart > 1e-6 or turned > 1e-6)
+
+
+class Heard(Stream):
+    """Messages of one topic that are in one frame.
+
+    Attributes:
+        topic: Name of the topic.
+        type: Its type.
+        frame: The name in the headers, slash included.
+    """
+
+    def __init__(self, headers: Headers, number: int) -> None:
+        mask = headers.frames == number
+        whole = bool(mask.all())
+        stamps = headers.stamps if whole else headers.stamps[mask]
+        logs = headers.log_times if whole else headers.log_times[mask]
+        super().__init__(stamps, logs)
+        self.topic = headers.topic
+        self.type = headers.type
+        self.frame = headers.names[number]
+
+    @property
+    def is_spatial(self) -> bool:
+        """Whether what it carries has a place."""
+        return is_spatial(self.type)
+
+
+def bounded(stamps: Stamps) -> Stamps:
+    """Moments near enough that their differences fit 64 bits; those of ROS all are."""
+    if len(stamps) and (stamps.max() > FAR or stamps.min() < -FAR):
+        return np.clip(stamps, -FAR, FAR)
+    return stamps
+
+
+NOT_SPATIAL = frozenset(
+    {
+        "sensor_msgs/JointState",
+        "sensor_msgs/BatteryState",
+        "sensor_msgs/Joy",
+        "sensor_msgs/TimeReference",
+        "sensor_msgs/Temperature",
+        "sensor_msgs/RelativeHumidity",
+        "sensor_msgs/FluidPressure",
+        "sensor_msgs/Illuminance",
+        "geometry_msgs/TwistStamped",
+        "geometry_msgs/AccelStamped",
+        "geometry_msgs/TransformStamped",
+    }
+)
+
+
+_SPATIAL = frozenset(
+    {
+        "visualization_msgs/Marker",
+        "stereo_msgs/DisparityImage",
+        "vision_msgs/Detection2DArray",
+        "vision_msgs/Detection3DArray",
+        "vision_msgs/Detection2D",
+        "vision_msgs/Detection3D",
+        "apriltag_msgs/AprilTagDetectionArray",
+    }
+)
+
+
+def is_spatial(kind: str) -> bool:
+    """Whether messages of a type carry something that has a place."""
+    if kind in NOT_SPATIAL:
+        return False
+    package, _, name = kind.partition("/")
+    return (
+        package in ("sensor_msgs", "nav_msgs")
+        or (package == "geometry_msgs" and name.endswith("Stamped"))
+        or kind in _SPATIAL
+    )
+
+
+def unsorted_share(stamps: Stamps) -> int:
+    """How many stamps are older than one that came before."""
+    if len(stamps) < 2:
+        return 0
+    return int(np.count_nonzero(stamps[1:] < np.maximum.accumulate(stamps)[:-1]))
+
+
+def rate(track: Stream) -> float:
+    """Samples a second of stamps; 0.0 where there is no telling."""
+    if len(track.stamps) < 2:
+        return 0.0
+    span = int(track.stamps.max()) - int(track.stamps.min())
+    return (len(track.stamps) - 1) * NANOSECONDS / span if span else 0.0
+
+
+def overlap(tracks: Sequence[Track]) -> bool:
+    """Whether there is a moment at which all of them exist; statics always do."""
+    spans = [(int(t.sorted_stamps[0]), int(t.sorted_stamps[-1])) for t in tracks if _lives(t)]
+    return not spans or max(low for low, _ in spans) <= min(high for _, high in spans)
+
+
+def _lives(track: Track) -> bool:
+    return not track.static and len(track.sorted_stamps) > 0
+
+
+def _falls(column: Stamps) -> bool:
+    return len(column) > 1 and bool((column[1:] < column[:-1]).any())
+
+
+def last_part(name: str) -> str:
+    """What a name ends in, behind namespaces."""
+    return name.rsplit("/", 1)[-1]

@@ -1,0 +1,306 @@
+"""What one listener would hold at one moment, and what each link says to its question."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+
+from tftool.base.common_ancestor import climbed, up_to_join
+from tftool.base.errors import InputError
+from tftool.base.near_names import near_names
+from tftool.base.stamps import LATEST, Duration, Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.doctor.findings import Edge
+from tftool.doctor.model import Model, Settings
+from tftool.doctor.stamp_stream import Heard, Track
+from tftool.geometry.rigid import Transform
+from tftool.recordings.contract import Stamps
+
+MOST_SET = 200_000
+"""Samples of one link that the imagined buffer is given: the newest ones."""
+
+
+class LinkVerdict(Enum):
+    """What a link says to a question."""
+
+    ANSWERS = "answers"
+    FORWARD = "forward"
+    BACKWARD = "backward"
+    NO_DATA = "no-data"
+    PRUNED = "pruned"
+
+
+@dataclass(frozen=True, slots=True)
+class TracedLink:
+    """One link of the way, as the imagined listener holds it.
+
+    Attributes:
+        parent: Its parent.
+        child: Its child.
+        is_static: Whether it holds at all times.
+        publisher: Who sends it; None where that is not known.
+        count: Samples held.
+        oldest: Stamp of the oldest one held, of a static its arrival; None where none is.
+        newest: Stamp of the newest one held.
+        period: Median step of its stamps, nanoseconds; 0 where there is none.
+        latency: Median of arrival minus stamp, nanoseconds.
+        verdict: What it says.
+        short_by: How far the question lies outside, nanoseconds.
+    """
+
+    parent: str
+    child: str
+    is_static: bool
+    publisher: str | None
+    count: int
+    oldest: Stamp | None
+    newest: Stamp | None
+    period: Duration
+    latency: Duration
+    verdict: LinkVerdict
+    short_by: Duration = 0
+
+    @property
+    def edge(self) -> Edge:
+        """Parent and child."""
+        return self.parent, self.child
+
+    @property
+    def name(self) -> str:
+        """For people."""
+        return f"{self.child} in {self.parent}"
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is asked, and by which listener.
+
+    Attributes:
+        target: The frame to express things in.
+        source: The frame they are given in.
+        stamp: The moment; 0 for the latest.
+        asked: The log time at which it is asked; None for the arrival of the message of that
+            stamp in the source frame, else the moment itself.
+        settings: How long the listener remembers.
+        timeout: How long it waits, nanoseconds.
+        topic: The topic whose message asks; empty where none does.
+    """
+
+    target: str
+    source: str
+    stamp: Stamp = LATEST
+    asked: Stamp | None = None
+    settings: Settings = field(default_factory=Settings)
+    timeout: Duration = 0
+    topic: str = ""
+
+
+def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Stamp]:
+    """The message of a topic that is stamped nearest to a moment, the first one without it.
+
+    Returns:
+        The messages of its frame, and its stamp.
+
+    Raises:
+        InputError: If there is no message with a header on the topic.
+    """
+    heards = [heard for heard in model.heard if heard.topic == topic and len(heard.stamps)]
+    if not heards:
+        known = sorted({heard.topic for heard in model.heard})
+        hint = near_names(topic, known) or known[:5]
+        told = f" There are {', '.join(hint)}." if hint else ""
+        raise InputError(f"No message with a header was recorded on '{topic}'.{told}")
+    if near is None:
+        first = min(heards, key=lambda heard: int(heard.logs[0]))
+        return first, int(first.stamps[0])
+    found = [
+        (abs(int(heard.stamps[place]) - near), number, int(heard.stamps[place]))
+        for number, heard in enumerate(heards)
+        for place in [int(np.argmin(np.abs(heard.stamps - near)))]
+    ]
+    _, number, stamp = min(found)
+    return heards[number], stamp
+
+
+class LookupTrace:
+    """The work on one question."""
+
+    def __init__(self, model: Model, question: Question) -> None:
+        self.model = model
+        self.question = question
+        self.stamp = question.stamp
+        self.moment = question.stamp
+        self.cache = question.settings.cache_time
+        self.heard = self._message()
+        self.asked, self.because, self.after = self._asked()
+
+    def _message(self) -> Heard | None:
+        """The messages of which one asks: of the topic named, else in the source frame."""
+        for heard in self.model.heard:
+            if heard.frame != self.question.source or not len(heard.stamps):
+                continue
+            if self.question.topic and heard.topic != self.question.topic:
+                continue
+            if self.question.topic or bool((heard.stamps == self.stamp).any()):
+                return heard
+        return None
+
+    def _asked(self) -> tuple[Stamp, str, Duration | None]:
+        if self.question.asked is not None:
+            return self.question.asked + self.question.timeout, "", None
+        if self.stamp == LATEST:
+            return self.model.end + self.question.timeout, "at the end", None
+        if self.heard is not None:
+            places = np.flatnonzero(self.heard.stamps == self.stamp)
+            if len(places):
+                place = int(places[0])
+                told = f"when {self.heard.topic} of that stamp arrived"
+                after = int(self.heard.latency[place])
+                return int(self.heard.logs[place]) + self.question.timeout, told, after
+        return self.model.log_of(self.stamp) + self.question.timeout, "at that moment", 0
+
+    # What is held
+
+    def arrived(self, track: Track) -> "np.ndarray[tuple[int], np.dtype[np.intp]]":
+        """Places of the usable samples that had arrived."""
+        places: np.ndarray[tuple[int], np.dtype[np.intp]] = np.flatnonzero(
+            track.usable & (track.logs <= self.asked)
+        )
+        return places
+
+    def held(self, track: Track) -> Stamps:
+        """Stamps held, sorted: what had arrived and is not pruned."""
+        stamps = track.stamps[self.arrived(track)]
+        if not track.static and len(stamps) > 1:
+            # tf2 prunes before it inserts: by what was the newest without the last one.
+            stamps = stamps[stamps >= self.newest_before(stamps) - self.cache]
+        return np.sort(stamps)
+
+    @staticmethod
+    def newest_before(stamps: Stamps) -> Stamp:
+        """The newest of what came before the last; of one, that."""
+        return int(stamps[:-1].max(initial=stamps[0]))
+
+    def way(self) -> list[Track] | None:
+        """The edges from source to target by the parents at the moment; None without a join."""
+        legs = up_to_join(
+            self.question.source,
+            self.question.target,
+            lambda frame: climbed(frame, self._parent),
+        )
+        return None if legs is None else [*legs[0], *reversed(legs[1])]
+
+    def _parent(self, frame: str) -> Track | None:
+        """The edge above a frame at the moment asked about; of several, the nearest in time."""
+        tracks = [t for t in self.model.tracks if t.child == frame and len(t.by_stamp)]
+        if len(tracks) < 2:
+            return tracks[0] if tracks else None
+        if self.stamp == LATEST or any(track.static for track in tracks):
+            return max(tracks, key=lambda track: int(track.logs[-1]))
+        return min(tracks, key=lambda track: int(np.abs(track.sorted_stamps - self.stamp).min()))
+
+    def link(self, track: Track) -> TracedLink:
+        """What is held of one edge, and what it says to the question."""
+        held = self.held(track)
+        verdict, short_by = self._verdict(track, held)
+        if track.static and len(held):
+            # It holds since it is known, whatever its stamp says.
+            since = int(track.arrivals[self.arrived(track)[0]])
+            held = np.full(len(held), since)
+        return TracedLink(
+            track.parent,
+            track.child,
+            track.static,
+            track.nodes[0] if track.nodes else None,
+            len(held),
+            int(held[0]) if len(held) else None,
+            int(held[-1]) if len(held) else None,
+            track.period,
+            track.median_latency,
+            verdict,
+            short_by,
+        )
+
+    def _verdict(self, track: Track, held: Stamps) -> tuple[LinkVerdict, Duration]:
+        if not len(held):
+            return LinkVerdict.NO_DATA, 0
+        if track.static or self.moment == LATEST:
+            return LinkVerdict.ANSWERS, 0
+        oldest, newest = int(held[0]), int(held[-1])
+        if len(held) == 1 and oldest != self.moment and len(track.by_stamp) == 1:
+            return LinkVerdict.NO_DATA, abs(self.moment - oldest)
+        if self.moment > newest:
+            return LinkVerdict.FORWARD, self.moment - newest
+        if self.moment < oldest:
+            came = track.stamps[self.arrived(track)]
+            pruned = bool((came <= self.moment).any())
+            return (LinkVerdict.PRUNED if pruned else LinkVerdict.BACKWARD), oldest - self.moment
+        return LinkVerdict.ANSWERS, 0
+
+    def buffer(self) -> Buffer:
+        """A buffer that holds what had arrived."""
+        buffer = Buffer(self.cache, log=_silent)
+        tracks = sorted(self.model.tracks, key=lambda track: track.static)
+        for track in tracks:
+            places = self.arrived(track)[-MOST_SET:]
+            if not len(places):
+                continue
+            if not track.static:
+                buffer.set_transforms(
+                    track.parent,
+                    track.child,
+                    track.stamps[places],
+                    track.translations[places],
+                    track.rotations[places],
+                )
+                continue
+            place = int(places[-1])
+            x, y, z = track.translations[place].tolist()
+            qx, qy, qz, qw = track.rotations[place].tolist()
+            pose = Transform((x, y, z), (qx, qy, qz, qw))
+            stamp = int(track.stamps[place])
+            buffer.set_transform_static(
+                TransformStamped(stamp, track.parent, track.child, pose), "recorded"
+            )
+        return buffer
+
+    def settle(self, way: Sequence[Track]) -> None:
+        """Of a question for the latest, find the moment that is asked about: the last in common."""
+        if self.stamp == LATEST:
+            newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
+            self.moment = min(newest, default=LATEST)
+
+    # When it answers
+
+    def answerable(self, tracks: Sequence[Track]) -> tuple[Stamp | None, Stamp | None]:
+        """Log times from which and until which the moment can be answered."""
+        begins: list[int] = []
+        ends: list[int] = []
+        for track in tracks:
+            if track.static:
+                begins.append(int(track.logs[0]))
+                continue
+            logs = track.logs[track.by_stamp]
+            stamps = track.sorted_stamps
+            if self.stamp == LATEST:
+                begins.append(int(logs.min()))
+                continue
+            after = int(np.searchsorted(stamps, self.stamp, side="left"))
+            before = int(np.searchsorted(stamps, self.stamp, side="right")) - 1
+            if before < 0 or after >= len(stamps):
+                return None, None
+            first = int(logs[after:].min())
+            begins.append(max(first, int(logs[before])))
+            pruned = int(np.searchsorted(stamps, int(stamps[before]) + self.cache, side="right"))
+            if pruned + 1 < len(stamps):
+                # The next insert prunes, by the newest of what is there before it.
+                ends.append(int(np.partition(logs[pruned:], 1)[1]))
+        begin = max(begins, default=self.asked)
+        end = min(ends, default=None)
+        return (begin, end) if end is None or begin < end else (None, None)
+
+
+def _silent(_level: str, _text: str) -> None:
+    """What the imagined buffer refuses is told by the checks."""

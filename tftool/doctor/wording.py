@@ -1,0 +1,103 @@
+"""Facts as people read them: the numbers of a finding in the sentences of the catalogue."""
+
+import string
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime, timedelta
+from typing import Any
+
+from tftool.base.stamps import SIMULATED_BELOW
+from tftool.doctor.findings import Fact
+
+MOST_NAMED = 5
+"""How many of a list are written out."""
+
+
+def span(nanoseconds: float) -> str:
+    """A length of time, to three digits: "20 ms", "1.02 s"."""
+    seconds = nanoseconds / 1e9
+    size = abs(seconds)
+    if size >= 3.16e7:
+        return f"{seconds / 31_556_952:.3g} years"
+    if size >= 7200:
+        return f"{seconds / 3600:.3g} hours"
+    if size >= 120:
+        return f"{seconds / 60:.3g} minutes"
+    if size >= 1:
+        return f"{seconds:.2f} s"
+    if size >= 0.1:
+        return f"{seconds * 1e3:.0f} ms"
+    if size >= 1e-4:
+        return f"{seconds * 1e3:.3g} ms"
+    return f"{seconds * 1e6:.3g} µs" if nanoseconds else "0 ms"
+
+
+def moment(stamp: int) -> str:
+    """A stamp, as seconds with three decimals."""
+    sign = "-" if stamp < 0 else ""
+    milliseconds = (abs(stamp) + 500_000) // 1_000_000
+    return f"{sign}{milliseconds // 1000}.{milliseconds % 1000:03}"
+
+
+def dated(stamp: int) -> str:
+    """A stamp and what day that is, or that it is a simulation's."""
+    if stamp < SIMULATED_BELOW:
+        return f"{moment(stamp)} (simulation)"
+    day = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=stamp // 1000)
+    return f"{moment(stamp)} ({day.day} {day:%B %Y})"
+
+
+def metres(length: float) -> str:
+    """A length: "2.50 m", "3.1 mm"."""
+    size = abs(length)
+    if size >= 0.1:
+        return f"{length:.2f} m"
+    return f"{length * 1e3:.3g} mm"
+
+
+def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
+    """A list, cut after its first few: "a, b and 12 more"."""
+    shown = [str(name) for name in names[:most]]
+    rest = len(names) - len(shown)
+    return f"{', '.join(shown)} and {rest} more" if rest else ", ".join(shown)
+
+
+def filled(template: str, facts: Mapping[str, Fact]) -> str:
+    """A sentence of the catalogue with its facts."""
+    return _FORMATTER.vformat(template, (), facts)
+
+
+class _Words(string.Formatter):
+    """`{wait:span}`, `{at:moment}`, `{at:dated}`, `{jump:m}`, `{turn:deg}`, `{share:%}`, and words
+    for one or for many: `{concerned:is|are}`.
+    """
+
+    def format_field(self, value: Any, format_spec: str) -> Any:
+        one, is_choice, many = format_spec.partition("|")
+        if is_choice:
+            number = len(value) if isinstance(value, list | tuple) else value
+            return one if number == 1 else many
+        match format_spec:
+            case "span":
+                return span(value)
+            case "moment":
+                return moment(value)
+            case "dated":
+                return dated(value)
+            case "m":
+                return metres(value)
+            case "deg":
+                return f"{value * 57.29577951308232:.3g}°"
+            case "%":
+                return f"{value * 100:.3g} %"
+            case "times":
+                return "once" if value == 1 else f"{value:,} times"
+        if isinstance(value, list | tuple):
+            return several(value)
+        if not format_spec and isinstance(value, float):
+            return f"{value:.3g}"
+        if not format_spec and isinstance(value, int):
+            return f"{value:,}"
+        return super().format_field(value, format_spec)
+
+
+_FORMATTER = _Words()

@@ -1,0 +1,212 @@
+"""Differences between two sets of frames: a line a link, an object, a table for the web."""
+
+from typing import Final
+
+from rich.cells import cell_len
+
+from tftool.base.escaping import visible
+from tftool.base.stamps import Stamp, as_seconds
+from tftool.drawing.recording_view import table, wrapped
+from tftool.frames.differences import (
+    Change,
+    Differences,
+    Displacement,
+    LinkDifference,
+    LinkState,
+)
+
+HEAD: Final = ("link", "change", "mm", "degrees", "")
+
+
+def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
+    """A line for each link that differs, and what was compared.
+
+    Args:
+        found: What to write.
+        width: Cells a line may take: what has no room stands below its link. None for all.
+        everything: Whether to write the links that do not differ, too.
+    """
+    told = found.links if everything else found.changed
+    text = [f"A {visible(found.first)}", f"B {visible(found.second)}"]
+    if told:
+        text += ["", *_table([_row(one, found.start) for one in told], width), ""]
+    text += wrapped(summary(found), width)
+    return "".join(f"{line.rstrip()}\n" for line in text)
+
+
+def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
+    numbers = ("mm", "degrees")
+    whole = table(HEAD, rows, right=numbers)
+    if width is None or max(map(cell_len, whole)) <= width:
+        return whole
+    heading, *shown = table(
+        HEAD[:-1], [row[:-1] for row in rows], width, goes=("change",), right=numbers
+    )
+    below = [wrapped(row[-1], width, "      ") if row[-1] else [] for row in rows]
+    return [
+        heading,
+        *(one for line, more in zip(shown, below, strict=True) for one in (line, *more)),
+    ]
+
+
+def summary(found: Differences) -> str:
+    """One sentence: how many links differ, by which measure."""
+    count, total = len(found.changed), len(found.links)
+    limit = found.tolerance
+    measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
+    if limit.rate_percent is not None:
+        measures.append(f"{limit.rate_percent:g} % of the rate")
+    links = "link" if total == 1 else "links"
+    if not count:
+        return f"{total} {links}, the same within {' and '.join(measures)}."
+    unsure = sum(one.displacement is None and one.is_same for one in found.links)
+    beside = f", {unsure} not measured" if unsure else ""
+    differ = "differs" if count == 1 else "differ"
+    return f"{count} of {total} {links} {differ} by more than {' or '.join(measures)}{beside}."
+
+
+def as_object(found: Differences) -> dict[str, object]:
+    """Everything, for programs."""
+    limit = found.tolerance
+    return {
+        "a": found.first,
+        "b": found.second,
+        "differs": bool(found),
+        "tolerance": {
+            "mm": limit.millimetres,
+            "deg": limit.degrees,
+            "rate_percent": limit.rate_percent,
+        },
+        "shift_ns": found.shift,
+        "notes": list(found.notes),
+        "links": [_link(one) for one in found.links],
+    }
+
+
+def as_markdown(found: Differences) -> str:
+    """A table for an issue on the web; nothing in a name acts."""
+    rows = [_row(one, found.start) for one in found.changed]
+    text = [f"**tftool diff** {_code(found.first)} {_code(found.second)}", ""]
+    if rows:
+        text += ["| link | change | mm | degrees | |", "| --- | --- | --: | --: | --- |"]
+        text += ["| " + " | ".join(_code(cell) for cell in row) + " |" for row in rows]
+        text.append("")
+    text.append(summary(found))
+    return "\n".join(text) + "\n"
+
+
+def _code(text: str) -> str:
+    """A text as code, in which no mark-up acts."""
+    shown = visible(text).replace("|", "¦").replace("`", "ˋ")
+    return f"`{shown}`" if shown.strip() else ""
+
+
+def _row(one: LinkDifference, start: Stamp) -> tuple[str, str, str, str, str]:
+    apart = one.displacement
+    return (
+        visible(f"{one.child} in {one.parent}"),
+        visible(_changes(one)),
+        "-" if apart is None else _number(apart.millimetres),
+        "-" if apart is None else _number(apart.degrees),
+        _detail(one, start),
+    )
+
+
+def _changes(one: LinkDifference) -> str:
+    words = []
+    for change in one.changes:
+        if change is Change.reparented and one.after is not None:
+            words.append(f"hangs from {one.after.parent}")
+        elif change is Change.kind and one.before is not None and one.after is not None:
+            words.append(f"{one.before.kind} → {one.after.kind}")
+        elif change is Change.pose:
+            words.append("moved")
+        else:
+            words.append(str(change))
+    return ", ".join(words)
+
+
+def _detail(one: LinkDifference, start: Stamp) -> str:
+    words = []
+    apart = one.displacement
+    if apart is not None and apart.moved_mm is not None and apart.turned_deg is not None:
+        if not one.is_same:
+            place = " ".join(
+                f"{axis} {_signed(value)}"
+                for axis, value in zip("xyz", apart.moved_mm, strict=True)
+            )
+            turn = " ".join(
+                f"{name} {_signed(value)}"
+                for name, value in zip(("roll", "pitch", "yaw"), apart.turned_deg, strict=True)
+            )
+            words.append(f"{place} mm, {turn}°")
+    elif apart is not None and apart.worst_at is not None:
+        words.append(
+            f"RMS of {apart.moments}; worst {_number(apart.worst_millimetres)} mm, "
+            f"{_number(apart.worst_degrees)}° at {as_seconds(apart.worst_at - start):.3f} s"
+        )
+    before, after = one.before, one.after
+    if before is not None and after is not None and before.rate and after.rate:
+        percent = (after.rate / before.rate - 1.0) * 100.0
+        if Change.rate in one.changes or abs(percent) >= 1.0:
+            words.append(f"{before.rate:.1f} → {after.rate:.1f} Hz ({percent:+.0f} %)")
+    if one.note:
+        words.append(visible(one.note))
+    state = before or after
+    if (before is None or after is None) and state is not None:
+        words.append(str(state.kind))
+    return "; ".join(words)
+
+
+def _number(value: float) -> str:
+    """Three digits that count, and none behind the fourth decimal."""
+    size = abs(value)
+    if size < 5e-5:
+        return "<0.0001" if size > 1e-9 else "0"
+    return (
+        f"{value:.0f}" if size >= 100.0 else f"{float(f'{value:.3g}'):.4f}".rstrip("0").rstrip(".")
+    )
+
+
+def _signed(value: float) -> str:
+    text = _number(value)
+    return text if text[0] in "-<0" and value <= 5e-5 else f"+{text}"
+
+
+def _link(one: LinkDifference) -> dict[str, object]:
+    return {
+        "child": one.child,
+        "changes": [str(change) for change in one.changes if change is not Change.same],
+        "a": _state(one.before),
+        "b": _state(one.after),
+        "apart": _apart(one.displacement),
+        "note": one.note or None,
+    }
+
+
+def _state(state: LinkState | None) -> dict[str, object] | None:
+    if state is None:
+        return None
+    return {
+        "parent": state.parent,
+        "kind": str(state.kind),
+        "samples": state.count,
+        "rate_hz": state.rate,
+    }
+
+
+def _apart(apart: Displacement | None) -> dict[str, object] | None:
+    if apart is None:
+        return None
+    found: dict[str, object] = {
+        "mm": apart.millimetres,
+        "deg": apart.degrees,
+        "worst_mm": apart.worst_millimetres,
+        "worst_deg": apart.worst_degrees,
+        "worst_at_ns": apart.worst_at,
+        "moments": apart.moments,
+    }
+    if apart.moved_mm is not None and apart.turned_deg is not None:
+        found["moved_mm"] = list(apart.moved_mm)
+        found["turned_deg"] = list(apart.turned_deg)
+    return found

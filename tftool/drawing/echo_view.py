@@ -1,0 +1,155 @@
+"""One lookup as text: tf2_echo's block, one JSON object, one sentence."""
+
+import math
+import re
+from typing import TYPE_CHECKING, Any
+
+from tftool.base.errors import TransformException
+from tftool.base.escaping import visible, visible_lines
+from tftool.base.short_numbers import finite, short_duration
+from tftool.base.stamps import FRAME_TIMEOUT, NANOSECONDS, Duration, Stamp, as_seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.geometry.rigid import distance
+
+if TYPE_CHECKING:
+    from rich.text import Text
+
+AXES = ("x", "y", "z")
+
+
+def in_words(target: str, source: str) -> str:
+    """Say what a lookup of `source` in `target` gives: "turtle1 in turtle2"."""
+    return f"{visible(source)} in {visible(target)}"
+
+
+def block(
+    found: TransformStamped,
+    *,
+    precision: int = 3,
+    with_distance: bool = False,
+    quaternion_tag: str = "",
+) -> str:
+    """Write a transform as tf2_echo does, line by line.
+
+    The nanoseconds are not padded with zeros, as tf2_echo's are not: 5 s and 12 ns
+    is `5.12`. `as_object` has the exact stamp.
+
+    Args:
+        found: What a lookup gave.
+        precision: Decimals of every number.
+        with_distance: Whether a last line gives the length of the translation.
+        quaternion_tag: What newer releases add after "Quaternion": " (xyzw)".
+
+    Returns:
+        Lines, each with its newline.
+    """
+    pose = found.transform
+    rpy = rpy_from_quaternion(pose.rotation)
+    whole, rest = divmod(found.stamp, NANOSECONDS)
+    lines = [
+        f"At time {whole}.{rest}",
+        f"- Translation: {_list(pose.translation, precision)}",
+        f"- Rotation: in Quaternion{quaternion_tag} {_list(pose.rotation, precision)}",
+        f"- Rotation: in RPY (radian) {_list(rpy, precision)}",
+        f"- Rotation: in RPY (degree) {_list([math.degrees(angle) for angle in rpy], precision)}",
+        "- Matrix:",
+        *("".join(f" {number:6.{precision}f}" for number in row) for row in pose.matrix()),
+    ]
+    if with_distance:
+        lines.append(f"- Distance: {distance(pose):.{precision}f}")
+    return "\n".join(lines) + "\n"
+
+
+AXIS_STYLES = ("red", "green", "bright_blue", "")
+"""Of the numbers of a line, in the order x, y, z and what comes after."""
+
+_NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w.])")
+
+
+def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
+    """The lines of `block` with x, y and z in the colours of the axes, for a terminal.
+
+    So are roll, pitch and yaw, which turn about them, and of the matrix the columns, which
+    are the source's axes as the target sees them.
+    """
+    from rich.text import Text
+
+    text = Text()
+    for line in block(found, precision=precision, with_distance=with_distance).splitlines():
+        row = Text(line)
+        if line.startswith(("At time", "- Distance")):
+            row.stylize("dim" if line.startswith("At") else "bold", len(line.rpartition(" ")[0]))
+        else:
+            for match, style in zip(_NUMBER.finditer(line), AXIS_STYLES, strict=False):
+                row.stylize(style, *match.span())
+        text.append_text(row).append("\n")
+    return text
+
+
+def live_heading(target: str, source: str, age: Duration | None) -> "Text":
+    """What is shown and how old it is; amber, then red, where it is not new any more.
+
+    Args:
+        target: The frame looked up in.
+        source: The frame looked up.
+        age: Nanoseconds since the answer's stamp; None for what holds at all times.
+    """
+    from rich.text import Text
+
+    heading = Text().append(in_words(target, source), style="bold")
+    if age is None:
+        return heading.append("  static\n", style="cyan")
+    return heading.append(f"  {short_duration(age)} ago\n", style=age_style(age))
+
+
+def age_style(age: Duration) -> str:
+    """How an age is coloured: as views fade frames that get no news."""
+    if as_seconds(age) <= FRAME_TIMEOUT / 3:
+        return "dim"
+    return "yellow" if as_seconds(age) <= FRAME_TIMEOUT else "red"
+
+
+def failure(now: Stamp, error: TransformException, frames: str) -> str:
+    """Write what tf2_echo prints when a lookup fails that worked before.
+
+    Args:
+        now: What the clock read.
+        error: The refusal.
+        frames: The buffer's `all_frames_as_string()`.
+    """
+    return (
+        f"Failure at {as_seconds(now):.3f}\n"
+        f"Exception thrown:{visible_lines(str(error))}\n"
+        f"The current list of frames is:\n{visible_lines(frames)}\n"
+    )
+
+
+def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
+    """The same for programs: full precision, the exact stamp, NaN and infinity as null."""
+    pose = found.transform
+    rpy = rpy_from_quaternion(pose.rotation)
+    result: dict[str, Any] = {
+        "stamp_ns": found.stamp,
+        "target": found.frame_id,
+        "source": found.child_frame_id,
+        "translation": _named(AXES, pose.translation),
+        "rotation": _named((*AXES, "w"), pose.rotation),
+        "rpy": _named(("roll", "pitch", "yaw"), rpy),
+    }
+    if with_distance:
+        result["distance"] = finite(distance(pose))
+    return result
+
+
+def failure_as_object(now: Stamp, error: TransformException) -> dict[str, Any]:
+    """A refusal for programs."""
+    return {"failed_at_ns": now, "error": type(error).__name__, "message": str(error)}
+
+
+def _list(numbers: Any, precision: int) -> str:
+    return "[" + ", ".join(f"{number:.{precision}f}" for number in numbers) + "]"
+
+
+def _named(names: tuple[str, ...], numbers: Any) -> dict[str, float | None]:
+    return {name: finite(number) for name, number in zip(names, numbers, strict=True)}

@@ -1,0 +1,218 @@
+"""One lookup's trace: for a terminal, for a program."""
+
+from typing import TYPE_CHECKING, Any
+
+from tftool.base.escaping import visible
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp
+from tftool.doctor.explanation import Explanation
+from tftool.doctor.trace import LinkVerdict, TracedLink
+from tftool.doctor.wording import dated, span
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from rich.console import Console, ConsoleOptions, RenderableType
+    from rich.text import Text
+
+SCHEMA = "tftool.explain/1"
+
+_WORDS = {
+    LinkVerdict.ANSWERS: "answers",
+    LinkVerdict.FORWARD: "newest is {} too old",
+    LinkVerdict.BACKWARD: "begins {} after the question",
+    LinkVerdict.PRUNED: "the sample for it was dropped; what is left begins {} later",
+}
+
+
+def render(found: Explanation) -> "RenderableType":
+    """What was asked, what tf2 says, each link, why, what helps and what does not."""
+    from rich.console import Group
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    facts = Table.grid(padding=(0, 2), pad_edge=False)
+    facts.add_column(no_wrap=True)
+    facts.add_column(overflow="fold")
+    if found.text:
+        facts.add_row("tf2", Text(visible(found.text)))
+    after = f" ({span(found.after)} after it)" if found.after else ""
+    facts.add_row(
+        "asked",
+        Text(visible(f"{_exactly(found.asked)}, {found.because}{after}"))
+        if found.because
+        else _exactly(found.asked),
+    )
+    parts: list[RenderableType] = [_headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
+    if found.links:
+        parts += [Text(""), Padding(_Links(found), (0, 0, 0, 2))]
+    told = Table.grid(padding=(0, 2), pad_edge=False)
+    told.add_column(no_wrap=True, min_width=5)
+    told.add_column(overflow="fold")
+    for number, why in enumerate(found.why):
+        told.add_row("" if number else "why", Text(visible(why)))
+    for number, remedy in enumerate(found.remedies):
+        told.add_row("" if number else "cure", Text(visible(remedy.text)))
+        if remedy.command:
+            told.add_row("", Text(visible(remedy.command), "bold"))
+    for number, useless in enumerate(found.useless):
+        told.add_row("" if number else "not", Text(visible(useless)))
+    parts += [Text(""), Padding(told, (0, 0, 0, 2))]
+    return Group(*parts)
+
+
+def _headline(found: Explanation) -> "Text":
+    from rich.text import Text
+
+    when = "at the latest" if not found.stamp else f"at {_exactly(found.stamp)}"
+    line = Text(visible(f"{found.source} in {found.target} {when}: "))
+    if found.available:
+        return line.append("answers", "green")
+    line.append("refused", "bold red")
+    if found.answerable_from is None:
+        return line.append(", and would be at any later time")
+    late = found.answerable_from - found.asked
+    if late > 0:
+        return line.append(f", would answer {span(late)} later")
+    if found.answerable_until is not None and found.answerable_until <= found.asked:
+        return line.append(f", would have answered until {_exactly(found.answerable_until)}")
+    return line
+
+
+class _Links:
+    """A row for each link; where rows would be too wide, what a link says stands below it."""
+
+    def __init__(self, found: Explanation) -> None:
+        self._found = found
+
+    def __rich_console__(
+        self, console: "Console", options: "ConsoleOptions"
+    ) -> "Iterator[RenderableType]":
+        from rich.measure import Measurement
+        from rich.padding import Padding
+        from rich.table import Table
+        from rich.text import Text
+
+        rows = self._rows()
+        table = Table.grid(padding=(0, 2), pad_edge=False)
+        for row in rows:
+            table.add_row(*row)
+        if Measurement.get(console, options.update(max_width=10_000), table).maximum <= (
+            options.max_width
+        ):
+            yield table
+            return
+        for *link, says in rows:
+            yield Text("  ").join(link)
+            yield Padding(says, (0, 0, 0, 2))
+
+    def _rows(self) -> "list[tuple[Text, ...]]":
+        from rich.text import Text
+
+        found = self._found
+        base = _base(found)
+        at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"
+        held = "held, s since the start" if base else "held"
+        rows = [tuple(Text(word, "dim") for word in ("link", "kind", held, at))]
+        for link in found.links:
+            style = "bold" if link.edge == found.refusing else ""
+            says = Text("answers", "green")
+            if link.verdict is not LinkVerdict.ANSWERS:
+                says = Text(f"REFUSES: {_refusal(link)}", "bold red")
+            words = (visible(link.name), _kind(link), _held(link, base))
+            rows.append((*(Text(word, style) for word in words), says))
+        return rows
+
+
+def _kind(link: TracedLink) -> str:
+    if link.is_static:
+        return "static"
+    return f"{NANOSECONDS / link.period:.3g} Hz" if link.period else "once"
+
+
+def _held(link: TracedLink, base: Stamp) -> str:
+    if link.oldest is None or link.newest is None:
+        return "nothing"
+    if link.is_static:
+        return f"since {_since(link.oldest, base)}"
+    if _other_clock(link.newest, base):
+        return f"{dated(link.oldest)} …, {link.count:,}"
+    if link.count == 1:
+        return f"{_since(link.oldest, base)}, 1"
+    return f"{_since(link.oldest, base)} … {_since(link.newest, base)}, {link.count:,}"
+
+
+def _refusal(link: TracedLink) -> str:
+    if link.verdict is LinkVerdict.NO_DATA:
+        return "one sample answers for its own stamp only" if link.count else "nothing has come yet"
+    if abs(link.short_by) > SIMULATED_BELOW:
+        return f"{span(link.short_by)} apart: another clock"
+    return _WORDS[link.verdict].format(span(link.short_by))
+
+
+def _base(found: Explanation) -> Stamp:
+    """What times in the table count from: what --at does, and 0 in simulations."""
+    if found.stamp and found.stamp < SIMULATED_BELOW:
+        return 0
+    return found.epoch if found.epoch >= SIMULATED_BELOW else 0
+
+
+def _other_clock(stamp: Stamp, base: Stamp) -> bool:
+    return (stamp < SIMULATED_BELOW) != (base < SIMULATED_BELOW)
+
+
+def _since(stamp: Stamp, base: Stamp) -> str:
+    if _other_clock(stamp, base):
+        return dated(stamp)
+    return f"{(stamp - base) / NANOSECONDS:.3f}"
+
+
+def _exactly(stamp: Stamp) -> str:
+    sign = "-" if stamp < 0 else ""
+    return f"{sign}{abs(stamp) // NANOSECONDS}.{abs(stamp) % NANOSECONDS:09}"
+
+
+def as_object(found: Explanation) -> dict[str, Any]:
+    """The same as JSON has it; stamps are whole nanoseconds, names exactly as recorded."""
+    return {
+        "schema": SCHEMA,
+        "target": found.target,
+        "source": found.source,
+        "stamp": found.stamp,
+        "asked": found.asked,
+        "available": found.available,
+        "exception": found.exception or None,
+        "text": found.text or None,
+        "links": [
+            {
+                "parent": link.parent,
+                "child": link.child,
+                "kind": "static" if link.is_static else "dynamic",
+                "publisher": link.publisher,
+                "held": {"count": link.count, "oldest": link.oldest, "newest": link.newest},
+                "period": link.period,
+                "latency": {"median": link.latency},
+                "verdict": link.verdict.value,
+                "short_by": link.short_by,
+            }
+            for link in found.links
+        ],
+        "refusing": None if found.refusing is None else list(found.refusing),
+        "answerable": {"from": found.answerable_from, "until": found.answerable_until},
+        "cause": found.cause.value,
+        "check": found.check,
+        "why": list(found.why),
+        "remedies": [
+            {
+                "kind": one.kind,
+                "text": one.text,
+                "command": one.command or None,
+                "least": one.least,
+                "advised": one.advised,
+                "possible": one.possible,
+            }
+            for one in found.remedies
+        ],
+        "useless": list(found.useless),
+        "failed_share": found.failed,
+    }

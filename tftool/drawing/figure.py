@@ -1,0 +1,251 @@
+"""Curves over time, and a path from above, as a figure of matplotlib.
+
+matplotlib is an extra, and is imported when something is drawn.
+"""
+
+from collections.abc import Sequence
+from functools import partial
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any, BinaryIO, Final
+
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible
+from tftool.base.stamps import Stamp
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.frames.pair_samples import Trajectory, trajectory_of
+from tftool.frames.pair_series import (
+    QUANTITIES,
+    PlotPanel,
+    RefusedSpan,
+    chosen,
+    panels,
+    path_curves,
+    reasons,
+    shades,
+    thinned,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+FORMATS: Final = ("svg", "pdf", "png")
+
+MOST_POINTS: Final = 20_000
+"""Of one curve; a page has fewer."""
+
+_CHARACTERS: Final = 125
+"""Of a line under the figure."""
+
+_LIGHT: Final = {
+    "figure.facecolor": "white",
+    "axes.facecolor": "white",
+    "text.color": "#1a1a1a",
+    "axes.labelcolor": "#1a1a1a",
+    "axes.edgecolor": "#808080",
+    "xtick.color": "#404040",
+    "ytick.color": "#404040",
+    "grid.color": "#d8d8d8",
+}
+_DARK: Final = {
+    "figure.facecolor": "#14171c",
+    "axes.facecolor": "#14171c",
+    "text.color": "#e6e6e6",
+    "axes.labelcolor": "#e6e6e6",
+    "axes.edgecolor": "#6a6f78",
+    "xtick.color": "#b8bcc4",
+    "ytick.color": "#b8bcc4",
+    "grid.color": "#30353d",
+    "legend.facecolor": "#1c2027",
+}
+_COMMON: Final[dict[str, object]] = {
+    "svg.fonttype": "none",
+    # The same plot is the same file.
+    "svg.hashsalt": "tftool",
+    "font.family": "sans-serif",
+    "axes.grid": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.unicode_minus": False,
+    "legend.framealpha": 0.8,
+    "font.size": 9.0,
+}
+_INKS: Final = {
+    False: ("#c0392b", "#1e8449", "#2452c9", "#b9770e", "#7d3c98", "#117a8b"),
+    True: ("#ff8787", "#87e087", "#87afff", "#ffd75f", "#e0a0ff", "#5fe0e0"),
+}
+
+
+def plot(
+    path: TransformArray | Trajectory | Sequence[TransformArray | Trajectory],
+    ax: "Axes | None" = None,
+    *,
+    what: str | Sequence[str] = (),
+    xy: bool = False,
+    start: Stamp | None = None,
+    dark: bool = False,
+) -> "Figure | Axes":
+    """Draw one pair of frames over time, or several, into a figure of matplotlib.
+
+        path = recording.buffer.lookup_transforms("map", "base_link", stamps, missing="nan")
+        tftool.plot(path).savefig("path.svg")
+        tftool.plot(path, ax=axes, what="yaw")
+
+    Args:
+        path: Poses, or several of them.
+        ax: Where to draw one panel; a new figure with all of them if None.
+        what: "position", "rotation", "distance", "speed", "turn rate", or a single one such
+            as "x" or "yaw"; of a new figure all if empty, of `ax` the position.
+        xy: Draw the path from above instead.
+        start: The moment that is 0 on the axis, nanoseconds; the first one if None.
+        dark: Whether a new figure has a dark ground.
+
+    Returns:
+        The new figure, or `ax`.
+
+    Raises:
+        UsageError: If there is nothing to draw, or the extra `plot` is not installed.
+    """
+    given = [path] if isinstance(path, TransformArray | Trajectory) else list(path)
+    found = [one if isinstance(one, Trajectory) else trajectory_of(one) for one in given]
+    if not any(one.path.valid.any() for one in found):
+        raise UsageError("There is no pose to draw.")
+    words = [what] if isinstance(what, str) else list(what)
+    begin = min(int(one.path.stamps[0]) for one in found if len(one.path))
+    begin = begin if start is None else start
+    if ax is None:
+        pyplot = _needed("matplotlib.pyplot")
+        made = partial(
+            pyplot.figure, FigureClass=_needed("tftool.drawing.notebook_figure").NotebookFigure
+        )
+        return _figure(found, begin, chosen(words), xy, dark, made)
+    if xy:
+        _draw_path(ax, found, dark)
+        return ax
+    drawn = panels(found, begin, chosen(words or ["position"]))
+    if len(drawn) > 1:
+        raise UsageError(f"One axes holds one panel, and these are {len(drawn)}: name one of them.")
+    _draw_panel(ax, drawn[0], shades(found, begin), dark)
+    ax.set_xlabel("time, s")
+    return ax
+
+
+def write(
+    found: Sequence[Trajectory],
+    file: BinaryIO,
+    form: str,
+    *,
+    start: Stamp,
+    quantities: Sequence[str] = QUANTITIES,
+    xy: bool = False,
+    dark: bool = False,
+) -> None:
+    """Write a figure, in one of `FORMATS`.
+
+    Raises:
+        UsageError: If the extra `plot` is not installed.
+    """
+    made = _needed("matplotlib.figure").Figure
+    figure = _figure(found, start, quantities, xy, dark, made)
+    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[form]
+    matplotlib = _needed("matplotlib")
+    with matplotlib.rc_context(_COMMON):
+        figure.savefig(file, format=form, dpi=150, metadata=metadata)
+
+
+def _needed(module: str) -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module(module)
+    except ImportError as missing:
+        raise UsageError("A picture needs an extra: pip install 'tftool-tf2[plot]'") from missing
+
+
+def _figure(
+    found: Sequence[Trajectory],
+    start: Stamp,
+    quantities: Sequence[str],
+    xy: bool,
+    dark: bool,
+    make: Any,
+) -> "Figure":
+    matplotlib = _needed("matplotlib")
+    colours = _DARK if dark else _LIGHT
+    drawn = [] if xy else panels(found, start, quantities)
+    height = 6.0 if xy else 1.0 + 1.7 * len(drawn)
+    # pyplot's first figure also sets up its backend, which must outlast the settings below:
+    # a notebook would show no later figure of anyone's.
+    ground = colours["figure.facecolor"]
+    figure: Figure = make(figsize=(8.0, height), layout="constrained", facecolor=ground)
+    with matplotlib.rc_context({**_COMMON, **colours}):
+        title = ", ".join(f"{one.source} in {one.target}" for one in found[:4])
+        figure.suptitle(_plain(title + (" …" if len(found) > 4 else "")), fontsize=11)
+        if xy:
+            _draw_path(figure.subplots(), found, dark)
+            return figure
+        shaded = shades(found, start)
+        axes = figure.subplots(len(drawn), 1, sharex=True, squeeze=False)[:, 0]
+        for one, panel in zip(axes, drawn, strict=True):
+            # Of several pairs the same curves are in all panels.
+            named = len(found) == 1 or one is axes[0]
+            _draw_panel(one, panel, shaded, dark, named=named)
+        axes[-1].set_xlabel("time, s")
+        if shaded:
+            figure.supxlabel(_plain_lines(reasons(shaded)), x=0.01, ha="left", fontsize=7)
+        figure.align_ylabels(axes)
+        return figure
+
+
+def _draw_panel(
+    ax: "Axes", panel: PlotPanel, shaded: Sequence[RefusedSpan], dark: bool, *, named: bool = True
+) -> None:
+    inks = _INKS[dark]
+    handles = []
+    for place, one in enumerate(panel.curves):
+        times, values = thinned(one.times, one.values, MOST_POINTS)
+        (line,) = ax.plot(times, values, color=inks[place % len(inks)], linewidth=1.1)
+        handles.append((line, one.label))
+    for span in shaded:
+        ax.axvspan(span.first, span.last, color="#d08a00", alpha=0.22, linewidth=1)
+    ax.set_ylabel(f"{panel.title}, {panel.unit}")
+    ax.margins(x=0.01)
+    if named and (len(handles) > 1 or panel.curves[0].label != panel.title):
+        _legend(ax, handles)
+
+
+def _draw_path(ax: "Axes", found: Sequence[Trajectory], dark: bool) -> None:
+    inks = _INKS[dark]
+    handles = []
+    for place, (label, x, y) in enumerate(path_curves(found)):
+        step = -(-len(x) // MOST_POINTS)
+        ink = inks[place % len(inks)]
+        (line,) = ax.plot(x[::step], y[::step], color=ink, linewidth=1.2)
+        held = (x == x).nonzero()[0]
+        ax.plot(x[held[0]], y[held[0]], marker="o", color=ink, markersize=5)
+        ax.plot(x[held[-1]], y[held[-1]], marker="s", color=ink, markersize=5)
+        handles.append((line, f"{label}: from ● to ■"))
+    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_xlabel("x, m")
+    ax.set_ylabel("y, m")
+    _legend(ax, handles)
+
+
+def _legend(ax: "Axes", handles: Sequence[tuple[Any, str]]) -> None:
+    ax.legend(
+        [line for line, _ in handles],
+        [_plain(label) for _, label in handles],
+        loc="upper left",
+        bbox_to_anchor=(1.0, 1.0),
+        fontsize=8,
+    )
+
+
+def _plain(text: str) -> str:
+    """A text in which no dollar begins mathematics, and no underscore hides a label."""
+    shown = visible(text).replace("$", r"\$")
+    return f" {shown}" if shown.startswith("_") else shown
+
+
+def _plain_lines(sentences: Sequence[str]) -> str:
+    return "\n".join(line for one in sentences for line in wrap(_plain(one), _CHARACTERS))

@@ -1,0 +1,509 @@
+"""What a diagnosis found: for a terminal, a program, an issue, a build server."""
+
+from collections.abc import Sequence
+from textwrap import TextWrapper
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tftool.base.counts import count
+from tftool.base.escaping import visible
+from tftool.base.report import Judgement, Report
+from tftool.base.stamps import as_seconds
+from tftool.doctor.catalogue import CHECKS, Check
+from tftool.doctor.findings import Area, Finding, Severity
+from tftool.doctor.judge import Diagnosis
+from tftool.doctor.model import Model
+from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
+from tftool.doctor.wording import filled, span
+from tftool.drawing import report_view as judgements
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.table import Table
+
+SCHEMA = "tftool.doctor/1"
+
+_CALM = Severity.NOTE
+"""What does not count as wrong."""
+
+MOST_LINES = 3
+"""Lines of evidence that are shown; all of them in a verbose report."""
+
+_STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE: "cyan"}
+
+
+# For people
+
+
+def render(diagnosis: Diagnosis, *, verbose: bool = False) -> "RenderableType":
+    """A report of one source: what was read, what is wrong, what is fine, how much."""
+    from rich.console import Group
+    from rich.text import Text
+
+    parts: list[RenderableType] = [Text(visible(head(diagnosis.model)), "bold")]
+    if diagnosis.model.reference:
+        parts.append(Text(visible(f"latencies: {diagnosis.model.reference}")))
+    folded = _folded(diagnosis)
+    for finding in diagnosis.findings:
+        if finding.because_of is not None and not verbose:
+            continue
+        parts += [Text(""), *_told(finding, verbose=verbose)]
+        if not verbose:
+            because = folded.pop(finding.id, [])
+            if because:
+                parts.append(Text(f"       with it: {', '.join(because)}", "dim"))
+    parts += [Text(""), Text(visible(areas(diagnosis)))]
+    if verbose:
+        parts += [
+            Text(visible(f"skipped: {one.id}: {one.reason}"), "dim") for one in diagnosis.skipped
+        ]
+    parts.append(Text(visible(summary(diagnosis)), "bold"))
+    return Group(*parts)
+
+
+def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    line = Text(finding.severity.value, _STYLES[finding.severity])
+    line.append(f"  {finding.id}", "bold")
+    line.append(f": {visible(finding.message)}", "default")
+    body = Table.grid(padding=(0, 1), pad_edge=False)
+    body.add_column(no_wrap=True)
+    body.add_column(overflow="fold")
+    evidence = list(finding.evidence)
+    hidden = 0 if verbose else max(0, len(evidence) - MOST_LINES)
+    lines: list[RenderableType] = [line]
+    shown = [visible(text) for text in evidence[: len(evidence) - hidden]]
+    if hidden:
+        shown.append(f"and {hidden} more (--verbose shows them)")
+    lines += [Padding(Text(text), (0, 0, 0, 7)) for text in shown]
+    if finding.publishers and verbose:
+        lines.append(
+            Padding(Text(f"published by {visible(', '.join(finding.publishers))}"), (0, 0, 0, 7))
+        )
+    if finding.because_of is not None:
+        body.add_row("", Text(f"because of {finding.because_of}"))
+    if finding.consequence:
+        body.add_row(Text("so:"), Text(visible(finding.consequence)))
+    fixes = finding.fixes if verbose else finding.fixes[:2]
+    for number, fix in enumerate(fixes):
+        body.add_row(Text("" if number else "fix:"), Text(visible(fix.text)))
+        if fix.command:
+            body.add_row("", Text(visible(fix.command), "bold"))
+    lines.append(Padding(body, (0, 0, 0, 7)))
+    return lines
+
+
+def head(model: Model) -> str:
+    """What was read, in one line."""
+    material = model.material
+    facts = [material.kind]
+    if material.end > material.start and material.timed:
+        facts.append(f"{as_seconds(material.end - material.start):.1f} s")
+    if material.topics:
+        facts.append(count(len(material.topics), "topic"))
+    facts.append(count(len(model.frames), "frame"))
+    facts.append(count(len(model.trees), "tree"))
+    facts.append(count(len(material.transforms), "transform"))
+    return f"{material.name}: {', '.join(facts)}"
+
+
+def areas(diagnosis: Diagnosis) -> str:
+    """What was looked at and found in order, in one line."""
+    wrong = {finding.area for finding in diagnosis.findings}
+    skipped = {one.id: one.reason for one in diagnosis.skipped}
+    told = []
+    for area in Area:
+        checks = [check for check in CHECKS.values() if check.area is area]
+        if area in wrong or not checks:
+            continue
+        reasons = {skipped[check.id] for check in checks if check.id in skipped}
+        if len(reasons) == 1 and all(check.id in skipped for check in checks):
+            told.append(f"{area.value}: skipped, {reasons.pop()}")
+        else:
+            told.append(f"{area.value} fine{_latencies(diagnosis.model, area)}")
+    return " · ".join(told)
+
+
+def _latencies(model: Model, area: Area) -> str:
+    if area is not Area.CLOCKS or not model.material.timed:
+        return ""
+    moving = [track.median_latency for track in model.dynamic if not track.is_localisation]
+    parts = [f"{span(float(np.median(moving)))} tf"] if moving else []
+    heard = [one for one in model.heard if one.is_spatial and len(one.stamps)][:3]
+    parts += [f"{span(one.median_latency)} {one.topic}" for one in heard]
+    return f" (latency {', '.join(parts)})" if parts else ""
+
+
+def summary(diagnosis: Diagnosis) -> str:
+    """How much was found, and where to read on; in one line."""
+    counts = counted(diagnosis)
+    if not counts:
+        skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
+        why = " (--verbose says why)" if skipped else ""
+        return f"nothing found; {count(diagnosis.ran, 'check')} ran{skipped}{why}"
+    first = next(f for f in diagnosis.findings if f.because_of is None)
+    worst = min(
+        (f for f in diagnosis.findings if f.because_of is None), key=lambda f: f.severity.rank
+    )
+    if first.severity is not worst.severity:
+        first = worst
+    calm = "" if worst.severity is not Severity.NOTE else "If all works, leave it so. "
+    return (
+        f"{counts}. {calm}`tftool doctor --explain {first.id}` tells more; "
+        "`--markdown` prints this for an issue."
+    )
+
+
+def counted(diagnosis: Diagnosis) -> str:
+    """The findings by severity: "1 error, 2 warnings"; empty where there are none."""
+    numbers = [(severity.value, diagnosis.count(severity)) for severity in Severity]
+    return ", ".join(count(number, word) for word, number in numbers if number)
+
+
+def brief(diagnosis: Diagnosis) -> str:
+    """What was found, in one line below what another command shows."""
+    told = [f for f in diagnosis.findings if f.because_of is None and f.severity is not _CALM]
+    if not told:
+        return "Doctor: nothing is wrong."
+    ids = ", ".join(dict.fromkeys(finding.id for finding in told))
+    return f"Doctor: {counted(diagnosis)} ({ids}). 'tftool doctor' on it tells more."
+
+
+def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
+    """Consequences by the check that explains them, with how many of each."""
+    counts: dict[str, dict[str, int]] = {}
+    for finding in diagnosis.findings:
+        if finding.because_of is not None:
+            of = counts.setdefault(finding.because_of, {})
+            of[finding.id] = of.get(finding.id, 0) + 1
+    return {
+        cause: [name if number == 1 else f"{name} ({number})" for name, number in of.items()]
+        for cause, of in counts.items()
+    }
+
+
+def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
+    """Several sources in a table: what was found in each, or why it could not be read."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table.add_column("source", overflow="fold")
+    for severity in Severity:
+        table.add_column(f"{severity.value}s", justify="right")
+    table.add_column("what", overflow="fold")
+    for name, found in rows:
+        shown = Text(visible(name))
+        if isinstance(found, str):
+            table.add_row(shown, "", "", "", Text(f"unreadable: {visible(found)}", "red"))
+            continue
+        numbers = [
+            Text(str(count) if count else "", _STYLES[severity])
+            for severity, count in ((s, found.count(s)) for s in Severity)
+        ]
+        ids = dict.fromkeys(
+            one.id
+            for one in found.findings
+            if one.because_of is None and one.severity is not Severity.NOTE
+        )
+        table.add_row(shown, *numbers, Text(", ".join(ids) or "fine"))
+    return table
+
+
+def statistics(model: Model) -> "Table":
+    """Every edge and every topic: how often, how late, and its largest gap."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table.add_column("transform or topic", overflow="fold")
+    for column in ("kind", "count", "rate", "latency p50", "p95", "worst gap"):
+        table.add_column(column, justify="right")
+    streams: list[Track | Heard] = [*model.tracks, *model.heard]
+    for stream in streams:
+        is_track = isinstance(stream, Track)
+        name = stream.name if isinstance(stream, Track) else f"{stream.topic} in {stream.frame}"
+        kind = ("static" if stream.static else "moving") if isinstance(stream, Track) else "topic"
+        numbers = _numbers(stream, timed=model.material.timed)
+        if is_track and kind == "static":
+            numbers = ("", "", "", "")
+        table.add_row(Text(visible(name)), kind, f"{len(stream.stamps):,}", *numbers)
+    return table
+
+
+def _numbers(stream: Stream, *, timed: bool) -> tuple[str, str, str, str]:
+    if not len(stream.stamps):
+        return "", "", "", ""
+    steps = np.diff(np.sort(stream.stamps))
+    often = rate(stream)
+    p50, p95 = np.percentile(stream.latency, (50, 95)) if timed else (0, 0)
+    return (
+        f"{often:.4g} Hz" if often else "",
+        span(float(p50)) if timed else "",
+        span(float(p95)) if timed else "",
+        span(int(steps.max())) if len(steps) else "",
+    )
+
+
+# About the checks
+
+
+def listing() -> "Table":
+    """Every check in a line."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    for column in ("id", "area", "severity"):
+        table.add_column(column, no_wrap=True)
+    table.add_column("what it finds", overflow="fold")
+    for check in CHECKS.values():
+        table.add_row(
+            check.id,
+            check.area.value,
+            Text(check.severity.value, _STYLES[check.severity]),
+            check.summary,
+        )
+    return table
+
+
+def explained(check: Check, width: int | None = None) -> str:
+    """All that is known of one check, as text.
+
+    Args:
+        check: Which.
+        width: Cells a line may take: it goes on in the next one, between words. None for all.
+    """
+    lines = [
+        f"{check.id}: {check.summary}",
+        "",
+        f"  {check.severity.value}, about {check.area.value}",
+        "",
+        f"rule     {filled(check.rule, check.limits)}.",
+    ]
+    if check.why:
+        lines.append(f"why      {check.why}.")
+    if check.limits:
+        names = ", ".join(f"{name} = {value:g}" for name, value in check.limits.items())
+        lines.append(f"limits   {names}  (--limit {check.id}.{next(iter(check.limits))}=VALUE)")
+    if check.needs:
+        lines.append(f"needs    {', '.join(check.needs)}")
+    lines.append(f"says     {_general(check.headline)}")
+    lines.append(f"so       {_general(check.consequence)}.")
+    for number, cause in enumerate(check.causes):
+        lines.append(f"{'causes ' if not number else '       '}  {cause}")
+    for number, fix in enumerate(check.fixes):
+        command = f": {fix.command}" if fix.command else ""
+        lines.append(f"{'fix    ' if not number else '       '}  {_general(fix.text + command)}")
+    for number, link in enumerate(check.links):
+        lines.append(f"{'see    ' if not number else '       '}  {link}")
+    if width is not None:
+        # A command or an address stays whole, to be copied.
+        how = TextWrapper(
+            width, subsequent_indent=" " * 9, break_long_words=False, break_on_hyphens=False
+        )
+        lines = [one for line in lines for one in how.wrap(line) or [""]]
+    return "\n".join(lines) + "\n"
+
+
+def as_page() -> str:
+    """Every check as a page of Markdown, by area."""
+    lines = [
+        "# What the doctor looks for",
+        "",
+        "Written by `tftool doctor --list --markdown`. Names in CAPITALS stand for what was found.",
+        "A threshold is changed with `--limit ID.NAME=VALUE`.",
+    ]
+    for area in Area:
+        lines += ["", f"## {area.value[0].upper()}{area.value[1:]}"]
+        for check in CHECKS.values():
+            if check.area is area:
+                lines += ["", *_paragraphs(check)]
+    return "\n".join(lines) + "\n"
+
+
+def _paragraphs(check: Check) -> list[str]:
+    """One check as Markdown."""
+    lines = [f"### {check.id}", "", f"*{check.severity.value}*: {_marked(check.summary)}.", ""]
+    lines.append(f"- **rule**: {_marked(filled(check.rule, check.limits))}.")
+    if check.why:
+        lines.append(f"- **why**: {_marked(check.why)}.")
+    if check.limits:
+        given = (f"`{name}` = {value:g}" for name, value in check.limits.items())
+        lines.append(f"- **thresholds**: {', '.join(given)}")
+    if check.needs:
+        lines.append(f"- **needs**: {', '.join(check.needs)}")
+    lines.append(f"- **says**: {_marked(_general(check.headline))}")
+    lines.append(f"- **so**: {_marked(_general(check.consequence))}.")
+    if check.causes:
+        lines.append(f"- **causes**: {_marked('; '.join(check.causes))}")
+    for fix in check.fixes:
+        command = f" `{_general(fix.command)}`" if fix.command else ""
+        lines.append(f"- **fix**: {_marked(_general(fix.text))}{command}")
+    if check.links:
+        lines.append(f"- **see**: {', '.join(f'<{link}>' for link in check.links)}")
+    return lines
+
+
+def _marked(text: str) -> str:
+    """A text in which nothing of Markdown acts."""
+    from re import sub
+
+    return sub(r"([\\`*_<>\[\]|])", r"\\\1", text)
+
+
+def _general(text: str) -> str:
+    """A text of the catalogue without the facts of a finding: their names stand for them."""
+    from string import Formatter
+
+    parts = []
+    for literal, name, spec, _ in Formatter().parse(text):
+        parts.append(literal)
+        if spec and "|" in spec:
+            parts.append(spec.partition("|")[0])
+            continue
+        # What stands at a word's end without a blank is an addition that may be empty.
+        if name is not None and not literal[-1:].isalpha():
+            parts.append(name.split("[")[0].upper())
+    return "".join(parts)
+
+
+# For programs
+
+
+def as_object(diagnosis: Diagnosis) -> dict[str, Any]:
+    """The report as JSON has it; stamps are whole nanoseconds, names exactly as recorded."""
+    material = diagnosis.model.material
+    return {
+        "schema": SCHEMA,
+        "source": material.name,
+        "read": {
+            "kind": material.kind,
+            "from": material.start,
+            "to": material.end,
+            "transforms": len(material.transforms),
+            "frames": len(diagnosis.model.frames),
+            "trees": len(diagnosis.model.trees),
+            "truncated": bool(material.damage),
+        },
+        "findings": [as_row(finding) for finding in diagnosis.findings],
+        "skipped": [{"id": one.id, "reason": one.reason} for one in diagnosis.skipped],
+        "summary": {severity.value: diagnosis.count(severity) for severity in Severity},
+    }
+
+
+def as_row(finding: Finding) -> dict[str, Any]:
+    """One finding as JSON has it."""
+    links = CHECKS[finding.id].links
+    return {
+        "id": finding.id,
+        "severity": finding.severity.value,
+        "area": finding.area.value,
+        "message": finding.message,
+        "confidence": finding.confidence.value,
+        "edges": [list(edge) for edge in finding.edges],
+        "frames": list(finding.frames),
+        "topics": list(finding.topics),
+        "publishers": list(finding.publishers),
+        "since": finding.since,
+        "until": finding.until,
+        "count": finding.count,
+        "facts": dict(finding.facts),
+        "evidence": list(finding.evidence),
+        "consequence": finding.consequence,
+        "fixes": [{"text": fix.text, "command": fix.command} for fix in finding.fixes],
+        "because_of": finding.because_of,
+        "url": links[0] if links else None,
+    }
+
+
+# For issues and build servers
+
+
+def as_markdown(diagnosis: Diagnosis) -> str:
+    """The report for an issue: a table, then the details; nothing in a name acts."""
+    told = [finding for finding in diagnosis.findings if finding.because_of is None]
+    lines = [f"**tftool doctor** {_code(head(diagnosis.model))}", ""]
+    if told:
+        lines += ["| | id | what |", "| --- | --- | --- |"]
+        lines += [
+            f"| {one.severity.value} | {one.id} | {_code(one.message, in_table=True)} |"
+            for one in told
+        ]
+        lines += ["", "<details><summary>evidence, consequences, fixes</summary>", ""]
+        for one in told:
+            lines += [f"**{one.id}**", "", *_fenced(_plain(one)), ""]
+        lines += ["</details>", ""]
+    text = summary(diagnosis) if not told else f"{counted(diagnosis)}."
+    lines.append(text)
+    return "\n".join(lines) + "\n"
+
+
+def _plain(finding: Finding) -> list[str]:
+    lines = [*finding.evidence]
+    if finding.publishers:
+        lines.append(f"published by {', '.join(finding.publishers)}")
+    lines.append(f"so:  {finding.consequence}")
+    for fix in finding.fixes:
+        lines.append(f"fix: {fix.text}")
+        if fix.command:
+            lines.append(f"     {fix.command}")
+    return [visible(line) for line in lines]
+
+
+def _fenced(lines: list[str]) -> list[str]:
+    """A block in which nothing acts: its fence is longer than any in it."""
+    fence = "`" * max(3, _longest_ticks("\n".join(lines)) + 1)
+    return [f"{fence}text", *lines, fence]
+
+
+def _code(text: str, *, in_table: bool = False) -> str:
+    """A text as code, in which nothing acts."""
+    text = visible(text)
+    if in_table:
+        # A bar would end the cell, even in code.
+        text = text.replace("|", "¦")
+    ticks = "`" * (_longest_ticks(text) + 1)
+    pad = " " if text.startswith("`") or text.endswith("`") else ""
+    return f"{ticks}{pad}{text}{pad}{ticks}"
+
+
+def _longest_ticks(text: str) -> int:
+    longest = run = 0
+    for letter in text:
+        run = run + 1 if letter == "`" else 0
+        longest = max(longest, run)
+    return longest
+
+
+def as_junit(rows: "Sequence[tuple[str, Diagnosis | str]]", fails: Severity | None) -> str:
+    """The reports of several sources as a JUnit document.
+
+    Args:
+        rows: Each source with its diagnosis, or why it could not be read.
+        fails: From which severity on a finding is a failure; None for never.
+    """
+    reports = []
+    for name, found in rows:
+        if isinstance(found, str):
+            reports.append(Report(name, name, (), failure=found))
+            continue
+        looked = tuple(
+            Judgement(
+                f"{one.id}: {one.message}",
+                fails is None or one.severity.rank > fails.rank,
+                expected="nothing found",
+                found="; ".join((*one.evidence, *(fix.text for fix in one.fixes))),
+            )
+            for one in found.findings
+            if one.because_of is None
+        )
+        reports.append(Report(name, name, looked))
+    return judgements.as_junit(reports, command="tftool doctor", whole="is read to its end")

@@ -1,0 +1,98 @@
+"""The way between two links of a robot description: for a terminal, for a program."""
+
+from typing import TYPE_CHECKING, Any
+
+from tftool.base.escaping import visible
+from tftool.doctor.joint_chain import ChainExplanation, ChainLink
+from tftool.drawing.explanation_view import SCHEMA
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+
+def render(found: ChainExplanation) -> "RenderableType":
+    """What was asked, what tf2 says, each joint, why, and what helps."""
+    from rich.console import Group
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    headline = Text(visible(f"{found.source} in {found.target}: "))
+    if found.available:
+        headline.append("answers", "green")
+    else:
+        headline.append("refused", "bold red")
+    parts: list[RenderableType] = [headline]
+    told = Table.grid(padding=(0, 2), pad_edge=False)
+    told.add_column(no_wrap=True, min_width=5)
+    told.add_column(overflow="fold")
+    if found.text:
+        told.add_row("tf2", Text(visible(found.text)))
+    for number, why in enumerate(found.why):
+        told.add_row("" if number else "why", Text(visible(why)))
+    for number, (text, command) in enumerate(found.remedies):
+        told.add_row("" if number else "cure", Text(visible(text)))
+        if command:
+            told.add_row("", Text(visible(command), "bold"))
+    if found.links:
+        links = Table.grid(padding=(0, 2), pad_edge=False)
+        for _ in range(3):
+            links.add_column(no_wrap=True)
+        links.add_column(overflow="fold")
+        links.add_row("link", "joint", "type", "position", style="dim")
+        for link in found.links:
+            joint = link.joint
+            links.add_row(
+                Text(visible(f"{joint.child} in {joint.parent}")),
+                Text(visible(joint.name)),
+                joint.type,
+                Text(visible(_position(link)), "" if link.is_known else "bold red"),
+            )
+        parts += [Text(""), Padding(links, (0, 0, 0, 2))]
+    parts += [Text(""), Padding(told, (0, 0, 0, 2))]
+    return Group(*parts)
+
+
+def _position(link: ChainLink) -> str:
+    if not link.is_known:
+        return "REFUSES: its pose is not known"
+    if link.position is None:
+        return "holds at all times" if link.joint.type == "fixed" else "at its origin"
+    shown = f"{link.position:.4g} {link.joint.unit}"
+    follows = f", follows {link.leader}" if link.leader != link.joint.name else ""
+    return f"{shown}{follows}{'' if link.is_given else ', at rest'}"
+
+
+def as_object(found: ChainExplanation) -> dict[str, Any]:
+    """The same as JSON has it, in the schema of `tftool explain`; radians and metres."""
+    return {
+        "schema": SCHEMA,
+        "target": found.target,
+        "source": found.source,
+        "stamp": 0,
+        "available": found.available,
+        "exception": found.exception or None,
+        "text": found.text or None,
+        "links": [
+            {
+                "parent": link.joint.parent,
+                "child": link.joint.child,
+                "kind": "static",
+                "joint": link.joint.name,
+                "type": link.joint.type,
+                "position": link.position,
+                "given": link.is_given,
+                "leader": link.leader,
+                "verdict": "answers" if link.is_known else "no-data",
+            }
+            for link in found.links
+        ],
+        "refusing": next(
+            ([one.joint.parent, one.joint.child] for one in found.links if not one.is_known), None
+        ),
+        "cause": found.cause,
+        "why": list(found.why),
+        "remedies": [
+            {"text": text, "command": command or None} for text, command in found.remedies
+        ],
+    }

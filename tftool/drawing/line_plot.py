@@ -1,0 +1,237 @@
+"""Curves over time, and a path from above, as lines of braille dots."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final
+
+import numpy as np
+from rich.text import Text
+
+from tftool.base.escaping import visible
+from tftool.base.fixed_width import fitted
+from tftool.base.stamps import Stamp
+from tftool.drawing import theme
+from tftool.drawing.braille_trail import Ink
+from tftool.frames.pair_samples import Trajectory
+from tftool.frames.pair_series import (
+    PlotPanel,
+    RefusedSpan,
+    axis_number,
+    panels,
+    path_curves,
+    reasons,
+    shades,
+    thinned,
+)
+from tftool.geometry.rigid_arrays import Floats
+from tftool.messages.turtle_values import Color
+
+LABELS: Final = 10
+"""Cells left of a panel, for what its axis says."""
+
+LEAST_ROWS: Final = 3
+ROWS: Final = 6
+"""Lines of a panel where no terminal says how many there are."""
+
+_DARK: Final = (Color(255, 135, 135), Color(135, 255, 135), Color(135, 175, 255),
+                Color(255, 215, 95), Color(255, 175, 255), Color(95, 255, 255))  # fmt: skip
+_LIGHT: Final = (Color(175, 0, 0), Color(0, 115, 0), Color(0, 0, 215),
+                 Color(135, 95, 0), Color(135, 0, 135), Color(0, 115, 135))  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class PlotLook:
+    """How much room a plot has, and how it is painted.
+
+    Attributes:
+        width: Cells across.
+        height: Lines there are; as many as are good if None.
+        ascii_only: Whether to draw with plain characters.
+        light: Whether the ground is light.
+    """
+
+    width: int = 80
+    height: int | None = None
+    ascii_only: bool = False
+    light: bool = False
+
+    @property
+    def colors(self) -> tuple[Color, ...]:
+        """One for each curve, from the first on."""
+        return _LIGHT if self.light else _DARK
+
+    @property
+    def bar(self) -> str:
+        """What stands between a label and its panel."""
+        return "|" if self.ascii_only else "│"
+
+
+def over_time(
+    found: Sequence[Trajectory],
+    start: Stamp,
+    quantities: Sequence[str],
+    look: PlotLook,
+    *,
+    span: tuple[float, float] | None = None,
+) -> Text:
+    """Every panel under the other, with one axis of time; refused spans are shaded.
+
+    Args:
+        found: The pairs.
+        start: The moment that is 0 on the axis.
+        quantities: What to draw, of `series.QUANTITIES`.
+        look: How to draw it.
+        span: First and last second of the axis; those of the data if None.
+    """
+    drawn = panels(found, start, quantities)
+    shaded = shades(found, start)
+    low, high = span or _span(drawn, shaded)
+    told = [visible(one) for one in reasons(shaded)]
+    rows = ROWS
+    if look.height is not None:
+        rows = max(LEAST_ROWS, (look.height - 2 - len(told)) // max(1, len(drawn)) - 1)
+    text = Text(no_wrap=True, overflow="crop")
+    for panel in drawn:
+        text.append_text(_titled(panel, look))
+        for line in _drawn(panel, (low, high), shaded, rows, look):
+            text.append_text(line)
+    text.append(_axis(low, high, look.width))
+    for reason in told:
+        text.append(f"{fitted(reason, look.width)}\n", style="dim")
+    return text
+
+
+def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
+    """The path of each pair in the x-y plane, a metre as long across as up.
+
+    Args:
+        found: The pairs.
+        look: How to draw it.
+    """
+    curves = path_curves(found)
+    colors = look.colors
+    xs = np.concatenate([x for _, x, _ in curves])
+    ys = np.concatenate([y for _, _, y in curves])
+    left, right, bottom, top = np.nanmin(xs), np.nanmax(xs), np.nanmin(ys), np.nanmax(ys)
+    room = max(10, look.width - LABELS - 1)
+    rows = max(
+        LEAST_ROWS, min(room // 2, 30 if look.height is None else look.height - 3 - len(curves))
+    )
+    columns = min(room, 4 * rows)
+    # Cells are twice as high as wide: metres to a cell across and down.
+    per_cell = max((right - left) / columns, (top - bottom) / (2.0 * rows), 1e-9)
+    wide, high = per_cell * columns, 2.0 * per_cell * rows
+    middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)
+    left, bottom = middle_x - 0.5 * wide, middle_y - 0.5 * high
+    ink = Ink(columns, rows, 0.0, 0.0, 1.0)
+    for place, (_, x, y) in enumerate(curves):
+        draw_curve(ink, (x - left) / wide, (y - bottom) / high, colors[place % len(colors)])
+    text = Text(no_wrap=True, overflow="crop")
+    for place, (label, x, y) in enumerate(curves):
+        holds = np.flatnonzero(np.isfinite(x))
+        ends = ", ".join(
+            f"{word} at {axis_number(float(x[at]))} {axis_number(float(y[at]))}"
+            for word, at in (("begins", holds[0]), ("ends", holds[-1]))
+        )
+        text.append(
+            f"{fitted(f'{visible(label)} {ends}', look.width)}\n",
+            _style(colors[place % len(colors)]),
+        )
+    for row in range(rows):
+        shown = bottom + high if row == 0 else bottom if row == rows - 1 else None
+        _append_row(text, shown, ink, row, "", look)
+    edge = (
+        f"{axis_number(left):<{columns // 2}}{axis_number(left + wide):>{columns - columns // 2}}"
+    )
+    text.append(f"{'y, x in m':>{LABELS}} {edge}\n")
+    return text
+
+
+def _span(drawn: Sequence[PlotPanel], shaded: Sequence[RefusedSpan]) -> tuple[float, float]:
+    ends = [(float(one.times[0]), float(one.times[-1])) for p in drawn for one in p.curves]
+    ends += [(one.first, one.last) for one in shaded]
+    low, high = min(first for first, _ in ends), max(last for _, last in ends)
+    return (low, high) if high > low else (low - 0.5, high + 0.5)
+
+
+def _titled(panel: PlotPanel, look: PlotLook) -> Text:
+    line = Text(f"{panel.title}, {panel.unit}", style="bold")
+    if len(panel.curves) > 1 or panel.curves[0].label != panel.title:
+        for place, one in enumerate(panel.curves):
+            line.append(f"  {visible(one.label)}", _style(look.colors[place % len(look.colors)]))
+    line.truncate(look.width, overflow="ellipsis")
+    line.append("\n")
+    return line
+
+
+def _drawn(
+    panel: PlotPanel,
+    span: tuple[float, float],
+    shaded: Sequence[RefusedSpan],
+    rows: int,
+    look: PlotLook,
+) -> Iterable[Text]:
+    columns = max(10, look.width - LABELS - 1)
+    low, high = panel.limits()
+    first, last = span
+    ink = Ink(columns, rows, 0.0, 0.0, 1.0)
+    for place, one in enumerate(panel.curves):
+        times, values = thinned(one.times, one.values, 16 * columns)
+        draw_curve(
+            ink,
+            (times - first) / (last - first),
+            (values - low) / (high - low),
+            look.colors[place % len(look.colors)],
+        )
+    shade = [" "] * columns
+    for refused in shaded:
+        begin = math.floor((refused.first - first) / (last - first) * columns)
+        end = math.ceil((refused.last - first) / (last - first) * columns)
+        for column in range(
+            max(0, min(begin, columns - 1)), max(0, min(max(end, begin + 1), columns))
+        ):
+            shade[column] = ":" if look.ascii_only else "░"
+    for row in range(rows):
+        shown = high if row == 0 else low if row == rows - 1 else None
+        text = Text(no_wrap=True)
+        _append_row(text, shown, ink, row, "".join(shade), look)
+        yield text
+
+
+def _append_row(
+    text: Text, shown: float | None, ink: Ink, row: int, shade: str, look: PlotLook
+) -> None:
+    label = "" if shown is None else axis_number(shown)
+    text.append(f"{label:>{LABELS}}{look.bar}")
+    for column, cell in enumerate(ink.cells(row, ascii_only=look.ascii_only)):
+        if cell.ink is not None:
+            text.append(cell.text, _style(cell.ink))
+        elif shade:
+            text.append(shade[column], "dim")
+        else:
+            text.append(" ")
+    text.rstrip()
+    text.append("\n")
+
+
+def draw_curve(ink: Ink, across: Floats, up: Floats, color: Color) -> None:
+    """Draw a curve of the unit square; a single point where its neighbours are missing."""
+    points = list(zip(across.tolist(), up.tolist(), strict=True))
+    for here, there in pairwise(points):
+        ink.draw((*here, *there, color, 0))
+    for x, y in points if len(points) == 1 else ():
+        ink.draw((x, y, x, y, color, 0))
+
+
+def _axis(low: float, high: float, width: int) -> str:
+    columns = max(10, width - LABELS - 1)
+    middle = axis_number(0.5 * (low + high))
+    left, right = axis_number(low), f"{axis_number(high)} s"
+    line = left.ljust(columns // 2 - len(middle) // 2) + middle
+    return f"{'':>{LABELS + 1}}{line}{right:>{columns - len(line)}}\n"
+
+
+def _style(color: Color) -> str:
+    return theme.hexadecimal(color)

@@ -1,0 +1,152 @@
+"""One transform in every notation, as lines and as an object."""
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+from tftool.geometry.conversions import (
+    AXES,
+    axis_angle_from_quaternion,
+    euler_from_quaternion,
+    matrix_from_quaternion,
+    precise_rpy_from_quaternion,
+    wxyz_from_xyzw,
+)
+from tftool.geometry.notation.text import exact, publisher_words, urdf_origin
+from tftool.geometry.rigid import Transform
+
+TARGETS: Final = (
+    "xyzw", "wxyz", "rpy", "ypr", "axis-angle", "rotvec", "matrix", "matrix4", "urdf", "static",
+    *AXES,
+)  # fmt: skip
+"""What a rotation can be printed as alone."""
+
+_WIDTH: Final = 18
+_POLE: Final = 1.0 - 1e-9
+
+
+def as_object(transform: Transform) -> dict[str, object]:
+    """Everything, for programs: angles in radians, and in degrees under names that say so."""
+    turn = transform.rotation
+    axis, angle = axis_angle_from_quaternion(turn)
+    rpy = precise_rpy_from_quaternion(turn)
+    return {
+        "translation": list(transform.translation),
+        "quaternion_xyzw": list(turn),
+        "quaternion_wxyz": list(wxyz_from_xyzw(turn)),
+        "rpy_rad": list(rpy),
+        "rpy_deg": [math.degrees(one) for one in rpy],
+        "axis": list(axis),
+        "angle_rad": angle,
+        "angle_deg": math.degrees(angle),
+        "rotation_vector": [angle * one for one in axis],
+        "matrix": [list(row) for row in matrix_from_quaternion(turn)],
+        "matrix4": [list(row) for row in _matrix4(transform)],
+        "euler_rad": {axes: list(euler_from_quaternion(turn, axes)) for axes in AXES},
+    }
+
+
+def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
+    """One notation in full precision, on as many lines as it has rows.
+
+    Args:
+        transform: What to write.
+        form: One of `TARGETS`.
+        degrees: Whether angles are written in degrees.
+    """
+    turn = transform.rotation
+    if form == "matrix":
+        return _rows(matrix_from_quaternion(turn))
+    if form == "matrix4":
+        return _rows(_matrix4(transform))
+    if form == "urdf":
+        return urdf_origin(transform)
+    if form == "static":
+        return " ".join(publisher_words(transform))
+    axis, angle = axis_angle_from_quaternion(turn)
+    unit = math.degrees if degrees else float
+    numbers: Sequence[float]
+    if form == "xyzw":
+        numbers = turn
+    elif form == "wxyz":
+        numbers = wxyz_from_xyzw(turn)
+    elif form == "axis-angle":
+        numbers = (*axis, unit(angle))
+    elif form == "rotvec":
+        numbers = [one * unit(angle) for one in axis]
+    else:
+        angles = (
+            precise_rpy_from_quaternion(turn)
+            if form == "rpy"
+            else precise_rpy_from_quaternion(turn)[::-1]
+            if form == "ypr"
+            else euler_from_quaternion(turn, form)
+        )
+        numbers = [unit(one) for one in angles]
+    return " ".join(map(exact, numbers))
+
+
+def lines(
+    transform: Transform, *, with_translation: bool, precision: int = 6, all_orders: bool = False
+) -> str:
+    """Every notation, a line or a few each.
+
+    Args:
+        transform: What to write.
+        with_translation: Whether it says where, too.
+        precision: Decimals.
+        all_orders: Whether to add the 24 orders of Euler angles.
+    """
+    turn = transform.rotation
+    axis, angle = axis_angle_from_quaternion(turn)
+    rpy = precise_rpy_from_quaternion(turn)
+
+    def shown(numbers: Sequence[float]) -> str:
+        return " ".join(rounded(one, precision) for one in numbers)
+
+    def angles(numbers: Sequence[float]) -> str:
+        degrees = [math.degrees(one) for one in numbers]
+        return f"{shown(numbers)} rad · {shown(degrees)} deg"
+
+    matrix = _matrix4(transform) if with_translation else matrix_from_quaternion(turn)
+    texts = [[rounded(one, precision) for one in row] for row in matrix]
+    wide = max(len(one) for row in texts for one in row)
+    rows = [" ".join(one.rjust(wide) for one in row) for row in texts]
+    table = [
+        *([("translation", shown(transform.translation))] if with_translation else []),
+        ("quaternion x y z w", shown(turn)),
+        ("quaternion w x y z", shown(wxyz_from_xyzw(turn))),
+        ("roll pitch yaw", angles(rpy)),
+        ("yaw pitch roll", angles(rpy[::-1])),
+        ("axis, angle", f"{shown(axis)}, {angles([angle])}"),
+        ("rotation vector", angles([angle * one for one in axis])),
+        *(("matrix" if number == 0 else "", row) for number, row in enumerate(rows)),
+        ("URDF", urdf_origin(transform)),
+        ("static publisher", " ".join(publisher_words(transform))),
+    ]
+    if all_orders:
+        table += [(f"Euler {axes}", angles(euler_from_quaternion(turn, axes))) for axes in AXES]
+    return "".join(f"{name:<{_WIDTH}}  {text}\n" for name, text in table)
+
+
+def at_a_pole(transform: Transform) -> bool:
+    """Whether roll and yaw turn about one axis, so that only their sum is known."""
+    return abs(matrix_from_quaternion(transform.rotation)[2][0]) > _POLE
+
+
+def rounded(number: float, precision: int) -> str:
+    """So many decimals at most: no zeros behind them, and no minus before a zero."""
+    text = f"{number:.{precision}f}"
+    if "." in text:
+        text = text.rstrip("0").rstrip(".")
+    return "0" if text in ("-0", "") else text
+
+
+def _matrix4(transform: Transform) -> tuple[tuple[float, ...], ...]:
+    rows = matrix_from_quaternion(transform.rotation)
+    moved = zip(rows, transform.translation, strict=True)
+    return (*((*row, place) for row, place in moved), (0.0, 0.0, 0.0, 1.0))
+
+
+def _rows(matrix: Sequence[Sequence[float]]) -> str:
+    return "\n".join(" ".join(map(exact, row)) for row in matrix)

@@ -1,0 +1,176 @@
+"""A picture of frames, as values: everything seen along the z axis of one fixed frame.
+
+Metres and radians in that frame. What is drawn of it, and how, is `drawing/canvas.py`.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Final, NamedTuple, TypeAlias
+
+from tftool.drawing.braille_trail import Stroke
+from tftool.geometry.motion.unicycle import FIELD
+from tftool.messages.turtle_values import BACKGROUND, Color
+
+_APART: Final = 3.4
+"""Rows of the terminal between two lines of a grid, at the least."""
+
+FARTHEST: Final = 1e9
+"""Metres from the fixed frame beyond which nothing is drawn."""
+
+Point: TypeAlias = tuple[float, float]
+
+Box: TypeAlias = tuple[float, float, float, float]
+"""Left, bottom, right and top, metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlaneFrame:
+    """One frame.
+
+    Attributes:
+        name: Its name, from which its colour comes.
+        x: Where its origin is, metres.
+        y: Where its origin is, metres.
+        axes: The ends of its unit x, y and z axes, from its origin, as the plane shows them.
+        parent: The origin of its parent; None for a root.
+        age: Seconds without news, for one that is not static.
+        is_turtle: Whether it is drawn as one.
+        is_frame: Whether it is broadcast at all, and has axes; a turtle may not be.
+    """
+
+    name: str
+    x: float
+    y: float
+    axes: tuple[Point, ...] = ((1.0, 0.0), (0.0, 1.0))
+    parent: Point | None = None
+    age: float = 0.0
+    is_turtle: bool = False
+    is_frame: bool = True
+
+    @property
+    def theta(self) -> float:
+        """Where its x axis points, radians."""
+        return math.atan2(self.axes[0][1], self.axes[0][0])
+
+
+@dataclass(frozen=True, slots=True)
+class TurtleField:
+    """The square turtles draw on, which lies in the plane as its own frame does.
+
+    Attributes:
+        x: Where its lower left corner is, metres.
+        y: Where its lower left corner is, metres.
+        theta: How far it is turned, radians.
+        color: What it is painted with.
+        walls: The sides a turtle just ran into: "left", "right", "bottom", "top".
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    theta: float = 0.0
+    color: Color = BACKGROUND
+    walls: frozenset[str] = frozenset()
+
+    def place(self, x: float, y: float) -> Point:
+        """A point of the field as a point of the plane."""
+        cosine, sine = math.cos(self.theta), math.sin(self.theta)
+        return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
+
+    def corners(self) -> tuple[Point, ...]:
+        """Lower left, lower right, upper right, upper left."""
+        return tuple(self.place(x, y) for x, y in ((0, 0), (FIELD, 0), (FIELD, FIELD), (0, FIELD)))
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """Strokes that only ever grow in number, until they are another drawing.
+
+    Attributes:
+        strokes: The newest of them, oldest first.
+        forgotten: How many there were before the first of `strokes`.
+        edition: A number that is another one for another drawing.
+        box: What holds all of them, where that is known.
+    """
+
+    strokes: Sequence[Stroke] = ()
+    forgotten: int = 0
+    edition: int = 0
+    box: Box | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PlanePicture:
+    """What there is to see at one moment, in one fixed frame.
+
+    Attributes:
+        fixed: The fixed frame; empty where there are no frames.
+        frames: All frames of its tree, first come first.
+        field: What the turtles draw on, where it can be placed.
+        pen: What they drew, in the field's own metres.
+        trails: The ways of frames that move, in metres of the fixed frame.
+        pair: Target and source, which are joined by a line of their own.
+        apart: The other trees, which nothing joins to this one; each in its own root.
+        nowhere: Frames of this tree that have no pose at this moment.
+    """
+
+    fixed: str = ""
+    frames: tuple[PlaneFrame, ...] = ()
+    field: TurtleField | None = None
+    pen: Drawn = Drawn()
+    trails: Drawn = Drawn()
+    pair: tuple[str, str] = ("", "")
+    apart: tuple["PlanePicture", ...] = ()
+    nowhere: tuple[str, ...] = ()
+
+    def bounds(self) -> Box:
+        """All there is; what does not stand on the field gets room beside it."""
+        field = None if self.field is None else _box(self.field.corners())
+        points = [(one.x, one.y) for one in self.frames]
+        if self.trails.box is not None:
+            left, bottom, right, top = self.trails.box
+            points += [(left, bottom), (right, top)]
+        if field is not None:
+            points = [point for point in points if not _holds(field, point)]
+            if not points:
+                return field
+        if not points:
+            return -1.0, -1.0, 1.0, 1.0
+        left, bottom, right, top = _box(points)
+        room = max(0.08 * max(right - left, top - bottom), 0.5)
+        wide = [(left - room, bottom - room), (right + room, top + room)]
+        return _box(wide if field is None else [*wide, field[:2], field[2:]])
+
+
+class Viewport(NamedTuple):
+    """Which part of a plane is shown: its lower left corner, and metres to a row of cells."""
+
+    left: float
+    bottom: float
+    per_row: float
+
+
+def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
+    """The view that shows a whole box, centred in cells that are twice as high as wide."""
+    left, bottom, right, top = box
+    per_row = max((right - left) / max(1, columns) * 2.0, (top - bottom) / max(1, rows), 1e-9)
+    middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)
+    return Viewport(middle_x - 0.25 * columns * per_row, middle_y - 0.5 * rows * per_row, per_row)
+
+
+def grid_step(per_row: float) -> float:
+    """Metres between two lines of a grid: 1, 2 or 5 of a power of ten, some rows apart."""
+    wanted = _APART * per_row
+    power = 10.0 ** math.floor(math.log10(wanted))
+    return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= wanted * 0.999)
+
+
+def _box(points: Iterable[Point]) -> Box:
+    xs, ys = zip(*points, strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def _holds(box: Box, point: Point) -> bool:
+    left, bottom, right, top = box
+    slack = 1e-6
+    return left - slack <= point[0] <= right + slack and bottom - slack <= point[1] <= top + slack

@@ -1,0 +1,88 @@
+"""Where a recording stands while it plays, in one line."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tftool.base.stamps import Duration, as_seconds
+
+KEYS = (
+    ("space", "pause"),
+    ("→", "next"),
+    ("[ ]", "1 s"),
+    ("{ }", "10 s"),
+    ("↑↓", "rate"),
+    ("0", "start"),
+    ("q", "quit"),
+)
+"""What the keys do, the most needed first; each with a word."""
+
+_ASCII = {"→": "right", "↑↓": "up/down"}
+_SHORTEST_BAR, _LONGEST_BAR = 8, 30
+
+
+@dataclass(frozen=True, slots=True)
+class Playback:
+    """Where a player stands.
+
+    Attributes:
+        done: How much is played, nanoseconds.
+        total: How much there is.
+        rate: How many of its seconds pass in a real one.
+        is_paused: Whether it stands still.
+        laps: How often it has started over.
+    """
+
+    done: Duration
+    total: Duration
+    rate: float = 1.0
+    is_paused: bool = False
+    laps: int = 0
+
+
+def line(
+    playback: Playback, width: int, *, with_keys: bool = True, ascii_only: bool = False
+) -> str:
+    """One line of at most `width` columns: state, seconds, rate, a bar, the keys that fit.
+
+    Args:
+        playback: Where the player stands.
+        width: Columns.
+        with_keys: Whether keys are taken.
+        ascii_only: Whether to draw in ASCII.
+    """
+    state = ("||" if playback.is_paused else "> ") if ascii_only else "⏸▶"[not playback.is_paused]
+    seconds, total = as_seconds(playback.done), as_seconds(playback.total)
+    count = len(f"{total:.2f}")
+    text = f"{state} {seconds:{count}.2f} / {total:.2f} s"
+    text += f"  {'x' if ascii_only else '×'}{playback.rate:.3g}"
+    if playback.laps:
+        text += f"  lap {playback.laps + 1}"
+    keys = _keys(width - len(text) - _SHORTEST_BAR - 4, ascii_only) if with_keys else ""
+    room = min(width - len(text) - len(keys) - 4, _LONGEST_BAR)
+    if room >= _SHORTEST_BAR:
+        full = round(room * min(max(seconds / total, 0.0), 1.0)) if total > 0 else room
+        solid, empty = ("#", ".") if ascii_only else ("━", "─")
+        text += f"  {solid * full}{empty * (room - full)}"
+    return f"{text}  {keys}".rstrip()[: max(width, 0)]
+
+
+def _keys(room: int, ascii_only: bool) -> str:
+    """As many keys with their words as fit; `q` in any case that has room for one."""
+    first, last = KEYS[:-1], KEYS[-1]
+    for count in range(len(first), -1, -1):
+        text = "  ".join(
+            f"{_key(key, ascii_only)} {word}" for key, word in _shown(first, count, last)
+        )
+        if len(text) <= room:
+            return text
+    return ""
+
+
+def _shown(
+    first: Sequence[tuple[str, str]], count: int, last: tuple[str, str]
+) -> Sequence[tuple[str, str]]:
+    return (*first[:count], last)
+
+
+def _key(key: str, ascii_only: bool) -> str:
+    return _ASCII.get(key, key) if ascii_only else key

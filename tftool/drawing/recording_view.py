@@ -1,0 +1,339 @@
+"""What a recording holds, as text and as data."""
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime, timedelta
+from textwrap import wrap
+from typing import Any
+
+from rich.cells import cell_len
+from rich.text import Text
+
+from tftool.base.counts import count
+from tftool.base.escaping import visible
+from tftool.base.fixed_width import middle_cut
+from tftool.base.short_numbers import short_size
+from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp, as_seconds
+from tftool.drawing.table_columns import TableColumn, fit
+from tftool.recordings.contract import Publisher, RecordedTopic
+from tftool.recordings.description_frames import DescribedFrames
+from tftool.recordings.recording import Recording
+from tftool.recordings.recording_summary import EdgeFacts, TreeFacts, edge_facts, oddities, trees
+from tftool.robots.robot_model import Robot
+
+_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+
+
+def as_text(recording: Recording, width: int | None = None, name: str | None = None) -> str:
+    """Everything about a recording, in lines.
+
+    Args:
+        recording: Which.
+        width: Cells a line may take: sentences go on in the next one, columns that have no room
+            are left out. None for all.
+        name: What it is called, where that is not what was opened.
+    """
+    source = recording.source
+    edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
+    topics = recording.topics
+    messages = sum(topic.count for topic in topics)
+    span = source.end - source.start
+    facts = [
+        f"{visible(name or recording.name)}: {recording.source.kind}, {short_size(source.size)}",
+        f"{count(messages, 'message')} on {count(len(topics), 'topic')}, "
+        f"{count(len(recording.transforms), 'transform')} of {count(len(edges), 'edge')}",
+    ]
+    if messages:
+        facts.append(
+            f"Received from {_moment(source.start)} to {_moment(source.end)}: {_seconds(span)}"
+        )
+    if edges:
+        facts.append(
+            f"Stamps   from {_moment(recording.start)} to {_moment(recording.end)}: "
+            f"{_seconds(recording.end - recording.start)}"
+        )
+    lines = [line for fact in facts for line in wrapped(fact, width)]
+    if topics:
+        lines += ["", "Topics"]
+        lines += table(
+            ("name", "type", "messages", "rate", "publishers"),
+            _topics(recording, topics),
+            width,
+            goes=("publishers", "type"),
+            right=("messages", "rate"),
+        )
+    if edges:
+        lines += ["", *wrapped(f"Frames: {_forest(forest)}", width)]
+        lines += table(
+            ("edge", "kind", "transforms", "rate", "delay", "least … most", "from"),
+            list(map(_row, edges)),
+            width,
+            goes=("kind", "transforms", "from", "least … most", "delay"),
+            right=("transforms", "rate", "delay", "least … most"),
+        )
+    if recording.robot is not None:
+        lines += ["", *wrapped(f"Robot: {_robot(recording, recording.robot)}", width)]
+    odd = oddities(recording, edges, forest)
+    for heading, sentences in (("Damage", recording.damage), ("Odd", odd)):
+        if sentences:
+            lines += ["", heading]
+            for sentence in sentences:
+                lines += wrapped(visible(sentence), width, "  ")
+    return "\n".join(lines) + "\n"
+
+
+def wrapped(sentence: str, width: int | None, indent: str = "") -> list[str]:
+    """A sentence behind `indent`; broken between words where a line has an end."""
+    if width is None or len(indent) + cell_len(sentence) <= width:
+        return [indent + sentence]
+    return wrap(
+        sentence,
+        max(width, 20),
+        initial_indent=indent,
+        subsequent_indent=f"{indent}  ",
+        break_on_hyphens=False,
+    )
+
+
+def _topics(recording: Recording, topics: Sequence[RecordedTopic]) -> list[tuple[str, ...]]:
+    span = recording.source.end - recording.source.start
+    publishers = _publishers(recording)
+    return [
+        (
+            visible(topic.name),
+            visible(topic.type),
+            f"{topic.count:,}",
+            f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz" if topic.count > 1 and span else "-",
+            _few(sorted({one.node for one in publishers[topic.name]})),
+        )
+        for topic in topics
+    ]
+
+
+def _publishers(recording: Recording) -> dict[str, list[Publisher]]:
+    """Those of each topic."""
+    found: dict[str, list[Publisher]] = defaultdict(list)
+    for one in recording.publishers:
+        found[one.topic].append(one)
+    return found
+
+
+def _robot(recording: Recording, robot: Robot) -> str:
+    moving = sum(joint.moves for joint in robot.joints.values())
+    found = recording.described or DescribedFrames()
+    text = (
+        f"'{visible(robot.name)}' is described: {count(len(robot.links), 'link')}, "
+        f"{count(len(robot.joints), 'joint')} of which {moving} move"
+    )
+    if found.still or found.moving:
+        text += (
+            f"; {count(len(found.still) + len(found.moving), 'frame')} from it that tf lacks, "
+            f"{len(found.moving)} of them moved by joint states"
+        )
+    if found.gaps:
+        text += f"; {count(len(found.gaps), 'link')} without a frame: {_few(list(found.gaps))}"
+    return text
+
+
+def as_object(recording: Recording, name: str | None = None) -> dict[str, Any]:
+    """The same for programs; moments and durations in nanoseconds."""
+    source, publishers = recording.source, _publishers(recording)
+    edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
+    return {
+        "name": name or recording.name,
+        "kind": source.kind,
+        "bytes": source.size,
+        "log_start_ns": source.start,
+        "log_end_ns": source.end,
+        "start_ns": recording.start,
+        "end_ns": recording.end,
+        "robot": None
+        if recording.robot is None or recording.described is None
+        else {
+            "name": recording.robot.name,
+            "links": len(recording.robot.links),
+            "added_still": list(recording.described.still),
+            "added_moving": list(recording.described.moving),
+            "gaps": list(recording.described.gaps),
+        },
+        "topics": [_topic_object(topic, publishers[topic.name]) for topic in recording.topics],
+        "edges": [_edge_object(edge) for edge in edges],
+        "trees": [{"root": tree.root, "frames": tree.frames} for tree in forest],
+        "damage": list(recording.damage),
+        "odd": oddities(recording, edges, forest),
+    }
+
+
+def _topic_object(topic: RecordedTopic, publishers: Sequence[Publisher]) -> dict[str, Any]:
+    return {
+        "name": topic.name,
+        "type": topic.type,
+        "encoding": topic.encoding,
+        "count": topic.count,
+        "transforms": topic.transforms,
+        "static": topic.static,
+        "publishers": [
+            {"node": one.node, "durability": one.durability, "reliability": one.reliability}
+            for one in publishers
+        ],
+    }
+
+
+def _edge_object(edge: EdgeFacts) -> dict[str, Any]:
+    offset = edge.offset
+    return {
+        "parent": edge.parent,
+        "child": edge.child,
+        "static": edge.static,
+        "count": edge.count,
+        "rate": edge.rate,
+        "first_ns": edge.first,
+        "last_ns": edge.last,
+        "offset_ns": None
+        if offset is None
+        else {"least": offset.least, "median": offset.median, "most": offset.most},
+        "publishers": list(edge.publishers),
+    }
+
+
+def _row(edge: EdgeFacts) -> tuple[str, ...]:
+    delay = span = "-"
+    if edge.offset is not None and edge.offset.least >= SIMULATED_BELOW:
+        # How many decades later says nothing; that it is another clock does.
+        delay = "other clock"
+    elif edge.offset is not None:
+        delay = _offset(edge.offset.median)
+        span = f"{_offset(edge.offset.least)} … {_offset(edge.offset.most)}"
+    return (
+        f"{visible(edge.child)} in {visible(edge.parent)}",
+        "static" if edge.static else "dynamic",
+        f"{edge.count:,}",
+        "-" if edge.rate is None else f"{edge.rate:.1f} Hz",
+        delay,
+        span,
+        _few(edge.publishers),
+    )
+
+
+def _forest(forest: Sequence[TreeFacts]) -> str:
+    total = sum(tree.frames for tree in forest)
+    words = [f"{tree.frames} with the root {visible(tree.root)}" for tree in forest[:4]]
+    more = f" and {len(forest) - 4} trees more" if len(forest) > 4 else ""
+    if len(forest) == 1:
+        return f"{total} in 1 tree with the root {visible(forest[0].root)}"
+    return f"{total} in {len(forest)} trees: {', '.join(words)}{more}"
+
+
+_WIDEST = 120
+_NARROW = (32, 16)
+"""What a column that may go is cut to first, and then."""
+
+
+def table(
+    heads: tuple[str, ...],
+    rows: list[tuple[str, ...]],
+    width: int | None = None,
+    *,
+    goes: tuple[str, ...] = (),
+    right: tuple[str, ...] = (),
+) -> list[str]:
+    """Lines of columns, as wide as what is in them within reason; the last one is not padded.
+
+    Args:
+        heads: What stands above them.
+        rows: What stands in them.
+        width: Cells a line may take; None for as many as it needs.
+        goes: Columns that shrink, then are left out where there is no room, in that order.
+        right: Columns of numbers, which stand at the right end.
+    """
+    widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
+    lines = [
+        "  "
+        + "  ".join(
+            cell.rjust(width) if head in right else cell.ljust(width)
+            for head, cell, width in zip(heads, row, widths, strict=True)
+        ).rstrip()
+        for row in (heads, *rows)
+    ]
+    if width is None or max(map(cell_len, lines)) <= width:
+        return lines
+    columns = [
+        TableColumn(
+            head,
+            [(row[at], "") for row in rows],
+            stands_right=head in right,
+            # A number without its middle is another number.
+            caps=_NARROW if head in goes and head not in right else (),
+            goes=goes.index(head) + 1 if head in goes else 0,
+        )
+        for at, head in enumerate(heads)
+        if at
+    ]
+    longest = max(map(cell_len, [heads[0], *(row[0] for row in rows)]))
+    fitted = fit(columns, width - 2, wanted=longest, longest=longest)
+    names = [Text(middle_cut(row[0], fitted.room)) for row in rows]
+    shown = [fitted.heading(heads[0]), *(fitted.row(at, name) for at, name in enumerate(names))]
+    return [f"  {line.plain}" for line in shown]
+
+
+def _few(names: Sequence[str]) -> str:
+    shown = ", ".join(visible(name) for name in names[:3] if name) or "-"
+    return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
+
+
+def _offset(duration: Duration) -> str:
+    if abs(duration) < NANOSECONDS:
+        return f"{duration / 1e6:.1f} ms"
+    return f"{as_seconds(duration):.3f} s"
+
+
+def _seconds(duration: Duration) -> str:
+    return f"{as_seconds(duration):.3f} s"
+
+
+def _moment(stamp: Stamp) -> str:
+    if stamp < SIMULATED_BELOW:
+        return f"{as_seconds(stamp):.3f} s"
+    try:
+        return (_EPOCH + timedelta(microseconds=stamp // 1000)).strftime("%Y-%m-%d %H:%M:%S.%f UTC")
+    except OverflowError:
+        return f"{as_seconds(stamp):.3f} s"
+
+
+def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str:
+    """Several recordings, a line each; below them what is wrong with which.
+
+    Args:
+        rows: What each holds, or why it cannot be read.
+        width: As `as_text` takes it.
+    """
+    heads = ("recording", "kind", "length", "messages", "transforms", "frames", "trees")
+    lines: list[tuple[str, ...]] = []
+    for row in rows:
+        facts: tuple[str, ...] = ("-",) * 6
+        if row["unreadable"] is None:
+            facts = (
+                str(row["kind"]),
+                f"{row['seconds']:.1f} s",
+                *(f"{row[one]:,}" for one in heads[3:]),
+            )
+        lines.append((visible(str(row["source"])), *facts))
+    told = table(
+        heads,
+        lines,
+        width,
+        goes=("kind", "trees", "messages", "frames", "transforms"),
+        right=heads[2:],
+    )
+    wrong = {
+        "Unreadable": [row for row in rows if row["unreadable"] is not None],
+        "Damage": [row for row in rows if row["unreadable"] is None and row["damage"]],
+    }
+    for heading, found in wrong.items():
+        if found:
+            told += ["", heading]
+        for row in found:
+            name, why = str(row["source"]), row["unreadable"] or "; ".join(row["damage"])
+            # A refusal names its file most of the time.
+            told += wrapped(visible(why if name in why else f"{name}: {why}"), width, "  ")
+    return "\n".join(told) + "\n"

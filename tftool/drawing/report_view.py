@@ -1,0 +1,169 @@
+"""What was found: as a table, as rows for programs, as a JUnit report."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
+
+from tftool.base.counts import count
+from tftool.base.escaping import visible
+from tftool.base.report import Judgement, Report
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+def render(reports: Sequence[Report]) -> "Table":
+    """A line for each report, and below it, in full, what is not as it should be."""
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table.grid(padding=(0, 2), pad_edge=False)
+    for _ in range(3):
+        table.add_column(overflow="fold")
+    for report in reports:
+        ok = Text("ok", "green") if report.ok else Text("FAILED", "bold red")
+        table.add_row(Text(visible(report.name), "bold"), ok, Text(_told(report)))
+        for judgement in report.judgements:
+            if not judgement.ok:
+                where = f"line {judgement.line}: " if judgement.line else ""
+                when = "" if judgement.at is None else f" at {judgement.at:g} s"
+                found = f"found{when}: {visible(judgement.found).rstrip()}"
+                table.add_row("", "", Text(f"{where}{visible(judgement.subject)}"))
+                table.add_row("", "", Padding(Text(found), (0, 0, 0, 2)))
+        if report.failure and report.judgements:
+            table.add_row("", "", Text("\n".join(_lines(report.failure))))
+    return table
+
+
+def _told(report: Report) -> str:
+    if report.judgements:
+        held = sum(judgement.ok for judgement in report.judgements)
+        return f"{held} of {count(len(report.judgements), 'expectation')} held"
+    if report.failure:
+        return _lines(report.failure)[0].rstrip(":")
+    return "nothing is expected"
+
+
+def render_all(reports: Sequence[Report]) -> "Table":
+    """Every judgement in a table, grouped by report; what is not as it should be stands out."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table.add_column("scenario", overflow="fold")
+    table.add_column("expected", overflow="fold", ratio=3)
+    table.add_column("found", overflow="fold", ratio=2)
+    table.add_column("")
+    for report in reports:
+        name = Text(visible(report.name), "bold")
+        for judgement in report.judgements:
+            ok = Text("ok", "green") if judgement.ok else Text("FAILED", "bold red")
+            table.add_row(name, Text(visible(judgement.subject)), Text(_found(judgement)), ok)
+            name = Text("")
+        if report.failure:
+            table.add_row(name, "", Text(_lines(report.failure)[0]), Text("FAILED", "bold red"))
+        elif not report.judgements:
+            table.add_row(name, Text("nothing", "dim"), "", Text("ok", "green"))
+        table.add_section()
+    return table
+
+
+def summary(reports: Sequence[Report]) -> str:
+    """All of it in one sentence."""
+    bad = [report for report in reports if not report.ok]
+    judgements = [judgement for report in reports for judgement in report.judgements]
+    held = sum(judgement.ok for judgement in judgements)
+    scenarios = count(len(reports), "scenario")
+    whole = f"{held} of {count(len(judgements), 'expectation')} held"
+    if bad:
+        names = ", ".join(visible(report.name) for report in bad)
+        return f"{scenarios}, {len(bad)} failed ({names}): {whole}"
+    return f"{scenarios}, none failed: {whole}"
+
+
+def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
+    """The same for programs: one mapping a report, with names exactly as they are."""
+    return [
+        {
+            "scenario": report.name,
+            "file": report.file,
+            "ok": report.ok,
+            "lasted": report.lasted,
+            "failure": report.failure,
+            "expectations": [
+                {
+                    "expectation": judgement.subject,
+                    "line": judgement.line,
+                    "ok": judgement.ok,
+                    "expected": judgement.expected,
+                    "found": judgement.found,
+                    "at": judgement.at,
+                }
+                for judgement in report.judgements
+            ],
+        }
+        for report in reports
+    ]
+
+
+def as_junit(
+    reports: Sequence[Report], command: str = "tftool check", whole: str = "plays to its end"
+) -> str:
+    """The same as a JUnit XML document; times are those of the scenarios' own clocks.
+
+    Args:
+        reports: What came of each thing.
+        command: What looked at them.
+        whole: The case that stands for one without results of its own.
+    """
+    root = ElementTree.Element("testsuites", name=command)
+    for report in reports:
+        suite = ElementTree.SubElement(
+            root, "testsuite", name=visible(report.name), time=f"{report.lasted:.3f}"
+        )
+        for judgement in report.judgements:
+            at = 0.0 if judgement.at is None else judgement.at
+            case = _case(suite, report, judgement.subject, at)
+            if not judgement.ok:
+                message = f"expected {judgement.expected}, found {_found(judgement)}"
+                failure = ElementTree.SubElement(case, "failure", message=visible(message))
+                failure.text = visible(f"{report.file}:{judgement.line}: {message}")
+        if report.failure or not report.judgements:
+            case = _case(suite, report, whole, report.lasted)
+            if report.failure:
+                failure = ElementTree.SubElement(case, "error", message=_lines(report.failure)[0])
+                failure.text = "\n".join(_lines(report.failure))
+        _total(suite, suite)
+    _total(root, root)
+    ElementTree.indent(root)
+    text = ElementTree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+
+
+def _case(
+    suite: ElementTree.Element, report: Report, name: str, seconds: float
+) -> ElementTree.Element:
+    return ElementTree.SubElement(
+        suite,
+        "testcase",
+        classname=visible(report.name),
+        name=visible(name),
+        file=visible(report.file),
+        time=f"{seconds:.3f}",
+    )
+
+
+def _total(element: ElementTree.Element, within: ElementTree.Element) -> None:
+    for key, tag in (("tests", "testcase"), ("failures", "failure"), ("errors", "error")):
+        element.set(key, str(len(list(within.iter(tag)))))
+
+
+def _found(judgement: Judgement) -> str:
+    found = visible(judgement.found)
+    return found if judgement.at is None else f"{found} at {judgement.at:g} s"
+
+
+def _lines(text: str) -> list[str]:
+    return [visible(line) for line in text.split("\n")]

@@ -1,0 +1,144 @@
+"""Who shares a session, in aligned columns."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from datetime import datetime
+from typing import Any
+
+from rich.cells import cell_len
+from rich.text import Text
+
+from tftool.base.escaping import visible
+from tftool.base.fixed_width import middle_cut, wrap_words
+from tftool.drawing.table_columns import TableColumn, fit
+
+ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
+"""What a process is to the others, in words."""
+
+INDENT = "  "
+
+_EVERY_NODES = ("rcl_interfaces/", "type_description_interfaces/")
+"""How the types of those services begin that every node of ROS 2 has."""
+
+
+def lines(
+    found: Mapping[str, Any],
+    *,
+    verbose: bool = False,
+    width: int | None = None,
+    ascii_only: bool = False,
+) -> list[Text]:
+    """Processes, nodes of others, topics and services; names of strangers are made harmless.
+
+    Args:
+        found: What `tftool session --json` writes.
+        verbose: Whether to list the services that every node has.
+        width: Columns of the terminal, where long lists go on in a line of their own; None for
+            one line for each, however long.
+        ascii_only: Whether to keep to ASCII for what is drawn.
+    """
+    writer = _Writer(width, "~" if ascii_only else "…")
+    told = _processes(writer, found["processes"])
+    ours = {node for one in found["processes"] for node in one["nodes"]}
+    others = [node for node in found["nodes"] if node not in ours]
+    if others:
+        told += writer.heading("Other nodes", len(others))
+        told += writer.rows([visible(node) for node in others])
+    told += _topics(writer, found["topics"])
+    told += _services(writer, found["services"], verbose=verbose)
+    return told
+
+
+def _processes(writer: "_Writer", processes: Sequence[Mapping[str, Any]]) -> list[Text]:
+    return writer.heading("Processes", len(processes)) + writer.rows(
+        [f"tftool {visible(one['command'])}" for one in processes],
+        [
+            TableColumn("", [(f"process {one['pid']}", "dim") for one in processes], goes=1),
+            TableColumn("", [(ROLES[one["role"]], "") for one in processes]),
+            TableColumn(
+                "", [(f"since {_clock(one['since'])}", "dim") for one in processes], goes=2
+            ),
+        ],
+        [_names(one["nodes"], "no nodes") for one in processes],
+    )
+
+
+def _topics(writer: "_Writer", topics: Mapping[str, Any]) -> list[Text]:
+    return writer.heading("Topics", len(topics)) + writer.rows(
+        [visible(name) for name in topics],
+        [
+            TableColumn("", [(f"{one['rate']:.1f} Hz", "") for one in topics.values()], True),
+            TableColumn("", [(visible(one["type"]), "cyan") for one in topics.values()], goes=1),
+        ],
+        [
+            f"from {_names(one['publishers'], 'none')}, to {_names(one['subscribers'], 'none')}"
+            for one in topics.values()
+        ],
+    )
+
+
+def _services(writer: "_Writer", services: Mapping[str, Any], *, verbose: bool) -> list[Text]:
+    told = writer.heading("Services", len(services))
+    shown = {
+        name: service["type"]
+        for name, service in services.items()
+        if verbose or not _goes_without_saying(name, service["type"])
+    }
+    types = [(visible(ros_type), "cyan") for ros_type in shown.values()]
+    told += writer.rows([visible(name) for name in shown], [TableColumn("", types, goes=1)])
+    folded = len(services) - len(shown)
+    if folded:
+        sentence = f"and {folded} of parameters and actions (--verbose lists them)"
+        told.append(Text(f"{INDENT}{sentence}", style="dim"))
+    return told
+
+
+class _Writer:
+    """Rows in as many columns as there are, or as many lines."""
+
+    def __init__(self, width: int | None, more: str) -> None:
+        self.width = width
+        self.more = more
+
+    @staticmethod
+    def heading(what: str, count: int) -> list[Text]:
+        """What comes, and how many of it."""
+        return [Text(f"{what} ({count})", style="bold")]
+
+    def rows(
+        self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
+    ) -> list[Text]:
+        """Names in a column, what belongs to them beside, and long lists at the end or below."""
+        if not names:
+            return []
+        longest = max(map(cell_len, names))
+        room = 10**6 if self.width is None else self.width - len(INDENT)
+        wanted = min(longest, max(16, room // 2))
+        fitted = fit(columns, room, wanted=wanted, longest=longest, more=self.more)
+        told = []
+        for place, name in enumerate(names):
+            shown = middle_cut(name, fitted.room, more=self.more)
+            row = Text(INDENT).append_text(fitted.row(place, Text(shown)))
+            if lists and self.width is None:
+                rest = fitted.width - row.cell_len + len(INDENT)
+                row.append(" " * rest + INDENT + lists[place])
+            told.append(row)
+            if lists and self.width is not None:
+                told += [
+                    Text(2 * INDENT + line, style="dim")
+                    for line in wrap_words(lists[place], max(10, self.width - 2 * len(INDENT)))
+                ]
+        return told
+
+
+def _clock(since: float) -> str:
+    return datetime.fromtimestamp(since).strftime("%H:%M:%S")
+
+
+def _names(nodes: Iterable[str], none: str) -> str:
+    return ", ".join(visible(node) for node in sorted(set(nodes))) or none
+
+
+def _goes_without_saying(name: str, ros_type: str) -> bool:
+    """Whether a service is no node's own: one that every node has, or hidden as in ROS 2."""
+    hidden = any(part.startswith("_") for part in name.split("/"))
+    return hidden or ros_type.startswith(_EVERY_NODES)

@@ -1,0 +1,138 @@
+"""What a turtle looks like at any size: a drawn body when there is room, else an arrow.
+
+A body is drawn with quadrant blocks: four pixels and two colours to a cell.
+"""
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from tftool.drawing import theme
+from tftool.messages.turtle_values import Color
+
+ARROWS = "→↗↑↖←↙↓↘"
+ASCII_ARROWS = ">7^F<LvJ"
+"""Heading by octant, east first, counter-clockwise; 7, F, L and J point with their corners."""
+
+_QUADRANTS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
+"""By mask: 1 upper left, 2 upper right, 4 lower left, 8 lower right."""
+
+BODY_FROM = 2.4
+"""Rows per metre from which a body is drawn; under it an arrow says more."""
+
+BADGE_FROM = 0.9
+"""Rows per metre from which the arrow gets a coloured badge of about a metre."""
+
+
+class Cell(NamedTuple):
+    """What one cell of the screen shows. No ground colour: the field's own."""
+
+    text: str
+    ink: Color | None = None
+    ground: Color | None = None
+    bold: bool = False
+
+
+def octant(theta: float) -> int:
+    """Give the nearest of the eight headings: 0 is east, 2 north, counter-clockwise."""
+    # Brought into one turn first: a heading near the largest float would overflow.
+    return round(math.remainder(theta, math.tau) / (math.pi / 4.0)) % 8
+
+
+# Parts of a turtle, nose along +u, in metres: centre, half axes, colour index.
+# The first one hit wins.
+_HEAD, _SHELL, _PLATE, _LEG = range(4)
+_PARTS = (
+    (0.66, 0.0, 0.27, 0.20, _HEAD),
+    (-0.04, 0.0, 0.24, 0.20, _PLATE),
+    (0.0, 0.0, 0.48, 0.40, _SHELL),
+    (0.30, 0.42, 0.14, 0.12, _LEG),
+    (0.30, -0.42, 0.14, 0.12, _LEG),
+    (-0.34, 0.40, 0.12, 0.11, _LEG),
+    (-0.34, -0.40, 0.12, 0.11, _LEG),
+    (-0.58, 0.0, 0.14, 0.05, _LEG),
+)
+_REACH = 0.94
+
+
+def _part(u: float, v: float) -> int | None:
+    for centre_u, centre_v, half_u, half_v, part in _PARTS:
+        across, along = (v - centre_v) / half_v, (u - centre_u) / half_u
+        if across * across + along * along <= 1.0:
+            return part
+    return None
+
+
+def body(
+    x: float, y: float, theta: float, color: Color, per_metre: float
+) -> Iterator[tuple[int, int, Cell]]:
+    """Draw a turtle about a metre across.
+
+    Args:
+        x: Column of its centre, from the left edge, in cells.
+        y: Row of its centre, from the top edge, in cells.
+        theta: Heading, counter-clockwise.
+        color: Of its skin; the shell is a darker kind of it.
+        per_metre: Rows a metre takes; twice as many columns.
+
+    Yields:
+        (column, row, cell), also outside the screen; the caller clips.
+    """
+    shades = {
+        _HEAD: color,
+        _LEG: theme.blend(color, theme.INK, 0.25),
+        _SHELL: theme.blend(color, theme.INK, 0.7),
+        _PLATE: theme.blend(color, theme.INK, 0.45),
+    }
+    cosine, sine = math.cos(theta), math.sin(theta)
+    rows, columns = _REACH * per_metre, 2.0 * _REACH * per_metre
+    for row in range(math.floor(y - rows), math.ceil(y + rows)):
+        for column in range(math.floor(x - columns), math.ceil(x + columns)):
+            parts = []
+            for corner in range(4):
+                right = (column + 0.25 + 0.5 * (corner & 1) - x) / (2.0 * per_metre)
+                up = -(row + 0.25 + 0.5 * (corner >> 1) - y) / per_metre
+                parts.append(_part(cosine * right + sine * up, cosine * up - sine * right))
+            cell = _quadrants(parts, shades)
+            if cell is not None:
+                yield column, row, cell
+
+
+def _quadrants(parts: list[int | None], shades: dict[int, Color]) -> Cell | None:
+    """Show four parts with two colours: the ground's if any corner is free, else the second."""
+    seen = Counter(part for part in parts if part is not None).most_common()
+    if not seen:
+        return None
+    first = seen[0][0]
+    mask = sum(
+        1 << corner
+        for corner, part in enumerate(parts)
+        if part == first or (part is not None and None in parts)
+    )
+    if len(seen) == 1 and None not in parts:
+        # As ground and not as a full block: where lines stand apart, blocks leave gaps.
+        return Cell(" ", None, shades[first])
+    if None not in parts:
+        return Cell(_QUADRANTS[mask], shades[first], shades[seen[1][0]])
+    return Cell(_QUADRANTS[mask], shades[first])
+
+
+def badge(
+    x: float, y: float, theta: float, color: Color, per_metre: float, *, blocks: bool = True
+) -> Iterator[tuple[int, int, Cell]]:
+    """Draw a turtle as an arrow, on a badge where a metre has room for one.
+
+    Args and yields as `body`; without `blocks` in ASCII.
+    """
+    column, row = math.floor(x), math.floor(y)
+    if not blocks:
+        yield column, row, Cell(ASCII_ARROWS[octant(theta)], color, None, True)
+        return
+    arrow = ARROWS[octant(theta)]
+    if per_metre < BADGE_FROM:
+        yield column, row, Cell(arrow, color, None, True)
+        return
+    yield column - 1, row, Cell("▐", color)
+    yield column, row, Cell(arrow, theme.INK, color, True)
+    yield column + 1, row, Cell("▌", color)

@@ -1,0 +1,109 @@
+"""Columns beside a first one, as many as a terminal's width has room for."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+from rich.cells import cell_len
+from rich.text import Text
+
+from tftool.base.fixed_width import middle_cut
+
+GAP = 2
+"""Cells between two columns."""
+
+Cell: TypeAlias = tuple[str, str]
+"""What stands in it, and its style."""
+
+
+@dataclass(frozen=True, slots=True)
+class TableColumn:
+    """Cells under each other.
+
+    Attributes:
+        heading: What is above them.
+        cells: One a row.
+        stands_right: Whether they stand at its right end, as numbers do.
+        caps: How wide it may be at most, from wide to narrow: it shrinks before it goes.
+        goes: In which order columns go where there is no room; 0 for one that stays.
+    """
+
+    heading: str
+    cells: Sequence[Cell]
+    stands_right: bool = False
+    caps: tuple[int, ...] = ()
+    goes: int = 0
+
+    @property
+    def width(self) -> int:
+        """How many cells it takes, within the first of its caps."""
+        longest = max(map(cell_len, [self.heading, *(text for text, _ in self.cells)]))
+        return min([longest, *self.caps[:1]])
+
+    def written(self, text: str, width: int, more: str) -> str:
+        """`text`, cut or padded to exactly `width` cells."""
+        shown = middle_cut(text, width, more=more)
+        room = " " * (width - cell_len(shown))
+        return room + shown if self.stands_right else shown + room
+
+
+@dataclass(frozen=True, slots=True)
+class FittedColumns:
+    """The columns that have room.
+
+    Attributes:
+        columns: From left to right.
+        room: Cells that are left for what stands before them.
+        more: What stands for text that was left out.
+    """
+
+    columns: tuple[TableColumn, ...]
+    room: int
+    more: str = "…"
+
+    @property
+    def width(self) -> int:
+        """How many cells a line takes at most."""
+        return self.room + sum(GAP + one.width for one in self.columns)
+
+    def heading(self, first: str) -> Text:
+        """The line above the rows; `first` is above what stands before the columns."""
+        shown = middle_cut(first, self.room, more=self.more)
+        line = shown + " " * (self.room - cell_len(shown))
+        for one in self.columns:
+            line += " " * GAP + one.written(one.heading, one.width, self.more)
+        return Text(line.rstrip(), style="dim")
+
+    def row(self, place: int, first: Text) -> Text:
+        """One row, behind `first`, which has room."""
+        line = Text(no_wrap=True, overflow="crop").append_text(first)
+        line.append(" " * (self.room - first.cell_len))
+        for one in self.columns:
+            text, style = one.cells[place]
+            line.append(" " * GAP).append(one.written(text, one.width, self.more), style=style)
+        line.rstrip()
+        return line
+
+
+def fit(
+    columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
+) -> FittedColumns:
+    """Keep as many columns as leave `wanted` cells to what stands before them.
+
+    Args:
+        columns: From left to right; one in which nothing stands goes in any case.
+        width: Cells there are.
+        wanted: How many are wanted for the first.
+        longest: How many it can use at all.
+        more: What stands for text that is left out.
+    """
+    kept = [one for one in columns if any(text for text, _ in one.cells)]
+    while True:
+        room = width - sum(one.width + GAP for one in kept)
+        going = [one for one in kept if one.goes]
+        if room >= wanted or not going:
+            return FittedColumns(tuple(kept), min(max(1, room), longest), more)
+        column = min(going, key=lambda one: one.goes)
+        place = kept.index(column)
+        tighter = tuple(cap for cap in column.caps if cap < column.width)
+        kept[place : place + 1] = [replace(column, caps=tighter)] if tighter else []

@@ -1,0 +1,131 @@
+"""Colours: turtlesim's own, a stable one per name, and those of screens, dark and light.
+
+Fading as rviz does is the page's: `screens/browser/page/model.js`.
+"""
+
+import zlib
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, NamedTuple
+
+from tftool.base.stamps import FRAME_TIMEOUT
+from tftool.messages.turtle_values import Color
+
+if TYPE_CHECKING:
+    from rich.style import Style
+
+WALL = Color(255, 92, 87)
+INK = Color(16, 20, 48)
+WHITE = Color(255, 255, 255)
+
+# Apart from each other and readable on turtlesim's blue, also after a terminal
+# has rounded them to the nearest of its 256.
+_PALETTE = (
+    Color(135, 255, 135),
+    Color(255, 215, 95),
+    Color(255, 135, 175),
+    Color(95, 255, 255),
+    Color(255, 175, 95),
+    Color(215, 255, 95),
+    Color(255, 175, 255),
+    Color(175, 255, 215),
+    Color(255, 255, 175),
+    Color(215, 215, 255),
+)
+
+
+def blend(start: Color, end: Color, share: float) -> Color:
+    """Mix two colours: `start` for a share of 0, `end` for 1."""
+    return Color(
+        round(start.r + share * (end.r - start.r)),
+        round(start.g + share * (end.g - start.g)),
+        round(start.b + share * (end.b - start.b)),
+    )
+
+
+def of_name(name: str) -> Color:
+    """Give every name its colour: the same in every run, on every machine.
+
+    Names that end in a number step through the palette, so that `turtle1` and
+    `turtle2` never look alike.
+    """
+    stem = name.rstrip("0123456789")
+    number = name[len(stem) :][-9:]
+    if number.isascii() and number:
+        start = 0 if stem == "turtle" else zlib.crc32(stem.encode("utf-8", "replace"))
+        return _PALETTE[(start + int(number) - 1) % len(_PALETTE)]
+    return _PALETTE[zlib.crc32(name.encode("utf-8", "replace")) % len(_PALETTE)]
+
+
+def hexadecimal(color: Color) -> str:
+    """Write a colour as `#rrggbb`."""
+    return f"#{color.r:02x}{color.g:02x}{color.b:02x}"
+
+
+def ink(color: Color, *, bold: bool = False) -> "Style":
+    """The style of text in a colour."""
+    from rich.style import Style
+
+    return Style(color=hexadecimal(color), bold=bold or None)
+
+
+class Palette(NamedTuple):
+    """What a screen is painted with beside the field: its own colours, dark or light."""
+
+    ground: Color
+    panel: Color
+    text: Color
+    dim: Color
+    accent: Color
+    warning: Color
+    error: Color
+
+
+DARK = Palette(
+    ground=Color(17, 19, 28),
+    panel=Color(24, 27, 40),
+    text=Color(222, 226, 240),
+    dim=Color(126, 133, 160),
+    accent=Color(255, 215, 95),
+    warning=Color(255, 183, 77),
+    error=Color(255, 110, 110),
+)
+LIGHT = Palette(
+    ground=Color(238, 240, 247),
+    panel=Color(250, 251, 254),
+    text=Color(30, 34, 52),
+    dim=Color(104, 110, 135),
+    accent=Color(52, 66, 214),
+    warning=Color(170, 95, 0),
+    error=Color(190, 30, 40),
+)
+
+
+def is_stale(age: float) -> bool:
+    """Whether a frame was silent for a third of `FRAME_TIMEOUT`: its age is worth saying."""
+    # Asked this way round, an age that is not a number is stale.
+    return not age <= FRAME_TIMEOUT / 3.0
+
+
+def of_age(color: Color, age: float, palette: Palette) -> Color:
+    """The colour of a frame without news: its own, then amber, and red when it counts as dead.
+
+    Args:
+        color: Its own.
+        age: Seconds since its latest stamp last changed; 0 for static frames.
+        palette: Of the screen.
+    """
+    if not is_stale(age):
+        return color
+    return palette.warning if age <= FRAME_TIMEOUT else palette.error
+
+
+def readable(color: Color, palette: Palette) -> Color:
+    """A frame's colour, dark enough to be read on a light screen."""
+    return blend(color, INK, 0.55) if palette is LIGHT else color
+
+
+def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool:
+    """Tell from COLORFGBG, which some terminals set, whether their ground is light."""
+    ground = environment.get("COLORFGBG", "").rpartition(";")[2]
+    return ground in {"7", "15"}

@@ -1,0 +1,304 @@
+"""What arrives, how often and how late: tf2_monitor's lines, a table, an object."""
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+from rich.cells import cell_len
+from rich.text import Text
+
+from tftool.base.escaping import visible
+from tftool.base.fixed_width import middle_cut, wrap_words
+from tftool.base.short_numbers import short_duration
+from tftool.base.stamps import FRAME_TIMEOUT, Duration, Stamp, as_seconds
+from tftool.buffer.traffic import FrameTraffic, NetDelay, Series, Traffic
+from tftool.doctor.catalogue import CHECKS
+from tftool.drawing.echo_view import in_words
+from tftool.drawing.table_columns import Cell, TableColumn, fit
+
+NONE = "-"
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """The two frames a monitor was asked about, and what hangs between them.
+
+    Attributes:
+        target: The frame looked up in.
+        source: The frame looked up.
+        frames: From source to target, both included.
+        delay: How old the latest answer was, each time it was asked for.
+    """
+
+    target: str
+    source: str
+    frames: tuple[str, ...]
+    delay: NetDelay
+
+
+def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False) -> str:
+    """Write a report as tf2_monitor does.
+
+    Args:
+        traffic: What came.
+        chain: The pair it is about; None for all frames.
+        as_tf2: Whether to print tf2_monitor's own numbers; see `frames.traffic`.
+
+    Returns:
+        Lines, each with its newline.
+    """
+    found = ["", "", ""]
+    if chain is None:
+        found.append("RESULTS: for all Frames")
+    else:
+        found.append(f"RESULTS: for {in_words(chain.target, chain.source)}")
+        found.append("Chain is: " + " -> ".join(visible(one) for one in chain.frames))
+        average = chain.delay.tf2_average if as_tf2 else chain.delay.average
+        found.append(
+            f"Net delay     avg = {_number(average)}: max = {_number(chain.delay.maximum)}"
+        )
+    found += ["", "Frames:"]
+    found += [frame_line(link, as_tf2=as_tf2) for link in _links(traffic, chain)]
+    found += ["", "All Broadcasters:"]
+    found += [
+        sender_line(name, series, as_tf2=as_tf2) for name, series in sorted(traffic.senders.items())
+    ]
+    return "\n".join(found) + "\n"
+
+
+def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
+    """One frame, as tf2_monitor writes it."""
+    average, maximum = _delays(link.series, as_tf2)
+    return (
+        f"Frame: {visible(link.frame)}, published by {visible(link.sender)}, "
+        f"Average Delay: {average}, Max Delay: {maximum}"
+    )
+
+
+def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
+    """One broadcaster, as tf2_monitor writes it (the missing comma is its own)."""
+    average, maximum = _delays(series, as_tf2)
+    rate = series.tf2_rate if as_tf2 else series.rate
+    return (
+        f"Node: {visible(name)} {_number(rate)} Hz, Average Delay: {average} Max Delay: {maximum}"
+    )
+
+
+def table(
+    now: Stamp,
+    began: Stamp,
+    traffic: Traffic,
+    chain: Chain | None = None,
+    *,
+    width: int,
+    height: int,
+    ascii_only: bool = False,
+) -> Text:
+    """The same to look at: frames, in the order of the chain where there is one, and senders.
+
+    What is late, by the doctor's limits, is amber: dated long before it arrives, or not heard
+    of for many periods; what has been silent for longer still is red.
+
+    Args:
+        now: What the clock reads.
+        began: When listening began.
+        traffic: What came.
+        chain: The pair it is about; None for all frames.
+        width: Columns there are.
+        height: Lines there are; of what is more, the number is told.
+        ascii_only: Whether to keep to ASCII for what is drawn.
+    """
+    links = _links(traffic, chain)
+    if chain is not None:
+        places = {frame: place for place, frame in enumerate(chain.frames)}
+        links.sort(key=lambda link: places[link.frame])
+    more = "~" if ascii_only else "…"
+    parents = [(visible(link.parent), "dim") for link in links]
+    senders = [(visible(link.sender), "dim") for link in links]
+    series = [link.series for link in links]
+    statics = [link.is_static for link in links]
+    columns = [
+        TableColumn("in", parents, caps=(24, 12), goes=4),
+        TableColumn("broadcaster", senders, caps=(24, 16, 11), goes=3),
+        *_measures(now, series, statics, ascii_only),
+    ]
+    names = [(visible(link.frame), _late(now, link.series, link.is_static)) for link in links]
+    frames = _rows("frame", names, columns, width, more)
+
+    by_name = sorted(traffic.senders.items())
+    of_senders = [one for _, one in by_name]
+    measured = _measures(now, of_senders, [False] * len(by_name), ascii_only)
+    names = [(visible(name), _late(now, one, False)) for name, one in by_name]
+    broadcasters = _rows("broadcaster", names, measured, width, more)
+
+    words = wrap_words(_title(as_seconds(now - began), chain), width)
+    title = [Text(middle_cut(line, width, more=more), style="bold") for line in words]
+    room = height - len(title) - 2
+    least = min(len(broadcasters), max(3, room // 3))
+    frames = _within(frames, room - least)
+    broadcasters = _within(broadcasters, room - len(frames))
+    return Text("\n").join([*title, Text(), *frames, Text(), *broadcasters])
+
+
+def _title(seconds: float, chain: Chain | None) -> str:
+    if chain is None:
+        return f"All frames, for {seconds:.0f} s"
+    path = ", ".join(visible(one) for one in chain.frames)
+    return (
+        f"{in_words(chain.target, chain.source)}, for {seconds:.0f} s, by way of {path}: "
+        f"net delay {_milliseconds(chain.delay.average)} on average, "
+        f"{_milliseconds(chain.delay.maximum)} at most"
+    )
+
+
+def _rows(
+    heading: str, names: list[Cell], columns: list[TableColumn], width: int, more: str
+) -> list[Text]:
+    longest = max(cell_len(text) for text, _ in [(heading, ""), *names])
+    wanted = min(longest, max(12, width // 3))
+    fitted = fit(columns, width, wanted=wanted, longest=longest, more=more)
+    return [
+        fitted.heading(heading),
+        *(
+            fitted.row(place, Text(middle_cut(name, fitted.room, more=more), style=style))
+            for place, (name, style) in enumerate(names)
+        ),
+    ]
+
+
+def _within(rows: list[Text], room: int) -> list[Text]:
+    """The first rows, and how many there are more where they are too many."""
+    if len(rows) <= max(2, room):
+        return rows
+    kept = max(1, room - 1)
+    return [*rows[:kept], Text(f"{len(rows) - kept} more", style="bold")]
+
+
+def _measures(
+    now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
+) -> list[TableColumn]:
+    """Rate, delay, and since when nothing came, of what sends again and again."""
+    rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
+    late = [_late(now, one, still) for one, still in zip(series, statics, strict=True)]
+
+    def cells(values: list[str]) -> list[Cell]:
+        return [
+            (NONE, "dim") if still else (value, style)
+            for value, still, style in zip(values, statics, late, strict=True)
+        ]
+
+    shown = [
+        ("static", "dim") if still else (rate, "")
+        for rate, still in zip(rates, statics, strict=True)
+    ]
+    fastest = max([one.rate or 0.0 for one in series], default=0.0)
+    bars = [
+        ("" if still else _bar(one.rate or 0.0, fastest, ascii_only), style or "green")
+        for one, still, style in zip(series, statics, late, strict=True)
+    ]
+    silent = [
+        (f"{short_duration(_silence(now, one))} ago" if _is_silent(now, one, still) else "", style)
+        for one, still, style in zip(series, statics, late, strict=True)
+    ]
+    return [
+        TableColumn("rate", shown, stands_right=True, goes=6),
+        TableColumn("", bars, goes=1),
+        TableColumn(
+            "delay", cells([_milliseconds(one.average_delay) for one in series]), True, goes=5
+        ),
+        TableColumn(
+            "most", cells([_milliseconds(one.maximum_delay) for one in series]), True, goes=2
+        ),
+        TableColumn("last heard", silent, True),
+    ]
+
+
+_EIGHTHS = "▏▎▍▌▋▊▉█"
+BAR = 8
+"""Cells of the longest bar."""
+
+
+def _bar(rate: float, fastest: float, ascii_only: bool) -> str:
+    if fastest <= 0.0 or rate <= 0.0:
+        return ""
+    if ascii_only:
+        return "#" * max(1, round(BAR * rate / fastest))
+    whole, part = divmod(max(1, round(8 * BAR * rate / fastest)), 8)
+    return _EIGHTHS[-1] * whole + (_EIGHTHS[part - 1] if part else "")
+
+
+def _silence(now: Stamp, series: Series) -> Duration:
+    return 0 if series.last is None else now - series.last
+
+
+def _is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
+    if is_static or series.rate is None:
+        return False
+    limits = CHECKS["edge-stopped"].limits
+    return as_seconds(_silence(now, series)) > max(
+        limits["seconds"], limits["periods"] / series.rate
+    )
+
+
+def _late(now: Stamp, series: Series, is_static: bool) -> str:
+    """The style of what is late; "" of what is not."""
+    if _is_silent(now, series, is_static):
+        return "red" if as_seconds(_silence(now, series)) > FRAME_TIMEOUT else "yellow"
+    delay = series.average_delay
+    if is_static or delay is None or delay <= CHECKS["stale-stamp"].limits["transforms"]:
+        return ""
+    return "yellow"
+
+
+def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[str, Any]:
+    """The same for programs: seconds and hertz, null where nothing can be measured."""
+    result: dict[str, Any] = {"at_ns": now}
+    if chain is not None:
+        result |= {
+            "target": chain.target,
+            "source": chain.source,
+            "chain": list(chain.frames),
+            "net_delay": {"average": chain.delay.average, "max": chain.delay.maximum},
+        }
+    result["frames"] = [
+        {
+            "frame": link.frame,
+            "parent": link.parent,
+            "broadcaster": link.sender,
+            "static": link.is_static,
+            **_object(link.series),
+        }
+        for link in _links(traffic, chain)
+    ]
+    result["broadcasters"] = [
+        {"broadcaster": name, **_object(series)} for name, series in sorted(traffic.senders.items())
+    ]
+    return result
+
+
+def _links(traffic: Traffic, chain: Chain | None) -> list[FrameTraffic]:
+    wanted: Collection[str] = traffic.links if chain is None else chain.frames
+    return [link for name, link in sorted(traffic.links.items()) if name in wanted]
+
+
+def _delays(series: Series, as_tf2: bool) -> tuple[str, str]:
+    if as_tf2:
+        return _number(series.tf2_average_delay), _number(series.tf2_maximum_delay)
+    return _number(series.average_delay), _number(series.maximum_delay)
+
+
+def _object(series: Series) -> dict[str, Any]:
+    return {
+        "messages": series.total,
+        "rate": series.rate,
+        "average_delay": series.average_delay,
+        "max_delay": series.maximum_delay,
+    }
+
+
+def _number(value: float | None) -> str:
+    return "unknown" if value is None else format(value, "g")
+
+
+def _milliseconds(value: float | None) -> str:
+    return NONE if value is None else f"{value * 1e3:.1f} ms"

@@ -1,0 +1,246 @@
+"""Pictures of the tree: dot, mermaid, SVG, HTML and PDF, without Graphviz.
+
+dot is view_frames' own text, so that whatever reads frames.gv reads this too. The
+others are ours. A name is a name in all of them, whatever it is made of.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from tftool.base.escaping import distinct, shorten, visible
+from tftool.buffer.sample import Snapshot
+from tftool.drawing import pdf as pdf_writer
+from tftool.drawing import svg as svg_writer
+from tftool.drawing import tree_html as page_writer
+from tftool.drawing.drawn_forest import Forest, grow
+from tftool.drawing.frame_tree import NO_MARKS, Marks
+from tftool.drawing.link_facts import facts, recorded_at
+from tftool.drawing.picture import MOST_DRAWN, lay_out
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """A drawing, ready to be written to a file.
+
+    Attributes:
+        content: Text, or bytes for PDF.
+        left_out: Frames that are not in it.
+        note: A sentence about what is left out or shortened; empty when nothing is.
+    """
+
+    content: str | bytes
+    left_out: int = 0
+    note: str = ""
+
+
+def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
+    """Draw a snapshot in one of `FORMATS`.
+
+    Args:
+        snapshot: What to draw.
+        form: The format.
+        marks: What is wrong with frames: ids of the doctor's checks.
+
+    Raises:
+        KeyError: If there is no such format.
+    """
+    return FORMATS[form](snapshot, marks)
+
+
+def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
+    """Write what view_frames writes, byte for byte while no link is static.
+
+    Static links are dashed. Where view_frames ties its legend to one of several trees, or
+    fails on a loop, every root gets its line, and a loop none. All frames are in it.
+    """
+    named = distinct(frame.frame for frame in snapshot.frames)
+    known = frozenset(named)
+    lines = []
+    for frame in snapshot.frames:
+        if frame.parent is None or frame.parent not in known:
+            continue
+        label = "\\n".join(map(_dot_label, facts(frame).lines(units=False)))
+        dashed = ", style=dashed" if frame.is_static else ""
+        ends = f"{_dot_id(named[frame.parent])} -> {_dot_id(named[frame.frame])}"
+        lines.append(f'{ends}[label=" {label}\\n"{dashed}];\n')
+    if not lines:
+        return Drawing('digraph G { "No tf data received" }')
+
+    # Graphviz decodes HTML's entities in a label that is only implied by the name.
+    entities = [
+        f'{_dot_id(name)}[label="{_dot_label(name)}"];\n' for name in named.values() if "&" in name
+    ]
+    parents = {frame.parent for frame in snapshot.frames}
+    roots = [
+        _dot_id(named[frame.frame])
+        for frame in snapshot.frames
+        if frame.parent is None and frame.frame in parents
+    ]
+    tie = "" if not roots else f"->{roots[0]};" if len(roots) == 1 else f"->{{{' '.join(roots)}}};"
+    return Drawing(
+        "digraph G {\n"
+        + "".join(lines)
+        + "".join(entities)
+        + "edge [style=invis];\n"
+        + ' subgraph cluster_legend { style=bold; color=black; label ="view_frames Result";\n'
+        + f'"{recorded_at(snapshot.now)}"[ shape=plaintext ] ;\n'
+        + "}"
+        + tie
+        + "\n}"
+    )
+
+
+def _dot_id(name: str) -> str:
+    quoted = name.replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{quoted}"'
+
+
+def _dot_label(text: str) -> str:
+    text = visible(text)
+    return text.replace("&", "&amp;").replace("\\", "\\\\").replace('"', '\\"')
+
+
+_MERMAID_LINKS = 450
+"""Mermaid refuses flowcharts of more than 500 links, and of more than 50 000 characters."""
+_MERMAID_TEXT = 49_000
+_MERMAID_NAME = 60
+
+
+def mermaid(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
+    """Write a Mermaid flowchart, as GitHub and many wikis draw it.
+
+    Mermaid refuses large charts. Links then carry their rate alone, and if that is not
+    enough, the frames farthest from their root are left out; either is said in the chart.
+    """
+    forest = grow(snapshot, most=_MERMAID_LINKS)
+    text = _flowchart(snapshot, forest, full=True)
+    note = _left_out(forest)
+    if len(text) > _MERMAID_TEXT:
+        note = f"links carry their rate only: mermaid takes no longer text. {note}".strip()
+        text = _flowchart(snapshot, forest, full=False, note=note)
+    most = len(forest.children)
+    while len(text) > _MERMAID_TEXT:
+        most = most * 3 // 4
+        forest = grow(snapshot, most=most)
+        note = f"links carry their rate only: mermaid takes no longer text. {_left_out(forest)}"
+        text = _flowchart(snapshot, forest, full=False, note=note)
+    return Drawing(text, forest.left_out, note)
+
+
+def _flowchart(snapshot: Snapshot, forest: Forest, *, full: bool, note: str = "") -> str:
+    named = distinct(forest.children)
+    numbers = {name: f"f{number}" for number, name in enumerate(forest.children)}
+    head = [recorded_at(snapshot.now), *filter(None, [note or _left_out(forest)])]
+    if not forest.children:
+        head.append("No tf data received")
+    lines = ["flowchart TD"]
+    lines.append(f'  legend["{"<br>".join(map(_mermaid_text, head))}"]:::legend')
+    for name, number in numbers.items():
+        label = _mermaid_text(shorten(named[name], _MERMAID_NAME))
+        opening, closing = ('(["', '"])') if forest.info[name].parent is None else ('["', '"]')
+        lines.append(f"  {number}{opening}{label}{closing}")
+    for parent, children in forest.children.items():
+        for child in children:
+            frame = forest.info[child]
+            told = facts(frame)
+            words = told.lines(units=True) if full else (f"{told.rate} Hz",)
+            label = "<br>".join(_mermaid_text(shorten(visible(word), 90)) for word in words)
+            link = "-.->" if frame.is_static else "-->"
+            lines.append(f'  {numbers[parent]} {link}|"{label}"| {numbers[child]}')
+    lines.extend(f"  legend ~~~ {numbers[root]}" for root in forest.roots)
+    lines.append("  classDef legend fill:none,stroke:none")
+    return "\n".join(lines) + "\n"
+
+
+def _mermaid_text(text: str) -> str:
+    """Write every sign Mermaid, Markdown or HTML could read as one of theirs by its number."""
+    # "fa:fa-car" would become a picture, and numbers are read before that happens.
+    text = text.replace(":fa-", ":\u200bfa-")
+    return _ACTIVE.sub(lambda found: f"#{ord(found[0])};", text)
+
+
+_ACTIVE = re.compile(r"[^\w\s,:/.\-\u0080-\U0010ffff]|(?<![^\W_])[_.-]|[_.-](?![^\W_])")
+"""Signs that may act; those that names and numbers are full of only where they could."""
+
+
+def svg(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
+    """Draw the trees as SVG, laid out by ourselves; at most `MOST_DRAWN` frames."""
+    picture = lay_out(snapshot, stale=_stale(marks))
+    return Drawing(svg_writer.render(picture), picture.left_out, _picture_note(picture.left_out))
+
+
+def page(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
+    """Draw the trees as one file of HTML: the SVG, and below it every frame in a table."""
+    picture = lay_out(snapshot, stale=_stale(marks))
+    content = page_writer.render(snapshot, svg_writer.render(picture), marks)
+    return Drawing(content, picture.left_out, _picture_note(picture.left_out))
+
+
+def pdf(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
+    """Draw the trees as a PDF page; at most `MOST_DRAWN` frames.
+
+    Letters Helvetica has not are written as their numbers.
+    """
+    picture = lay_out(snapshot, stale=_stale(marks))
+    notes = [_picture_note(picture.left_out), _letters_note(pdf_writer.missing_letters(picture))]
+    note = "; ".join(filter(None, notes))
+    return Drawing(pdf_writer.render(picture), picture.left_out, note)
+
+
+def _stale(marks: Marks) -> frozenset[str]:
+    return frozenset(frame for frame, ids in marks.items() if "edge-stopped" in ids)
+
+
+_LETTERS_NAMED = 12
+
+
+def _letters_note(missing: str) -> str:
+    if not missing:
+        return ""
+    named = " ".join(missing[:_LETTERS_NAMED])
+    more = f" and {len(missing) - _LETTERS_NAMED} more" if len(missing) > _LETTERS_NAMED else ""
+    return (
+        f"the PDF's font has no letter for {named}{more}: each is written as its number, "
+        f"<U+{ord(missing[0]):04X}>; svg and html show them"
+    )
+
+
+def _left_out(forest: Forest) -> str:
+    if not forest.left_out:
+        return ""
+    return (
+        f"{len(forest.children)} of {len(forest.info)} frames shown, {forest.left_out} left out: "
+        "those farthest from their root."
+    )
+
+
+def _picture_note(left_out: int) -> str:
+    if not left_out:
+        return ""
+    return (
+        f"the picture shows {MOST_DRAWN} frames and leaves out {left_out}, "
+        "those farthest from their root; dot and json hold them all"
+    )
+
+
+FORMATS: Mapping[str, Callable[[Snapshot, Marks], Drawing]] = {
+    "dot": dot,
+    "mermaid": mermaid,
+    "svg": svg,
+    "html": page,
+    "pdf": pdf,
+}
+"""The formats by name."""
+
+SUFFIXES: Mapping[str, str] = {
+    ".dot": "dot",
+    ".gv": "dot",
+    ".mmd": "mermaid",
+    ".mermaid": "mermaid",
+    ".svg": "svg",
+    ".html": "html",
+    ".htm": "html",
+    ".pdf": "pdf",
+}
+"""The format a file's suffix asks for."""

@@ -1,0 +1,88 @@
+"""The comparison in Python: of recordings, buffers and robot descriptions, in any mix."""
+
+import os
+
+from tftool.base.errors import UsageError
+from tftool.buffer.buffer import Buffer
+from tftool.frames.differences import Allowance, Differences, Side, compare
+from tftool.recordings.find import Kind, find
+from tftool.recordings.recording import Recording, open_recording
+from tftool.robots.robot_model import Robot, load_urdf
+from tftool.robots.static_publishers import StaticFrames, load_statics
+
+Comparable = Recording | Robot | Buffer | StaticFrames | str | os.PathLike[str]
+"""What has frames to compare; a path names a recording, a description or a launch file."""
+
+
+def diff(
+    a: Comparable,
+    b: Comparable,
+    *,
+    mm: float = 1.0,
+    deg: float = 0.1,
+    rate_percent: float | None = None,
+    align_starts: bool = False,
+) -> Differences:
+    """Say what differs between two sets of frames, link by link; see `compare`.
+
+        for one in tftool.diff("monday.mcap", "robot.urdf").changed:
+            print(one.child, *one.changes)
+
+    Args:
+        a: Frames, or the path of a file of them.
+        b: What they are compared with.
+        mm: How far a frame may lie from where it lay, millimetres.
+        deg: How much it may be turned, degrees.
+        rate_percent: How much a rate may differ; None where rates do not count.
+        align_starts: Whether moments count from each one's own start.
+
+    Returns:
+        Every link with what changed; false where nothing did.
+
+    Raises:
+        InputError: If a path cannot be read, or one of the two has no frames.
+        UsageError: If a path names a scenario, which has to be played first.
+    """
+    allowance = Allowance(mm, deg, rate_percent)
+    return compare(side_of(a, "A"), side_of(b, "B"), allowance, align_starts=align_starts)
+
+
+def side_of(frames: Comparable, name: str) -> Side:
+    """Take frames as one side of a comparison.
+
+    Args:
+        frames: What they come from.
+        name: What it is called where it has no name of its own.
+
+    Raises:
+        InputError: If a path cannot be read.
+        UsageError: If it names a scenario.
+    """
+    if isinstance(frames, str | os.PathLike):
+        return _opened(os.fspath(frames))
+    if isinstance(frames, Buffer):
+        stamps = [int(one.stamps[0]) for one in map(frames.samples, frames.frames()) if len(one)]
+        return Side(name, frames, min((one for one in stamps if one), default=0))
+    if isinstance(frames, Robot):
+        return Side(frames.name, frames.buffer(), 0, joints_of(frames))
+    return Side(frames.name, frames.buffer, frames.start)
+
+
+def joints_of(robot: Robot) -> frozenset[str]:
+    """The links of a robot whose place its description leaves open."""
+    return frozenset(one.child for one in robot.joints.values() if one.moves)
+
+
+def _opened(path: str) -> Side:
+    found = find(path)
+    if found.kind is Kind.SCENARIO:
+        raise UsageError(
+            f"'{path}' is a scenario, which has to be played first: 'tftool diff' does, or give "
+            "the buffer of a world."
+        )
+    if found.kind is Kind.STATICS:
+        return side_of(load_statics(found.paths[0], path), path)
+    if found.kind is Kind.DESCRIPTION:
+        return side_of(load_urdf(found.paths[0]), path)
+    with open_recording(path) as recording:
+        return side_of(recording, path)

@@ -1,0 +1,386 @@
+"""Two sets of frames, link by link: what came, went, hangs elsewhere, and lies elsewhere."""
+
+from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import SIMULATED_BELOW, Duration, Stamp
+from tftool.buffer.batch.transform_array import SampleColumns
+from tftool.buffer.buffer import Buffer
+from tftool.geometry import rigid_arrays as batch
+from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.geometry.rigid import Transform
+
+Stamps: TypeAlias = npt.NDArray[np.int64]
+
+MOST_MOMENTS: Final = 2_000_000
+"""Moments of one link at which it is compared; of more, every second, third … is taken."""
+
+
+class Behaviour(StrEnum):
+    """How a link behaves."""
+
+    static = "static"
+    moving = "moving"
+    joint = "joint"
+    """A joint of a robot description: it moves, and the description does not say where it is."""
+
+
+class Change(StrEnum):
+    """What became of a link from A to B."""
+
+    added = "added"
+    gone = "gone"
+    reparented = "re-parented"
+    kind = "kind"
+    """Static in the one, moving in the other."""
+
+    pose = "pose"
+    """It lies elsewhere, by more than the tolerance."""
+
+    rate = "rate"
+    same = "same"
+
+
+@dataclass(frozen=True, slots=True)
+class Allowance:
+    """What a difference may be before it counts.
+
+    Attributes:
+        millimetres: Of places.
+        degrees: Of turns.
+        rate_percent: Of rates; None where rates do not count.
+    """
+
+    millimetres: float = 1.0
+    degrees: float = 0.1
+    rate_percent: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Side:
+    """One of the two sets of frames.
+
+    Attributes:
+        name: What it is called, for people.
+        buffer: Its frames.
+        start: The first moment there is data of, nanoseconds.
+        joints: The frames whose place a description leaves open.
+    """
+
+    name: str
+    buffer: Buffer
+    start: Stamp = 0
+    joints: AbstractSet[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class LinkState:
+    """One link in one of the two.
+
+    Attributes:
+        parent: What it hangs from, at last.
+        kind: How it behaves.
+        count: How many samples there are.
+        rate: Hertz, by the median of its periods; None of what does not move.
+        pose: The child in the parent, where it holds at all times; else None.
+    """
+
+    parent: str
+    kind: Behaviour
+    count: int
+    rate: float | None
+    pose: Transform | None
+
+
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """How far one link lies in B from where it lies in A.
+
+    Attributes:
+        millimetres: Distance; of what moves the root mean square.
+        degrees: Turn; likewise.
+        worst_millimetres: The largest distance.
+        worst_degrees: The largest turn.
+        worst_at: The stamp of A of the largest one, measured in tolerances; None of a static.
+        moments: At how many moments they were compared.
+        moved_mm: What it moved by, x y z in A's parent, where both hold at all times.
+        turned_deg: What it turned by, roll pitch yaw, likewise.
+    """
+
+    millimetres: float
+    degrees: float
+    worst_millimetres: float
+    worst_degrees: float
+    worst_at: Stamp | None = None
+    moments: int = 1
+    moved_mm: tuple[float, float, float] | None = None
+    turned_deg: tuple[float, float, float] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LinkDifference:
+    """What became of one link.
+
+    Attributes:
+        child: The frame.
+        changes: What changed; `Change.same` alone if nothing did, within the tolerance.
+        before: The link in A; None where it is not there.
+        after: The link in B; None where it is not there.
+        displacement: How far apart the two lie; None where that cannot be told.
+        note: Why it cannot be told, where one may wonder.
+    """
+
+    child: str
+    changes: tuple[Change, ...]
+    before: LinkState | None
+    after: LinkState | None
+    displacement: Displacement | None = None
+    note: str = ""
+
+    @property
+    def is_same(self) -> bool:
+        """Whether nothing changed that counts."""
+        return self.changes == (Change.same,)
+
+    @property
+    def parent(self) -> str:
+        """What it hangs from: in A, else in B."""
+        state = self.before or self.after
+        return "" if state is None else state.parent
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Differences:
+    """All links of both sides.
+
+    Attributes:
+        first: What A is called.
+        second: What B is called.
+        tolerance: What counted as a difference.
+        links: Every link, by the order of A, then of B.
+        start: The first moment of A, from which times are told, nanoseconds.
+        shift: What was added to stamps of A to find those of B, nanoseconds.
+        notes: What was assumed, as sentences.
+    """
+
+    first: str
+    second: str
+    tolerance: Allowance
+    links: tuple[LinkDifference, ...]
+    start: Stamp = 0
+    shift: Duration = 0
+    notes: tuple[str, ...] = ()
+
+    @property
+    def changed(self) -> tuple[LinkDifference, ...]:
+        """The links that differ by more than the tolerance."""
+        return tuple(one for one in self.links if not one.is_same)
+
+    def __bool__(self) -> bool:
+        """Whether anything differs."""
+        return bool(self.changed)
+
+
+def compare(
+    first: Side,
+    second: Side,
+    tolerance: Allowance | None = None,
+    *,
+    align_starts: bool = False,
+) -> Differences:
+    """Compare two sets of frames, link by link.
+
+    Statics are compared as they are. What moves in both is compared at the stamps they share;
+    where they share none, at those of A, between samples of B. Two clocks are never mixed: if
+    one side counts from 1970 and the other from the start of a simulation, both count from
+    their own start.
+
+    Args:
+        first: A.
+        second: B.
+        tolerance: What may differ.
+        align_starts: Whether both count from their own start in any case.
+
+    Raises:
+        InputError: If one of the two has no frames.
+    """
+    tolerance = tolerance or Allowance()
+    for side in (first, second):
+        if not side.buffer.frames():
+            raise InputError(f"{side.name} has no frames: there is nothing to compare.")
+    held = [_held(side) for side in (first, second)]
+    notes = []
+    shift = 0
+    both_move = all(any(not one.is_static for one in side.values()) for side in held)
+    if align_starts:
+        shift = second.start - first.start
+    elif both_move and (first.start < SIMULATED_BELOW) != (second.start < SIMULATED_BELOW):
+        shift = second.start - first.start
+        notes.append("The two count on different clocks: each from its own start.")
+    children = list(dict.fromkeys([*held[0], *held[1]]))
+    # What lies beyond what a number holds is infinitely far, and no news.
+    with np.errstate(over="ignore", invalid="ignore"):
+        links = [_compared(child, first, second, held, shift, tolerance) for child in children]
+    if any(one.note == APART for one in links):
+        notes.append("Moving links that share no time were not compared: try --align start.")
+    return Differences(
+        first.name, second.name, tolerance, tuple(links), first.start, shift, tuple(notes)
+    )
+
+
+APART: Final = "no time in common"
+
+Held = dict[str, SampleColumns]
+
+
+def _held(side: Side) -> Held:
+    columns = {frame: side.buffer.samples(frame) for frame in side.buffer.frames()}
+    return {frame: one for frame, one in columns.items() if len(one)}
+
+
+def _compared(
+    child: str,
+    first: Side,
+    second: Side,
+    held: list[Held],
+    shift: Duration,
+    tolerance: Allowance,
+) -> LinkDifference:
+    before, after = (
+        _state(side, found[child]) if child in found else None
+        for side, found in zip((first, second), held, strict=True)
+    )
+    if before is None or after is None:
+        change = Change.added if before is None else Change.gone
+        return LinkDifference(child, (change,), before, after)
+    changes = []
+    offset, note = None, ""
+    if before.parent != after.parent:
+        changes.append(Change.reparented)
+    if Behaviour.static in (before.kind, after.kind) and before.kind is not after.kind:
+        changes.append(Change.kind)
+    if before.pose is not None and after.pose is not None:
+        offset = _static_offset(second.buffer, child, before, after)
+    elif Behaviour.joint in (before.kind, after.kind):
+        note = "a joint, whose place is left open"
+    else:
+        offset, note = _moving_offset(child, first, second, held, shift, before.parent, tolerance)
+    if offset is not None and (
+        # Asked this way round, NaN is a difference.
+        not offset.worst_millimetres <= tolerance.millimetres
+        or not offset.worst_degrees <= tolerance.degrees
+    ):
+        changes.append(Change.pose)
+    if (
+        tolerance.rate_percent is not None
+        and before.rate
+        and after.rate
+        and abs(after.rate / before.rate - 1.0) * 100.0 > tolerance.rate_percent
+    ):
+        changes.append(Change.rate)
+    return LinkDifference(child, tuple(changes) or (Change.same,), before, after, offset, note)
+
+
+def _state(side: Side, held: SampleColumns) -> LinkState:
+    parent = str(held.parents[-1])
+    if held.is_static:
+        kind = Behaviour.joint if held.frame in side.joints else Behaviour.static
+        row = held.poses[-1].tolist()
+        pose = Transform(row[:3], row[3:]) if kind is Behaviour.static else None
+        return LinkState(parent, kind, len(held), None, pose)
+    periods = np.diff(held.stamps)
+    periods = periods[periods > 0]
+    rate = 1e9 / float(np.median(periods)) if len(periods) else None
+    return LinkState(parent, Behaviour.moving, len(held), rate, None)
+
+
+def _static_offset(
+    second: Buffer, child: str, before: LinkState, after: LinkState
+) -> Displacement | None:
+    """How far the child lies in B from where it lies in A, both seen from A's parent."""
+    old, new = before.pose, after.pose
+    assert old is not None
+    if before.parent != after.parent:
+        if not second.can_transform(before.parent, child):
+            return None
+        new = second.lookup_transform(before.parent, child).transform
+    assert new is not None
+    moved = [1000.0 * (b - a) for a, b in zip(old.translation, new.translation, strict=True)]
+    turn = (old.inverse() @ new).rotation
+    distance = float(np.linalg.norm(moved))
+    degrees = float(
+        np.degrees(batch.angles_between(np.array(old.rotation), np.array(new.rotation)))
+    )
+    roll, pitch, yaw = np.degrees(rpy_from_quaternion(turn)).tolist()
+    return Displacement(
+        distance,
+        degrees,
+        distance,
+        degrees,
+        moved_mm=(moved[0], moved[1], moved[2]),
+        turned_deg=(roll, pitch, yaw),
+    )
+
+
+def _moving_offset(
+    child: str,
+    first: Side,
+    second: Side,
+    held: list[Held],
+    shift: Duration,
+    parent: str,
+    tolerance: Allowance,
+) -> tuple[Displacement | None, str]:
+    """The same for what moves, seen from A's parent, at the stamps the two share."""
+    stamps = _common(held[0][child], held[1][child], shift)
+    if not len(stamps):
+        return None, APART
+    stamps = stamps[:: -(-len(stamps) // MOST_MOMENTS)]
+    if not (first.buffer.frame_exists(parent) and second.buffer.frame_exists(parent)):
+        return None, f"there is no '{parent}' in the other"
+    old = first.buffer.lookup_transforms(parent, child, stamps, missing="nan")
+    new = second.buffer.lookup_transforms(parent, child, stamps + shift, missing="nan")
+    both = old.valid & new.valid
+    if not both.any():
+        return None, f"it is not joined to '{parent}' in both at one time"
+    old, new, stamps = old[both], new[both], stamps[both]
+    millimetres = 1000.0 * np.linalg.norm(new.translations - old.translations, axis=1)
+    degrees = np.degrees(batch.angles_between(old.rotations, new.rotations))
+    # In tolerances, so that one of the two kinds is not always the worst.
+    badness = np.maximum(
+        millimetres / max(tolerance.millimetres, 1e-9), degrees / max(tolerance.degrees, 1e-9)
+    )
+    worst = int(np.argmax(badness))
+    return (
+        Displacement(
+            _root_mean_square(millimetres),
+            _root_mean_square(degrees),
+            float(millimetres.max()),
+            float(degrees.max()),
+            int(stamps[worst]),
+            len(stamps),
+        ),
+        "",
+    )
+
+
+def _common(old: SampleColumns, new: SampleColumns, shift: Duration) -> Stamps:
+    """Stamps of A at which both have something to say."""
+    if old.is_static or new.is_static:
+        return np.unique(new.stamps - shift if old.is_static else old.stamps)
+    shared: Stamps = np.intersect1d(old.stamps, new.stamps - shift)
+    if len(shared) > 1:
+        return shared
+    low, high = int(new.stamps[0]) - shift, int(new.stamps[-1]) - shift
+    own = np.unique(old.stamps)
+    return own[(own >= low) & (own <= high)]
+
+
+def _root_mean_square(values: batch.Floats) -> float:
+    return float(np.sqrt(np.mean(values * values)))

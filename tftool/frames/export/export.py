@@ -1,0 +1,290 @@
+"""Frames to files of other tools: which format a name asks for, and what goes into it."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import UsageError, without_frames
+from tftool.base.stamps import LATEST, Duration, Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.frames.export import frame_messages, static_files, trajectory_files
+from tftool.frames.export.digits import DECIMALS
+from tftool.frames.export.export_formats import TABLES, Format, format_of
+from tftool.frames.export.trajectory_files import whole_file
+from tftool.frames.pair_samples import Moments, Stamps, Trajectory, sample
+from tftool.recordings.contract import Progress
+from tftool.recordings.recording_writer import library_name
+
+if TYPE_CHECKING:
+    from tftool.recordings.recording import Recording
+    from tftool.robots.robot_model import Robot
+
+Framed: TypeAlias = "Buffer | Recording | Robot"
+"""What frames are exported from; of a robot description with every joint at rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """How an export is written; each format takes what concerns it.
+
+    Attributes:
+        decimals: Of numbers in texts; 17 writes each as short as it can be read back.
+        rpy: Whether CSV and Parquet get roll, pitch and yaw, too.
+        foxglove: Whether MCAP gets foxglove.FrameTransforms in the place of tf2_msgs.
+        with_moving: Whether URDF gets links that move, too, as floating joints.
+        root: The frame a URDF or the like begins with; None for all there is.
+        time: When links that move are asked for, nanoseconds; 0 for the latest.
+    """
+
+    decimals: int = DECIMALS
+    rpy: bool = False
+    foxglove: bool = False
+    with_moving: bool = False
+    root: str | None = None
+    time: Stamp = LATEST
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Exported:
+    """What was written.
+
+    Attributes:
+        paths: The files.
+        format: What they are.
+        count: How many poses, or links, or transforms.
+        trajectories: What was asked, with what was refused; empty for links.
+    """
+
+    paths: tuple[Path, ...]
+    format: Format
+    count: int
+    trajectories: tuple[Trajectory, ...] = field(default=(), repr=False)
+
+    @property
+    def refused(self) -> int:
+        """At how many moments there was no pose; they are left out."""
+        return sum(one.refused for one in self.trajectories)
+
+
+def buffer_of(frames: Framed) -> Buffer:
+    """The buffer that holds some frames."""
+    if isinstance(frames, Buffer):
+        return frames
+    if not hasattr(frames, "buffer"):
+        raise without_frames(frames)
+    held = frames.buffer
+    return held if isinstance(held, Buffer) else held()
+
+
+def export(
+    frames: Framed,
+    path: "str | os.PathLike[str]",
+    target_frame: str | None = None,
+    source_frame: str | None = None,
+    *,
+    pairs: Sequence[tuple[str, str]] = (),
+    format: str | None = None,
+    start: Stamp | None = None,
+    end: Stamp | None = None,
+    period: Duration | None = None,
+    stamps: npt.ArrayLike | None = None,
+    decimals: int = DECIMALS,
+    rpy: bool = False,
+    foxglove: bool = False,
+    with_moving: bool = False,
+    root: str | None = None,
+    time: Stamp = LATEST,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> Exported:
+    """Write where one frame is in another over time, or the links between frames.
+
+        tftool.export(recording, "run.tum", "map", "base_link")
+        tftool.export(recording, "robot.urdf")
+
+    The file is whole, or not there. Moments at which a lookup refuses are left out, and told
+    in what is returned.
+
+    Args:
+        frames: A recording, a buffer, or a robot description.
+        path: Where to; its end says what: .tum .kitti .csv .npz .parquet of pairs,
+            .urdf .launch.py .launch.xml .launch.yaml .sh .mcap of links.
+        target_frame: What poses are expressed in; None to write links.
+        source_frame: Whose poses they are.
+        pairs: Several of (target, source), in CSV, npz and Parquet.
+        format: What to write whatever the name ends in: "euroc", or another of `Format`.
+        start: Leave out what is before, nanoseconds.
+        end: Leave out what is after, nanoseconds.
+        period: Ask so often, nanoseconds; at the stamps of the fastest link if None.
+        stamps: Ask at these stamps instead, nanoseconds, shape (n,).
+        decimals: See `Style`, as what follows.
+        rpy: Add roll, pitch and yaw to CSV and Parquet.
+        foxglove: Write MCAP as foxglove.FrameTransforms.
+        with_moving: Write links that move to a URDF, as floating joints.
+        root: Write only what hangs below this frame.
+        time: The moment of links that move, nanoseconds.
+        force: Whether the file may replace what stands there.
+        progress: Is told how far it is, in bytes.
+
+    Raises:
+        InputError: If it cannot be written.
+        TransformException: If a frame is unknown, or a pair is joined at no moment.
+        TypeError: If what is to be written has no frames.
+        UsageError: If what is asked for does not fit together, or an extra is missing.
+    """
+    place = Path(path)
+    form = _named(format) if format is not None else format_of(place)
+    asked = list(pairs)
+    if (target_frame is None) != (source_frame is None):
+        raise UsageError("A pair is two frames: name the target and the source.")
+    if target_frame is not None and source_frame is not None:
+        asked.insert(0, (target_frame, source_frame))
+    style = Style(decimals, rpy, foxglove, with_moving, root, time)
+    refuse_input(frames, place)
+    buffer = buffer_of(frames)
+    if not form.is_trajectory:
+        if asked:
+            raise UsageError(f"{form} holds links, and no pair: leave out the frames.")
+        return write_links(buffer, place, form, style, force=force, progress=progress)
+    if not asked:
+        raise UsageError(f"{form} holds pairs of frames over time: name a target and a source.")
+    moments = Moments(start, end, period, None if stamps is None else _stamps(stamps))
+    found = [sample(buffer, target, source, moments) for target, source in asked]
+    return write_trajectories(found, place, form, style, force=force, progress=progress)
+
+
+def write_trajectories(
+    found: Sequence[Trajectory],
+    path: Path,
+    form: Format,
+    style: Style,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> Exported:
+    """Write pairs that were looked up.
+
+    Raises:
+        InputError: If it cannot be written.
+        TransformException: If one of the pairs has no pose at any moment.
+        UsageError: If the format holds one pair only, or an extra is missing.
+    """
+    if len(found) > 1 and form not in TABLES:
+        raise UsageError(
+            f"{form} holds one pair, and these are {len(found)}: write .csv, .npz or .parquet."
+        )
+    if style.rpy and form not in (Format.csv, Format.parquet):
+        raise UsageError(f"Roll, pitch and yaw are columns of CSV and Parquet, not of {form}.")
+    paths = [path]
+    match form:
+        case Format.tum:
+            trajectory_files.write_tum(
+                found[0], path, decimals=style.decimals, force=force, progress=progress
+            )
+        case Format.kitti:
+            times = trajectory_files.write_kitti(
+                found[0], path, decimals=style.decimals, force=force, progress=progress
+            )
+            paths.append(times)
+        case Format.euroc:
+            trajectory_files.write_euroc(
+                found[0], path, decimals=style.decimals, force=force, progress=progress
+            )
+        case Format.csv:
+            trajectory_files.write_csv(
+                found,
+                path,
+                decimals=style.decimals,
+                rpy=style.rpy,
+                force=force,
+                progress=progress,
+            )
+        case Format.npz:
+            trajectory_files.write_npz(found, path, force=force)
+        case _:
+            trajectory_files.write_parquet(
+                found, path, rpy=style.rpy, version=library_name(), force=force
+            )
+    count = sum(len(one.path) - one.refused for one in found)
+    return Exported(tuple(paths), form, count, tuple(found))
+
+
+def write_links(
+    buffer: Buffer,
+    path: Path,
+    form: Format,
+    style: Style,
+    *,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> Exported:
+    """Write the links between frames: those that hold at all times, or to MCAP all.
+
+    Raises:
+        InputError: If it cannot be written.
+        UsageError: If there is nothing to write, or it does not fit the format.
+    """
+    if not buffer.frames():
+        raise UsageError("There is no frame: there is nothing to write.")
+    if form is Format.mcap:
+        count = frame_messages.write_frames(
+            buffer, path, foxglove=style.foxglove, force=force, progress=progress
+        )
+        return Exported((path,), form, count)
+    if style.foxglove:
+        raise UsageError(f"foxglove.FrameTransforms go into an MCAP file, not into {form}.")
+    if style.with_moving and form is not Format.urdf:
+        raise UsageError(f"{form} publishes what holds at all times: links that move do not.")
+    links = static_files.fixed_links(
+        buffer, with_moving=style.with_moving, time=style.time, root=style.root
+    )
+    if not links:
+        below = "" if style.root is None else f" below '{style.root}'"
+        moving = " --with-moving adds those that move." if form is Format.urdf else ""
+        raise UsageError(f"No link{below} holds at all times: there is nothing to write.{moving}")
+    name = path.name.partition(".")[0] or "robot"
+    text = {
+        Format.urdf: lambda: static_files.urdf(links, name),
+        Format.sh: lambda: static_files.shell(links),
+        Format.launch_py: lambda: static_files.launch_python(links),
+        Format.launch_xml: lambda: static_files.launch_xml(links),
+        Format.launch_yaml: lambda: static_files.launch_yaml(links),
+    }[form]()
+    with whole_file(path, force=force) as file:
+        file.write(text.encode("utf-8"))
+        if form is Format.sh:
+            os.chmod(file.fileno(), 0o755)
+    return Exported((path,), form, len(links))
+
+
+def _named(name: str) -> Format:
+    try:
+        return Format(name)
+    except ValueError:
+        raise UsageError(f"'{name}' is no format: there is {', '.join(Format)}.") from None
+
+
+def refuse_input(frames: object, path: Path) -> None:
+    """Refuse to write onto the file that frames are read from, or into the folder of a recording.
+
+    Raises:
+        UsageError: If that is asked for.
+    """
+    name = getattr(frames, "name", None)
+    if not isinstance(name, str) or not os.path.exists(name) or not os.path.lexists(path):
+        return
+    inside = os.path.isdir(name) and path.parent.exists() and os.path.samefile(name, path.parent)
+    if inside or (path.exists() and os.path.samefile(name, path)):
+        raise UsageError(f"'{path}' is what is read: write to another name.")
+
+
+def _stamps(stamps: npt.ArrayLike) -> Stamps:
+    found = np.asarray(stamps)
+    if found.ndim != 1 or not np.issubdtype(found.dtype, np.integer):
+        raise TypeError("stamps are whole nanoseconds of shape (n,)")
+    return found.astype(np.int64)

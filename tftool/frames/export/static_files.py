@@ -1,0 +1,219 @@
+"""What holds at all times to files that publish it again: URDF, launch files, a shell script."""
+
+import json
+import re
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+from xml.sax.saxutils import quoteattr
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.stamps import LATEST, Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.geometry.notation.text import publisher_words, urdf_origin
+from tftool.geometry.rigid import Transform
+from tftool.robots.static_publishers import PUBLISHER
+
+_NOT_XML = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_PLAIN_WORD = re.compile(r"[^\s\"'$\\]+")
+
+
+@dataclass(frozen=True, slots=True)
+class FixedLink:
+    """One link as it is written: the pose of `child` in `parent`."""
+
+    parent: str
+    child: str
+    pose: Transform
+    moves: bool = False
+
+
+def fixed_links(
+    buffer: Buffer, *, with_moving: bool = False, time: Stamp = LATEST, root: str | None = None
+) -> list[FixedLink]:
+    """The links that hold at all times, in the order in which their frames came up.
+
+    Args:
+        buffer: Whose frames.
+        with_moving: Whether to add those that move, with their pose at one moment.
+        time: That moment, nanoseconds; 0 for each link's latest.
+        root: Take only what hangs below this frame; all if None.
+
+    Raises:
+        TransformException: If a link that moves has no pose at that moment, or there is no
+            frame of the root's name.
+    """
+    links = []
+    for frame in buffer.frames():
+        parent = buffer.parent(frame, time)
+        if parent is None:
+            continue
+        still = buffer.samples(frame).is_static
+        if still or with_moving:
+            pose = buffer.lookup_transform(parent, frame, LATEST if still else time).transform
+            links.append(FixedLink(parent, frame, pose, moves=not still))
+    if root is None:
+        return links
+    if not buffer.frame_exists(root):
+        # Refuses, and says what there is.
+        buffer.lookup_transform(root, links[0].child if links else root)
+    below = {root}
+    grown = True
+    while grown:
+        fresh = {one.child for one in links if one.parent in below} - below
+        below |= fresh
+        grown = bool(fresh)
+    return [one for one in links if one.parent in below]
+
+
+def roots(links: Sequence[FixedLink]) -> list[str]:
+    """The frames that are a parent and no child, in the order in which they come up."""
+    children = {one.child for one in links}
+    return list(dict.fromkeys(one.parent for one in links if one.parent not in children))
+
+
+def urdf(links: Sequence[FixedLink], name: str) -> str:
+    """A robot description with a joint for every link.
+
+    Args:
+        links: What to write; those that move become floating joints, which
+            robot_state_publisher skips.
+        name: The robot's.
+
+    Raises:
+        UsageError: If they are not one tree.
+        InputError: If a name cannot stand in XML.
+    """
+    tops = roots(links)
+    if len(tops) != 1:
+        shown = ", ".join(tops[:6]) + (" …" if len(tops) > 6 else "")
+        raise UsageError(
+            f"A URDF is one tree, and these are {len(tops)}, with the roots {shown}: choose one "
+            "with --root FRAME."
+        )
+    frames = dict.fromkeys([tops[0], *(one.child for one in links)])
+    lines = ['<?xml version="1.0"?>', f"<robot name={_attribute(name)}>"]
+    lines += [f"  <link name={_attribute(frame)}/>" for frame in frames]
+    for one in links:
+        kind = "floating" if one.moves else "fixed"
+        joint = _attribute(f"{one.parent}_to_{one.child}")
+        lines += [
+            f'  <joint name={joint} type="{kind}">',
+            f"    <parent link={_attribute(one.parent)}/>",
+            f"    <child link={_attribute(one.child)}/>",
+            f"    {urdf_origin(one.pose)}",
+            "  </joint>",
+        ]
+    return "\n".join([*lines, "</robot>", ""])
+
+
+def shell(links: Sequence[FixedLink]) -> str:
+    """A script that runs a publisher for each link; Ctrl-C ends them all."""
+    lines = ["#!/bin/sh", "# Publishes static transforms; Ctrl-C ends them all.", "set -e"]
+    lines += [
+        f"ros2 run tf2_ros {PUBLISHER} {shlex.join(_words(_whole_name(one)))} &" for one in links
+    ]
+    return "\n".join([*lines, "wait", ""])
+
+
+def launch_python(links: Sequence[FixedLink]) -> str:
+    """A launch file in Python with a node for each link."""
+    lines = [
+        "from launch import LaunchDescription",
+        "from launch_ros.actions import Node",
+        "",
+        "",
+        "def generate_launch_description():",
+        "    return LaunchDescription([",
+    ]
+    for one, name in zip(links, _node_names(links), strict=True):
+        lines += [
+            "        Node(",
+            '            package="tf2_ros",',
+            f'            executable="{PUBLISHER}",',
+            f'            name="{name}",',
+            "            arguments=[",
+            *(f"                {line}," for line in _listed(_words(_whole_name(one)))),
+            "            ],",
+            "        ),",
+        ]
+    return "\n".join([*lines, "    ])", ""])
+
+
+def launch_xml(links: Sequence[FixedLink]) -> str:
+    """A launch file in XML with a node for each link.
+
+    Raises:
+        InputError: If a name would be read as something else there.
+    """
+    lines = ['<?xml version="1.0"?>', "<launch>"]
+    for one, name in zip(links, _node_names(links), strict=True):
+        words = _attribute(_plain(one))
+        lines.append(f'  <node pkg="tf2_ros" exec="{PUBLISHER}" name="{name}" args={words}/>')
+    return "\n".join([*lines, "</launch>", ""])
+
+
+def launch_yaml(links: Sequence[FixedLink]) -> str:
+    """A launch file in YAML with a node for each link.
+
+    Raises:
+        InputError: If a name would be read as something else there.
+    """
+    lines = ["launch:" if links else "launch: []"]
+    for one, name in zip(links, _node_names(links), strict=True):
+        lines += [
+            "  - node:",
+            "      pkg: tf2_ros",
+            f"      exec: {PUBLISHER}",
+            f"      name: {name}",
+            f"      args: {json.dumps(_plain(one))}",
+        ]
+    return "\n".join([*lines, ""])
+
+
+def _listed(words: Sequence[str]) -> list[str]:
+    """Options as Python strings, each with its value."""
+    texts = [json.dumps(word) for word in words]
+    return [f"{name}, {value}" for name, value in zip(texts[::2], texts[1::2], strict=True)]
+
+
+def _words(one: FixedLink) -> list[str]:
+    return [*publisher_words(one.pose), "--frame-id", one.parent, "--child-frame-id", one.child]
+
+
+def _whole_name(one: FixedLink) -> FixedLink:
+    """Refuse what no command line can carry."""
+    for name in (one.parent, one.child):
+        if "\0" in name or _NOT_XML.search(name):
+            raise InputError(f"The frame {name!r} has characters that cannot be written there.")
+    return one
+
+
+def _plain(one: FixedLink) -> str:
+    """The words in one line, of names that a launch file leaves as they are."""
+    for name in (one.parent, one.child):
+        if not _PLAIN_WORD.fullmatch(name):
+            raise InputError(
+                f"The frame {name!r} would be read as something else in such a launch file: "
+                "write a .launch.py or .sh."
+            )
+    return " ".join(_words(_whole_name(one)))
+
+
+def _node_names(links: Sequence[FixedLink]) -> list[str]:
+    names: dict[str, None] = {}
+    for one in links:
+        plain = name = re.sub(r"[^A-Za-z0-9_]", "_", f"static_{one.parent}_to_{one.child}")
+        number = 2
+        while name in names:
+            name = f"{plain}_{number}"
+            number += 1
+        names[name] = None
+    return list(names)
+
+
+def _attribute(text: str) -> str:
+    if _NOT_XML.search(text):
+        raise InputError(f"The frame {text!r} has characters that cannot be written there.")
+    # A tab or a line end would be read back as a blank.
+    return quoteattr(text, {"\t": "&#9;", "\n": "&#10;", "\r": "&#13;"})

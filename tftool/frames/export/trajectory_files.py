@@ -1,0 +1,265 @@
+"""Trajectories to the files that others read: TUM, KITTI, EuRoC, CSV, npz, Parquet.
+
+Stamps are whole nanoseconds all the way, and written as such: a float of seconds steps by
+238 ns at today's date. A file is whole, or not there.
+"""
+
+import csv
+import io
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import BinaryIO, Final
+
+import numpy as np
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import SIMULATED_BELOW
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.frames.export import digits
+from tftool.frames.pair_samples import Trajectory
+from tftool.geometry import rigid_arrays as batch
+from tftool.recordings.contract import Progress
+from tftool.recordings.target import Target, commit_together, failed
+
+CSV_COLUMNS: Final = ("stamp_ns", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw")
+RPY_COLUMNS: Final = ("roll_rad", "pitch_rad", "yaw_rad")
+EUROC_HEADER: Final = (
+    "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],"
+    "q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n"
+)
+NPZ_VERSION: Final = 1
+"""What `format_version` says; another one means other names or another order."""
+
+_BYTES_PER_ROW: Final = 110
+
+
+@contextmanager
+def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
+    """A file to write that comes to its name when it is whole, and else leaves nothing.
+
+    Raises:
+        UsageError: If something has that name and `force` is not given.
+        InputError: If it cannot be written.
+    """
+    with Target(path, force=force) as target:
+        try:
+            with target.part.open("wb") as file:
+                yield file
+        except OSError as error:
+            raise failed(path, error) from error
+
+
+@contextmanager
+def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
+    """The same of several that belong together: all of them come to their names, or none.
+
+    Args:
+        paths: What they are called; the last is that by which the others are found.
+        force: Whether they may replace what has those names.
+
+    Raises:
+        UsageError: If something has one of the names and `force` is not given.
+        InputError: If one cannot be written.
+    """
+    targets: list[Target] = []
+    try:
+        # One by one: those made before one fails are discarded.
+        targets.extend(Target(path, force=force) for path in paths)
+        try:
+            with ExitStack() as stack:
+                yield [stack.enter_context(target.part.open("wb")) for target in targets]
+        except OSError as error:
+            raise failed(paths[-1], error) from error
+        commit_together(targets)
+    except BaseException:
+        for target in targets:
+            target.discard()
+        raise
+
+
+def write_tum(
+    found: Trajectory, path: Path, *, decimals: int, force: bool, progress: Progress | None
+) -> None:
+    """`sec.nnnnnnnnn x y z qx qy qz qw`, a line a pose."""
+    rows = found.answered()
+    with whole_file(path, force=force) as file:
+        write = _writer(file, rows, decimals, progress)
+        for block in _blocks(rows):
+            write(block.stamps, _poses(block), seconds=True, separator=" ")
+
+
+def write_kitti(
+    found: Trajectory, path: Path, *, decimals: int, force: bool, progress: Progress | None
+) -> Path:
+    """The upper three rows of the matrix, a line a pose; the stamps in a file beside it.
+
+    Both come to their names together, the poses last.
+
+    Returns:
+        The file of the stamps.
+    """
+    times = path.with_name(f"{path.stem}_times.txt")
+    rows = found.answered()
+    with whole_files(times, path, force=force) as (beside, file):
+        write = _writer(file, rows, decimals, progress)
+        for block in _blocks(rows):
+            matrices = batch.matrices(block.translations, block.rotations)
+            write(None, matrices[:, :3].reshape(-1, 12), separator=" ")
+            beside.write(
+                "".join(f"{digits.stamp_text(one)}\n" for one in block.stamps.tolist()).encode()
+            )
+    return times
+
+
+def write_euroc(
+    found: Trajectory, path: Path, *, decimals: int, force: bool, progress: Progress | None
+) -> None:
+    """EuRoC's ground truth: whole nanoseconds, w first."""
+    rows = found.answered()
+    with whole_file(path, force=force) as file:
+        file.write(EUROC_HEADER.encode())
+        write = _writer(file, rows, decimals, progress)
+        for block in _blocks(rows):
+            write(block.stamps, _poses(block)[:, [0, 1, 2, 6, 3, 4, 5]])
+
+
+def write_csv(
+    found: Sequence[Trajectory],
+    path: Path,
+    *,
+    decimals: int,
+    rpy: bool,
+    force: bool,
+    progress: Progress | None,
+) -> None:
+    """A table with a header; of several pairs each row begins with its target and source."""
+    with whole_file(path, force=force) as file:
+        names = (*CSV_COLUMNS, *(RPY_COLUMNS if rpy else ()))
+        several = len(found) > 1
+        file.write(_csv_line(("target", "source", *names) if several else names))
+        for one in found:
+            rows = one.answered()
+            before = _csv_line((one.target, one.source))[:-1] + b"," if several else b""
+            write = _writer(file, rows, decimals, progress, before)
+            for block in _blocks(rows):
+                numbers = _poses(block)
+                if rpy:
+                    numbers = np.hstack([numbers, batch.roll_pitch_yaw(block.rotations)])
+                write(block.stamps, numbers)
+
+
+def write_npz(found: Sequence[Trajectory], path: Path, *, force: bool) -> None:
+    """NumPy's archive: stamps, translations, rotations (x y z w); no pickle in it.
+
+    Of several pairs the rows lie behind each other, and `pair` says which is whose.
+    """
+    rows = [one.answered() for one in found]
+    several = len(rows) > 1
+    columns = {
+        "stamps": _joined([one.stamps for one in rows]),
+        "translations": _joined([one.translations for one in rows]),
+        "rotations": _joined([one.rotations for one in rows]),
+        "target": np.array([one.target for one in found] if several else found[0].target),
+        "source": np.array([one.source for one in found] if several else found[0].source),
+        "format_version": np.array(NPZ_VERSION),
+    }
+    if several:
+        columns["pair"] = np.repeat(np.arange(len(rows)), [len(one) for one in rows])
+    with whole_file(path, force=force) as file:
+        np.savez(file, allow_pickle=False, **columns)
+
+
+def write_parquet(
+    found: Sequence[Trajectory], path: Path, *, rpy: bool, version: str, force: bool
+) -> None:
+    """A Parquet table with the columns of the CSV; `stamp`, too, where stamps are dates.
+
+    Raises:
+        UsageError: If the extra `parquet` is not installed.
+    """
+    try:
+        import pyarrow
+        from pyarrow import parquet
+    except ImportError as missing:
+        raise UsageError("Parquet needs an extra: pip install 'tftool-tf2[parquet]'") from missing
+    rows = [one.answered() for one in found]
+    stamps = _joined([one.stamps for one in rows])
+    numbers = _joined([_poses(one) for one in rows])
+    columns: dict[str, object] = {}
+    if len(found) > 1:
+        for name, words in (
+            ("target", [one.target for one in found]),
+            ("source", [one.source for one in found]),
+        ):
+            places = np.repeat(np.arange(len(rows), dtype=np.int32), [len(one) for one in rows])
+            columns[name] = pyarrow.DictionaryArray.from_arrays(places, words)
+    if len(stamps) and int(stamps.min()) >= SIMULATED_BELOW:
+        columns["stamp"] = pyarrow.array(stamps, pyarrow.timestamp("ns", tz="UTC"))
+    columns["stamp_ns"] = stamps
+    columns |= {name: numbers[:, place] for place, name in enumerate(CSV_COLUMNS[1:])}
+    if rpy:
+        angles = batch.roll_pitch_yaw(_joined([one.rotations for one in rows]))
+        columns |= {name: angles[:, place] for place, name in enumerate(RPY_COLUMNS)}
+    table = pyarrow.table(columns).replace_schema_metadata(
+        {
+            "target": ",".join(one.target for one in found),
+            "source": ",".join(one.source for one in found),
+            "tftool": version,
+        }
+    )
+    with whole_file(path, force=force) as file:
+        parquet.write_table(table, file, compression="zstd")
+
+
+def _poses(rows: TransformArray) -> batch.Floats:
+    return np.hstack([rows.translations, rows.rotations])
+
+
+def _joined(parts: "Sequence[np.ndarray]") -> "np.ndarray":
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
+def _blocks(rows: TransformArray) -> Iterator[TransformArray]:
+    for start in range(0, len(rows), digits.BLOCK):
+        yield rows[start : start + digits.BLOCK]
+
+
+def _writer(
+    file: BinaryIO,
+    rows: TransformArray,
+    decimals: int,
+    progress: Progress | None,
+    before: bytes = b"",
+) -> "Callable[..., None]":
+    """What writes blocks of rows, each as fast as its numbers allow, and tells how far it is."""
+    done = 0
+
+    def write(
+        stamps: "np.ndarray | None",
+        numbers: batch.Floats,
+        *,
+        seconds: bool = False,
+        separator: str = ",",
+    ) -> None:
+        nonlocal done
+        if decimals == digits.DECIMALS and digits.fits(numbers):
+            text = digits.rows(numbers, stamps=stamps, seconds=seconds, separator=separator)
+        else:
+            text = digits.exact_rows(
+                numbers, decimals, stamps=stamps, seconds=seconds, separator=separator
+            )
+        if before:
+            text = before + text[:-1].replace(b"\n", b"\n" + before) + b"\n"
+        file.write(text)
+        done += len(numbers)
+        if progress is not None:
+            progress(done * _BYTES_PER_ROW, len(rows) * _BYTES_PER_ROW)
+
+    return write
+
+
+def _csv_line(words: Sequence[str]) -> bytes:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(words)
+    return text.getvalue().encode()

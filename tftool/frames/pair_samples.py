@@ -1,0 +1,264 @@
+"""One pair of frames at many moments: which moments, and where the lookup refuses, and why."""
+
+from dataclasses import dataclass, replace
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import Duration, Stamp, as_seconds
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.buffer.buffer import Buffer
+from tftool.geometry import rigid_arrays as batch
+
+Stamps: TypeAlias = npt.NDArray[np.int64]
+
+MOST_MOMENTS: Final = 20_000_000
+"""Moments of one pair that are asked for at once: 1.3 GB of poses, days of a hundred a second."""
+
+MOST_REASONS: Final = 200
+"""Runs of refused moments whose reason is asked for; of more, the rest goes without."""
+
+
+@dataclass(frozen=True, slots=True)
+class RefusedRun:
+    """Neighbouring moments at which the lookup refuses.
+
+    Attributes:
+        first: The first of them, nanoseconds.
+        last: The last of them.
+        count: How many.
+        reason: What tf2 says of the first.
+    """
+
+    first: Stamp
+    last: Stamp
+    count: int
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trajectory:
+    """The pose of one frame in another over time.
+
+    Attributes:
+        path: A row for each moment, NaN where the lookup refuses. Quaternions do not jump
+            from one sign to the other.
+        refusals: Where it refuses, in the order of time.
+        moments: What the moments are, in words: "at the stamps of 'odom'".
+    """
+
+    path: TransformArray
+    refusals: tuple[RefusedRun, ...]
+    moments: str
+
+    @property
+    def target(self) -> str:
+        """What the poses are expressed in."""
+        return self.path.frame_id
+
+    @property
+    def source(self) -> str:
+        """Whose poses they are."""
+        return self.path.child_frame_id
+
+    @property
+    def refused(self) -> int:
+        """At how many moments there is no pose."""
+        return len(self.path) - int(np.count_nonzero(self.path.valid))
+
+    def answered(self) -> TransformArray:
+        """The rows that hold a pose."""
+        return self.path if self.path.valid.all() else self.path[self.path.valid]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Moments:
+    """When to ask.
+
+    Attributes:
+        start: First moment, nanoseconds; None for the first there is data of.
+        end: Last moment; None for the last there is data of.
+        period: Ask so often, nanoseconds, from the start on; None for the stamps of the link
+            that has most of them in a second.
+        stamps: Ask at these instead, shape (n,).
+        words: What `stamps` are, for people.
+    """
+
+    start: Stamp | None = None
+    end: Stamp | None = None
+    period: Duration | None = None
+    stamps: Stamps | None = None
+    words: str = "at given stamps"
+
+
+def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = None) -> Trajectory:
+    """Look a pair up at many moments.
+
+    Args:
+        buffer: Whose frames.
+        target: What the answers are expressed in.
+        source: What is asked about.
+        moments: When to ask; at the stamps of the fastest link between the two if None.
+
+    Raises:
+        TransformException: If a name is unknown, nothing joins the two, or there is a pose at
+            none of the moments.
+        UsageError: If there is no such moment, or more than `MOST_MOMENTS`.
+    """
+    moments = moments or Moments()
+    asked, words = _asked(buffer, target, source, moments)
+    path = buffer.lookup_transforms(target, source, asked, missing="nan")
+    if not len(asked):
+        raise UsageError(
+            f"There is nothing to ask for: {words}, no moment lies in the span that is asked for."
+        )
+    if not path.valid.any():
+        # Says why, of the first.
+        buffer.lookup_transform(target, source, int(asked[0]))
+    path = replace(path, rotations=continuous(path.rotations, path.valid))
+    return Trajectory(path, _refusals(buffer, path), words)
+
+
+def trajectory_of(path: TransformArray) -> Trajectory:
+    """Poses that were looked up already, as a trajectory; why rows are missing is not known."""
+    turned = replace(path, rotations=continuous(path.rotations, path.valid))
+    runs = tuple(
+        RefusedRun(int(path.stamps[first]), int(path.stamps[end - 1]), end - first, "")
+        for first, end in _runs(~path.valid)
+    )
+    return Trajectory(turned, runs, "at given stamps")
+
+
+def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
+    """The children of all links on the way from one frame to another, as they hang at last.
+
+    Raises:
+        TransformException: If a name is unknown, or nothing joins the two.
+    """
+    above = [_ancestors(buffer, frame) for frame in (target, source)]
+    shared = next((frame for frame in above[0] if frame in above[1]), None)
+    if shared is None or not all(map(buffer.frame_exists, (target, source))):
+        # Says what is wrong with the two, and refuses.
+        buffer.lookup_transform(target, source)
+        return []
+    return [frame for side in above for frame in side[: side.index(shared)]]
+
+
+def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
+    """The link with the shortest time between its samples, and its stamps; None if none moves."""
+    found: tuple[float, int, str, Stamps] | None = None
+    for frame in links:
+        held = buffer.samples(frame)
+        if held.is_static or not len(held):
+            continue
+        stamps = np.unique(held.stamps)
+        period = float(np.median(np.diff(stamps))) if len(stamps) > 1 else np.inf
+        if found is None or (period, -len(stamps)) < found[:2]:
+            found = period, -len(stamps), frame, stamps
+    return None if found is None else found[2:]
+
+
+def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
+    """First and last stamp of those links that move; 0 and 0 if none does."""
+    ends = []
+    for frame in links:
+        held = buffer.samples(frame)
+        if not held.is_static and len(held):
+            ends += [int(held.stamps[0]), int(held.stamps[-1])]
+    return (min(ends), max(ends)) if ends else (0, 0)
+
+
+def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = None) -> batch.Floats:
+    """The same rotations, each with the sign nearer to the one before; NaN rows are passed over.
+
+    Args:
+        rotations: Unit quaternions x y z w, shape (n, 4).
+        valid: Which of them hold one, shape (n,); all if None.
+    """
+    held = rotations if valid is None or valid.all() else rotations[valid]
+    if len(held) < 2:
+        return rotations
+    turns_back = np.einsum("ij,ij->i", held[:-1], held[1:]) < 0.0
+    if not turns_back.any():
+        return rotations
+    flipped = np.concatenate(([False], np.logical_xor.accumulate(turns_back)))
+    held = np.where(flipped[:, np.newaxis], -held, held)
+    if valid is None or valid.all():
+        return held
+    found = rotations.copy()
+    found[valid] = held
+    return found
+
+
+def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
+    """The moments from `start` to `end`, one a period; 1 for 0, which would mean the latest.
+
+    Raises:
+        UsageError: If there are more than `MOST_MOMENTS`.
+    """
+    count = max(0, end - start) // period + 1
+    if count > MOST_MOMENTS:
+        raise UsageError(
+            f"Every {as_seconds(period):g} s over {as_seconds(end - start):,.0f} s would be "
+            f"{count:,} moments, and {MOST_MOMENTS:,} is the most: ask at a lower rate. If what "
+            "was recorded did not last so long, a stamp is wrong: 'tftool info' says from when to "
+            "when they are."
+        )
+    return max(start, 1) + period * np.arange(count, dtype=np.int64)
+
+
+def _asked(buffer: Buffer, target: str, source: str, moments: Moments) -> tuple[Stamps, str]:
+    if moments.stamps is not None:
+        stamps = np.unique(np.asarray(moments.stamps, dtype=np.int64))
+        return _within(stamps[stamps > 0], moments), moments.words
+    links = links_between(buffer, target, source)
+    if moments.period is not None:
+        low, high = moving_span(buffer, links)
+        start = low if moments.start is None else moments.start
+        end = high if moments.end is None else moments.end
+        return evenly(start, end, moments.period), f"every {as_seconds(moments.period):g} s"
+    found = fastest(buffer, links)
+    if found is None:
+        # Any moment will do: the first there is data of, as stamp 0 would mean the latest.
+        alone = max(1, moments.start or moving_span(buffer, buffer.frames())[0])
+        return np.array([alone], dtype=np.int64), "at one moment, as nothing moves between the two"
+    return _within(found[1], moments), f"at the stamps of '{found[0]}'"
+
+
+def _within(stamps: Stamps, moments: Moments) -> Stamps:
+    first, last = 0, len(stamps)
+    if moments.start is not None:
+        first = int(np.searchsorted(stamps, moments.start, "left"))
+    if moments.end is not None:
+        last = int(np.searchsorted(stamps, moments.end, "right"))
+    return stamps[first:last]
+
+
+def _ancestors(buffer: Buffer, frame: str) -> list[str]:
+    """A frame and all above it, up to a root or round a loop."""
+    found = {frame: None}
+    above = buffer.parent(frame)
+    while above is not None and above not in found:
+        found[above] = None
+        above = buffer.parent(above)
+    return list(found)
+
+
+def _refusals(buffer: Buffer, path: TransformArray) -> tuple[RefusedRun, ...]:
+    runs: list[RefusedRun] = []
+    for first, end in _runs(~path.valid):
+        stamp = int(path.stamps[first])
+        reason = ""
+        if len(runs) < MOST_REASONS:
+            reason = buffer.why_not(path.frame_id, path.child_frame_id, stamp)
+        runs.append(RefusedRun(stamp, int(path.stamps[end - 1]), end - first, reason))
+    return tuple(runs)
+
+
+def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Where flags are set without a break: first place, and the one behind the last."""
+    edges = np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))
+    firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    return list(zip(firsts.tolist(), ends.tolist(), strict=True))

@@ -1,0 +1,255 @@
+"""What of a trajectory is drawn over time: curves by panel, with gaps where there is nothing.
+
+Times are seconds since one start, so that a plot's axis counts as `--from` and `--at` do.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.frames.pair_samples import RefusedRun, Trajectory
+from tftool.geometry import rigid_arrays as batch
+
+Floats = batch.Floats
+
+MOST_TOLD: Final = 3
+"""Refused spans that are told with their reason."""
+
+LONG_SILENCE: Final = 10.0
+"""So many usual periods without a moment are a gap."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlotCurve:
+    """One line of a panel.
+
+    Attributes:
+        label: What it shows: "x", or of several pairs "laser in map".
+        place: Which of the pairs it belongs to, counted from 0.
+        times: Seconds, shape (n,).
+        values: In the panel's unit, shape (n,); NaN where the line is broken.
+    """
+
+    label: str
+    place: int
+    times: Floats
+    values: Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlotPanel:
+    """Curves that share an axis.
+
+    Attributes:
+        title: What they show: "position".
+        unit: "m", "°", "m/s", "°/s".
+        curves: In their order.
+    """
+
+    title: str
+    unit: str
+    curves: tuple[PlotCurve, ...]
+
+    def limits(self) -> tuple[float, float]:
+        """Lowest and highest value, never the same two."""
+        values = np.concatenate([one.values for one in self.curves] or [np.zeros(1)])
+        values = values[np.isfinite(values)]
+        low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
+        least = max(1e-6, 1e-6 * max(abs(low), abs(high)))
+        if high - low < least:
+            return low - 0.5 * max(least, 0.1), high + 0.5 * max(least, 0.1)
+        return low, high
+
+
+@dataclass(frozen=True, slots=True)
+class RefusedSpan:
+    """A span in which one of the pairs has no pose, in seconds, and why."""
+
+    first: float
+    last: float
+    reason: str
+
+
+def _position(path: TransformArray) -> Floats:
+    return path.translations
+
+
+def _angles(path: TransformArray) -> Floats:
+    return np.asarray(np.degrees(batch.roll_pitch_yaw(path.rotations)))
+
+
+def _distance(path: TransformArray) -> Floats:
+    return np.asarray(np.linalg.norm(path.translations, axis=1))[:, np.newaxis]
+
+
+def _speed(path: TransformArray) -> Floats:
+    return np.asarray(np.linalg.norm(path.velocities().linear, axis=1))[:, np.newaxis]
+
+
+def _turn_rate(path: TransformArray) -> Floats:
+    turning = np.linalg.norm(path.velocities().angular, axis=1)
+    return np.asarray(np.degrees(turning))[:, np.newaxis]
+
+
+_GROUPS: Final[dict[str, tuple[str, tuple[str, ...], Callable[[TransformArray], Floats]]]] = {
+    "position": ("m", ("x", "y", "z"), _position),
+    "rotation": ("°", ("roll", "pitch", "yaw"), _angles),
+    "distance": ("m", ("distance",), _distance),
+    "speed": ("m/s", ("speed",), _speed),
+    "turn rate": ("°/s", ("turn rate",), _turn_rate),
+}
+
+QUANTITIES: Final = tuple(name for _, names, _ in _GROUPS.values() for name in names)
+"""Everything that can be drawn over time."""
+
+
+def chosen(words: Sequence[str]) -> tuple[str, ...]:
+    """The quantities that some words name: their own names, or those of their panels.
+
+    Raises:
+        UsageError: If a word names none.
+    """
+    found: list[str] = []
+    for word in words:
+        name = word.strip().lower().replace("-", " ").replace("_", " ")
+        if name in _GROUPS:
+            found += _GROUPS[name][1]
+        elif name in QUANTITIES:
+            found.append(name)
+        else:
+            listed = ", ".join(dict.fromkeys((*_GROUPS, *QUANTITIES)))
+            raise UsageError(f"'{word}' is nothing to plot: there is {listed}.")
+    return tuple(dict.fromkeys(found)) or QUANTITIES
+
+
+def panels(
+    found: Sequence[Trajectory], start: Stamp, quantities: Sequence[str] = QUANTITIES
+) -> list[PlotPanel]:
+    """Curves over time: of one pair by kind, of several a panel for each quantity.
+
+    Args:
+        found: The pairs.
+        start: The moment that is 0 on the axis.
+        quantities: What to draw, of `QUANTITIES`.
+    """
+    several = len(found) > 1
+    made: list[PlotPanel] = []
+    for title, (unit, names, measure) in _GROUPS.items():
+        wanted = [name for name in names if name in quantities]
+        if not wanted:
+            continue
+        curves: dict[str, list[PlotCurve]] = {name: [] for name in wanted}
+        for place, one in enumerate(found):
+            times, columns, broken = _columns(one, start, measure)
+            for name in wanted:
+                values = columns[:, names.index(name)]
+                gaps = broken | _jumps(values) if unit == "°" else broken
+                label = f"{one.source} in {one.target}" if several else name
+                curves[name].append(PlotCurve(label, place, *_with_gaps(times, values, gaps)))
+        if several:
+            made += [PlotPanel(name, unit, tuple(lines)) for name, lines in curves.items()]
+        else:
+            every = tuple(curve for lines in curves.values() for curve in lines)
+            made.append(PlotPanel(title, unit, every))
+    return made
+
+
+def shades(found: Sequence[Trajectory], start: Stamp) -> list[RefusedSpan]:
+    """Where lookups are refused, in the order of time."""
+    spans = [_shade(run, start) for one in found for run in one.refusals]
+    return sorted(spans, key=lambda span: span.first)
+
+
+def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
+    """A sentence for each of the first spans, and how many more there are."""
+    told = []
+    for one in spans[:MOST_TOLD]:
+        when = f"from {axis_number(one.first)} s to {axis_number(one.last)} s"
+        if one.first == one.last:
+            when = f"at {axis_number(one.first)} s"
+        why = " ".join(one.reason.split())
+        told.append(f"No pose {when}{f': {why}' if why else '.'}")
+    if len(spans) > MOST_TOLD:
+        told.append(f"... and in {len(spans) - MOST_TOLD} more spans.")
+    return told
+
+
+def axis_number(value: float) -> str:
+    """As many digits as an axis needs, in less than its cells."""
+    if value == 0.0 or not math.isfinite(value):
+        return "0"
+    size = abs(value)
+    if size >= 1e6 or size < 1e-3:
+        return f"{value:.2e}"
+    return f"{value:.{max(0, 3 - max(0, math.floor(math.log10(size))))}f}"
+
+
+def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]:
+    """The way of each pair seen from above: its label, and x and y with gaps as NaN."""
+    curves = []
+    for one in found:
+        times, columns, broken = _columns(one, 0, _position)
+        _, x = _with_gaps(times, columns[:, 0], broken)
+        _, y = _with_gaps(times, columns[:, 1], broken)
+        curves.append((f"{one.source} in {one.target}", x, y))
+    return curves
+
+
+def thinned(times: Floats, values: Floats, most: int) -> tuple[Floats, Floats]:
+    """The same curve with fewer points: of each stretch its lowest and its highest.
+
+    Args:
+        times: Shape (n,).
+        values: Shape (n,).
+        most: How many points are enough.
+    """
+    if len(values) <= most:
+        return times, values
+    size = -(-2 * len(values) // most)
+    kept = []
+    for first in range(0, len(values), size):
+        part = values[first : first + size]
+        holds = np.isfinite(part)
+        if not holds.any():
+            kept.append(first)
+            continue
+        low, high = first + int(np.nanargmin(part)), first + int(np.nanargmax(part))
+        ends = {low, high} if holds.all() else {low, high, first + int(np.argmin(holds))}
+        kept += sorted(ends)
+    return times[kept], values[kept]
+
+
+def _shade(run: RefusedRun, start: Stamp) -> RefusedSpan:
+    return RefusedSpan(
+        (run.first - start) / NANOSECONDS, (run.last - start) / NANOSECONDS, run.reason
+    )
+
+
+def _columns(
+    one: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
+) -> "tuple[Floats, Floats, np.ndarray]":
+    """Seconds, values, and whether the line breaks before each row but the first."""
+    times = (one.path.stamps - start) / NANOSECONDS
+    apart = np.diff(times)
+    usual = float(np.median(apart)) if len(apart) else 0.0
+    return times, measure(one.path), apart > LONG_SILENCE * usual
+
+
+def _jumps(angles: Floats) -> "np.ndarray":
+    """Where an angle passes half a turn, and comes back from the other side."""
+    with np.errstate(invalid="ignore"):
+        found: np.ndarray = np.abs(np.diff(angles)) > 180.0
+    return found
+
+
+def _with_gaps(times: Floats, values: Floats, broken: "np.ndarray") -> tuple[Floats, Floats]:
+    places = np.flatnonzero(broken) + 1
+    if not len(places):
+        return times, values
+    return np.insert(times, places, times[places]), np.insert(values, places, np.nan)

@@ -1,0 +1,116 @@
+"""One step of a PID controller, as a function from what it remembers to what it does."""
+
+import math
+from dataclasses import dataclass, replace
+
+from tftool.base.errors import UsageError
+
+
+@dataclass(frozen=True, slots=True)
+class Gains:
+    """How a controller answers an error.
+
+    Attributes:
+        kp: Output per unit of error.
+        ki: Output per unit of error kept up for a second.
+        kd: Output per unit of error gained in a second.
+        integral_limit: Bound on the size of the integral's share of the output; None for none.
+        output_limit: Bound on the size of the output; None for none. While the
+            output is held at the bound, the integral does not grow against it.
+    """
+
+    kp: float
+    ki: float = 0.0
+    kd: float = 0.0
+    integral_limit: float | None = None
+    output_limit: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("kp", "ki", "kd"):
+            if not math.isfinite(getattr(self, name)):
+                raise UsageError(f"gain {name} must be a finite number, not {getattr(self, name)}")
+        for name in ("integral_limit", "output_limit"):
+            limit = getattr(self, name)
+            # Asked this way round, NaN is refused as well.
+            if limit is not None and not limit >= 0.0:
+                raise UsageError(f"{name} must be zero or more, not {limit}")
+
+    def limited(self, output_limit: float | None) -> "Gains":
+        """Give the same gains with the tighter of two output limits."""
+        if output_limit is None or (
+            self.output_limit is not None and self.output_limit <= output_limit
+        ):
+            return self
+        return replace(self, output_limit=output_limit)
+
+
+@dataclass(frozen=True, slots=True)
+class PidState:
+    """What a controller keeps from one step to the next.
+
+    Attributes:
+        integral: Sum of error times time so far.
+        measured: The measurement of the last step; None before the first.
+    """
+
+    integral: float = 0.0
+    measured: float | None = None
+
+
+FRESH = PidState()
+"""What a controller remembers before its first step."""
+
+
+def step(
+    gains: Gains,
+    memory: PidState,
+    measured: float,
+    interval: float,
+    *,
+    setpoint: float = 0.0,
+    angle: bool = False,
+) -> tuple[float, PidState]:
+    """Answer one measurement.
+
+    The derivative is taken on the measurement, so that a setpoint that jumps
+    does not kick; before the second step it is 0.
+
+    Args:
+        gains: How to answer.
+        memory: What the previous step left; `FRESH` at first.
+        measured: Where the quantity is.
+        interval: Seconds since the previous step, above zero.
+        setpoint: Where the quantity should be.
+        angle: Whether the quantity is an angle in radians, whose changes and
+            errors go the short way round.
+
+    Returns:
+        The output, and what to remember.
+    """
+    error = setpoint - measured
+    moved = 0.0 if memory.measured is None else measured - memory.measured
+    if angle:
+        error, moved = _short_way(error), _short_way(moved)
+    integral = _bounded_integral(gains, memory.integral + error * interval)
+    output = gains.kp * error + gains.ki * integral - gains.kd * moved / interval
+
+    limit = gains.output_limit
+    if limit is not None and abs(output) > limit:
+        held = math.copysign(limit, output)
+        # Growing the integral in the direction of the bound would only have to be undone later.
+        if gains.ki * error * held > 0.0:
+            integral = memory.integral
+        output = held
+    return output, PidState(integral, measured)
+
+
+def _bounded_integral(gains: Gains, integral: float) -> float:
+    if gains.integral_limit is None or gains.ki == 0.0:
+        return integral
+    most = gains.integral_limit / abs(gains.ki)
+    return min(max(integral, -most), most)
+
+
+def _short_way(angle: float) -> float:
+    # The bearing straight behind is ±π; both are left as they are.
+    return angle if -math.pi <= angle <= math.pi else math.remainder(angle, math.tau)

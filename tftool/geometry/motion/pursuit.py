@@ -1,0 +1,87 @@
+"""Steering towards a goal as it is seen from oneself."""
+
+import math
+from dataclasses import dataclass
+
+from tftool.base.errors import UsageError
+from tftool.geometry.motion import pid
+from tftool.geometry.motion.twist import Twist2D
+
+COINCIDENT = 1e-9
+"""Below this distance, in metres, a goal has no bearing: what is left is rounding."""
+
+TUTORIAL_DISTANCE = pid.Gains(0.5)
+"""The tutorial's forward gain: m/s per metre."""
+
+TUTORIAL_BEARING = pid.Gains(1.0)
+"""The tutorial's rotation gain: rad/s per radian."""
+
+_STOP = Twist2D()
+
+
+@dataclass(frozen=True, slots=True)
+class Law:
+    """How distance and bearing become speed and turn rate; the defaults are the tutorial's.
+
+    Attributes:
+        distance: Gains from distance in metres to speed in m/s.
+        bearing: Gains from bearing in radians to turn rate in rad/s.
+        dead_band: Distance in metres within which the goal counts as reached.
+        speed_limit: Largest speed in m/s; None for none.
+    """
+
+    distance: pid.Gains = TUTORIAL_DISTANCE
+    bearing: pid.Gains = TUTORIAL_BEARING
+    dead_band: float = 0.0
+    speed_limit: float | None = None
+
+    def __post_init__(self) -> None:
+        # Asked this way round, NaN is refused as well.
+        if not self.dead_band >= 0.0:
+            raise UsageError(f"the dead band must be zero metres or more, not {self.dead_band}")
+        if self.speed_limit is not None and not self.speed_limit >= 0.0:
+            raise UsageError(f"the speed limit must be zero m/s or more, not {self.speed_limit}")
+
+
+@dataclass(frozen=True, slots=True)
+class PursuitState:
+    """What the two controllers keep from one step to the next."""
+
+    distance: pid.PidState = pid.FRESH
+    bearing: pid.PidState = pid.FRESH
+
+
+FRESH = PursuitState()
+"""What is remembered before the first step."""
+
+
+def steer(
+    law: Law, memory: PursuitState, x: float, y: float, interval: float
+) -> tuple[Twist2D, PursuitState]:
+    """Turn a goal into a command.
+
+    Args:
+        law: How to steer.
+        memory: What the previous step left; `FRESH` at first.
+        x: How far the goal lies ahead, in metres.
+        y: How far the goal lies to the left, in metres.
+        interval: Seconds since the previous step.
+
+    Returns:
+        The command, and what to remember. Within the dead band the command is to
+        stop, and what was remembered is dropped.
+    """
+    distance = math.hypot(x, y)
+    if distance < law.dead_band:
+        return _STOP, FRESH
+    # Two frames at one place leave a residue of rounding, and atan2 would make
+    # a full turn rate of it.
+    bearing = math.atan2(y, x) if distance >= COINCIDENT else 0.0
+    distance = distance if distance >= COINCIDENT else 0.0
+
+    # Seen from the goal, being `distance` away means standing at -distance.
+    speed, of_distance = pid.step(
+        law.distance.limited(law.speed_limit), memory.distance, -distance, interval
+    )
+    turn, of_bearing = pid.step(law.bearing, memory.bearing, -bearing, interval, angle=True)
+    return Twist2D(speed, turn), PursuitState(of_distance, of_bearing)

@@ -1,0 +1,160 @@
+"""One turtle's motion, step by step: turn, move, meet the wall.
+
+The numbers are turtlesim's own, kept to the digit: a simulator that used the
+library's π or a field edge in double precision would print other poses.
+"""
+
+import math
+from array import array
+from typing import Final, NamedTuple
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import Duration
+
+PIXELS_PER_METRE: Final = 45
+"""The height of the first turtle picture: what turtlesim calls a metre."""
+
+WINDOW: Final = 500
+"""Width and height of the drawing in pixels."""
+
+FIELD: Final = 11.088889122009277
+"""Edge of the field in metres: (500 - 1) / 45 as a 32-bit float."""
+
+CENTRE: Final = FIELD / 2
+"""Both coordinates of the place where the first turtle starts, in metres."""
+
+TICK: Final[Duration] = 16_000_000
+"""Time between two updates, in nanoseconds."""
+
+STEP: Final = 0.016
+"""What one update integrates over, in seconds; the same however late the update runs."""
+
+COMMAND_TIMEOUT: Final[Duration] = 1_000_000_000
+"""A command older than this no longer moves the turtle."""
+
+PI: Final = 3.14159265
+TWO_PI: Final = 6.2831853
+
+ROTATION_SPEED: Final = 1.0
+"""Turn rate of the rotate action, in rad/s."""
+
+ROTATION_TOLERANCE: Final = 0.02
+"""The rotate action is done when less than this remains, in rad."""
+
+# Above this the quotient of `wrap` has no fraction left to speak of.
+_FAR = 1e9
+_LARGEST = 3.4028234663852886e38
+
+
+class Placement(NamedTuple):
+    """Where a body is in the plane: metres, and radians counter-clockwise from +x."""
+
+    x: float
+    y: float
+    theta: float
+
+
+class Turning(NamedTuple):
+    """What one update of the rotate action finds.
+
+    Attributes:
+        remaining: Angle still to go, the short way, in rad.
+        delta: Start minus now, in rad: a left turn counts as negative, as in turtlesim.
+        speed: Turn rate to use, in rad/s; 0 when done.
+        done: True when less than the tolerance remains.
+    """
+
+    remaining: float
+    delta: float
+    speed: float
+    done: bool
+
+
+def wrap(angle: float) -> float:
+    """Bring an angle into [-π, π), with turtlesim's eight-digit π; +π becomes -π."""
+    if not -_FAR < angle < _FAR:
+        angle = math.fmod(angle, TWO_PI)
+    wrapped = angle - TWO_PI * math.floor((angle + PI) / TWO_PI)
+    # Rounding can land on the excluded end.
+    return wrapped - TWO_PI if wrapped >= PI else wrapped
+
+
+def advance(start: Placement, forward: float, sideways: float, turn: float) -> Placement:
+    """Turn first, then move along the new heading, for one update.
+
+    Args:
+        start: Where the body is.
+        forward: Speed along the heading, in m/s.
+        sideways: Speed to the left of the heading, in m/s.
+        turn: Turn rate in rad/s.
+
+    Returns:
+        Where the body is one update later, walls not yet considered.
+    """
+    x, y, theta = start
+    theta = wrap(theta + turn * STEP)
+    cosine, sine = math.cos(theta), math.sin(theta)
+    return Placement(
+        x + (cosine * forward - sine * sideways) * STEP,
+        y + (sine * forward + cosine * sideways) * STEP,
+        theta,
+    )
+
+
+def inside(place: Placement) -> bool:
+    """Tell whether a place lies in the field, edges included."""
+    return 0.0 <= place.x <= FIELD and 0.0 <= place.y <= FIELD
+
+
+def clamp(place: Placement) -> Placement:
+    """Put a place that left the field back on its edge, each coordinate on its own."""
+    return Placement(min(max(place.x, 0.0), FIELD), min(max(place.y, 0.0), FIELD), place.theta)
+
+
+def turn_towards(goal: float, start: float, theta: float) -> Turning:
+    """Decide one update of the rotate action.
+
+    Args:
+        goal: Heading to reach; any size.
+        start: Heading at which the action began.
+        theta: Heading now.
+    """
+    remaining = wrap(wrap(goal) - theta)
+    delta = wrap(start - theta)
+    if abs(remaining) < ROTATION_TOLERANCE:
+        return Turning(remaining, delta, 0.0, True)
+    speed = -ROTATION_SPEED if remaining < 0.0 else ROTATION_SPEED
+    return Turning(remaining, delta, speed, False)
+
+
+def float32(value: float) -> float:
+    """Round to the nearest 32-bit float, as a number does that travels in a message.
+
+    Beyond the largest such float the result is infinite.
+    """
+    # An array converts as C does; `struct` refuses what overflows, from Python 3.14 on always.
+    return array("f", (value,))[0]
+
+
+def float32_finite(value: float, what: str) -> float:
+    """Round a number of a request to 32 bits, or refuse it.
+
+    Args:
+        value: The number as it came in.
+        what: What the number is, for the sentence.
+
+    Raises:
+        UsageError: If the number is NaN, infinite or larger than a 32-bit float can be.
+    """
+    rounded = float32(value)
+    if not math.isfinite(rounded):
+        raise UsageError(f"{what} must be a finite number up to {_LARGEST:.2g}, not {value!r}")
+    return rounded
+
+
+def published(
+    x: float, y: float, theta: float, speed: float, turn: float
+) -> tuple[float, float, float, float, float]:
+    """Round the five numbers of a pose message to 32-bit floats."""
+    x, y, theta, speed, turn = array("f", (x, y, theta, speed, turn))
+    return x, y, theta, speed, turn

@@ -1,0 +1,381 @@
+"""Rotations and poses as people paste them: read from text in any program's notation.
+
+What is labelled (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) says itself what it is.
+Three or four bare numbers do not, and are refused unless the form is named.
+"""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from tftool.base.errors import UsageError
+from tftool.geometry import quaternions
+from tftool.geometry.conversions import (
+    AXES,
+    nearest_rotation,
+    quaternion_from_axis_angle,
+    quaternion_from_euler,
+    quaternion_from_matrix,
+    quaternion_from_rpy,
+    xyzw_from_wxyz,
+)
+from tftool.geometry.notation import static_arguments
+from tftool.geometry.rigid import Quaternion, Transform
+
+FORMS: Final = ("xyzw", "wxyz", "rpy", "ypr", "axis-angle", "rotvec", "matrix", *AXES)
+"""What bare numbers can be named as."""
+
+LONGEST: Final = 1 << 20
+"""Characters of a text that is read."""
+
+NOT_SCALED: Final = 1e-3
+"""A quaternion's length may differ so much from 1 without a word about it."""
+
+SLACK: Final = 0.02
+"""How far a matrix may be from a rotation, by rounding of who printed it."""
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_PI = r"(?:(?:math|np|numpy)\.)?(?:pi\b|PI\b|M_PI\b|π)"
+_VALUE = rf"[+-]?(?:{_NUMBER}\s*\*\s*)?{_PI}(?:\s*[*/]\s*{_NUMBER})?|{_NUMBER}(?![\w.])"
+_TOKEN = re.compile(
+    rf"(?P<pi>(?P<sign>[+-]?)(?:(?P<times>{_NUMBER})\s*\*\s*)?{_PI}(?:\s*(?P<how>[*/])\s*(?P<by>{_NUMBER}))?)"
+    rf"|(?P<number>{_NUMBER})"
+    r"|(?P<word>[^\W\d][\w.-]*)"
+    r"|(?P<other>\S)"
+)
+_LABELLED = re.compile(
+    r"\b(?:(?P<heading>translation|position|origin|rotation|orientation|quaternion)\b"
+    r"|(?P<label>q?[xyzw]|roll|pitch|yaw)\b[\"']?\s*[:=]\s*[\"']?"
+    rf"(?:\$\{{\s*)?(?P<number>{_VALUE}))",
+    re.IGNORECASE,
+)
+_ATTRIBUTE = r"\b{}\s*=\s*(?:\"([^\"]*)\"|'([^']*)')"
+_BRACKETED = r"\s*(?:\((?:xyzw|XYZW)\)\s*)?\[([^\]]*)\]"
+_DEGREES = frozenset({"deg", "degs", "degree", "degrees"})
+_FILLER = frozenset(
+    {
+        *("and", "angle", "angles", "array", "axis", "dtype", "euler", "float", "float32"),
+        *("float64", "from_quat", "list", "matrix", "np", "np.array", "np.matrix", "numpy"),
+        *("order", "quat", "quaternion", "rad", "radian", "radians", "rotation", "q", "r"),
+        *("tensor", "torch", "tuple", "vector"),
+    }
+)
+_NAMED: Final = {
+    "xyzw": "xyzw",
+    "wxyz": "wxyz",
+    "rpy": "rpy",
+    "ypr": "ypr",
+    "axis-angle": "axis-angle",
+    "axisangle": "axis-angle",
+    "axis": "axis-angle",
+    "rotvec": "rotvec",
+    **{axes: axes for axes in AXES},
+}
+_PUNCTUATION = frozenset("[](){}<>,;:=|$\"'°*-")
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """One transform that was read from a text.
+
+    Attributes:
+        transform: The pose; its quaternion of length 1.
+        has_translation: Whether the text said where, too.
+        form: What it was read as, in words.
+        notes: What was odd about it, as sentences.
+    """
+
+    transform: Transform
+    has_translation: bool
+    form: str
+    notes: tuple[str, ...] = ()
+
+
+def read(text: str, form: str | None = None, *, degrees: bool = False) -> Written:
+    """Read a rotation, or a pose, from pasted text.
+
+    Args:
+        text: What was pasted.
+        form: What bare numbers are, one of `FORMS`; None where they say so themselves.
+        degrees: Whether angles are degrees; the text may say so itself. What URDF and
+            static_transform_publisher's lines hold are radians whatever is said.
+
+    Raises:
+        UsageError: If it is none, or may be one of several.
+    """
+    if len(text) > LONGEST:
+        raise UsageError(f"That text is longer than {LONGEST} characters: paste one rotation.")
+    if form is not None and form not in FORMS:
+        raise UsageError(f"'{form}' is no form of a rotation: {_listed()}.")
+    for reader in (_publisher, _echoed, _described, _labelled):
+        found = reader(text, degrees) if form is None else None
+        if found is not None:
+            return found
+    return _bare(text, form, degrees)
+
+
+def _listed() -> str:
+    return f"{', '.join(FORMS[:7])}, or an order of axes such as sxyz or rzyx"
+
+
+# What says itself what it is
+
+
+def _publisher(text: str, _degrees: bool) -> Written | None:
+    """A line of static_transform_publisher, of ROS 1 as well."""
+    if "static_transform_publisher" not in text and not re.search(
+        r"(?<!\S)--(q?[xyz]|qw|roll|pitch|yaw|(child-)?frame-id)(?=[\s=])", text
+    ):
+        return None
+    said = static_arguments.of_line(text, frames=("parent", "child"))
+    if said is None:
+        raise UsageError("That line asks static_transform_publisher for its help.")
+    written = _quaternion(said.transform.rotation, "static_transform_publisher's words")
+    pose = Transform(said.transform.translation, written.transform.rotation)
+    return Written(pose, True, written.form, written.notes)
+
+
+def _echoed(text: str, _degrees: bool) -> Written | None:
+    """A block that tf2_echo, or ROS 1's tf_echo, printed."""
+    turn = re.search(rf"Rotation:\s*in Quaternion{_BRACKETED}", text)
+    if turn is None:
+        return None
+    quaternion = _numbers(turn[1], 4, "tf2_echo's quaternion")
+    place = re.search(rf"Translation:{_BRACKETED}", text)
+    translation = _numbers(place[1], 3, "tf2_echo's translation") if place else (0.0, 0.0, 0.0)
+    written = _quaternion(quaternion, "tf2_echo's block")
+    pose = Transform(translation, written.transform.rotation)
+    return Written(pose, place is not None, written.form, written.notes)
+
+
+def _described(text: str, _degrees: bool) -> Written | None:
+    """The attributes of a URDF's or SDF's origin."""
+    turn = re.search(_ATTRIBUTE.format("rpy"), text)
+    place = re.search(_ATTRIBUTE.format("xyz"), text)
+    if turn is None and (place is None or "<origin" not in text):
+        return None
+    angles = (0.0, 0.0, 0.0)
+    if turn is not None:
+        in_degrees = re.search(r"degrees\s*=\s*[\"']true", text) is not None  # SDF
+        angles = _angles(_numbers(turn[1] or turn[2] or "", 3, "rpy"), in_degrees)
+    translation = _numbers(place[1] or place[2] or "", 3, "xyz") if place else (0.0, 0.0, 0.0)
+    pose = Transform(translation, quaternion_from_rpy(*angles))
+    return Written(pose, place is not None, "a URDF origin")
+
+
+def _labelled(text: str, degrees: bool) -> Written | None:
+    """Numbers with their names: ROS's YAML, JSON, what Python prints of a message."""
+    groups: list[dict[str, float]] = [{}]
+    for match in _LABELLED.finditer(text):
+        if match["heading"]:
+            groups.append({})
+            continue
+        label, number = match["label"].lower().removeprefix("q"), _value(match["number"])
+        if match["label"].lower().startswith("q") and "w" not in groups[-1]:
+            # --x --y --z and qx qy qz qw in one breath
+            if groups[-1].keys() & {"x", "y", "z"} and "q" not in groups[-1]:
+                groups.append({})
+            groups[-1]["q"] = 1.0
+        if label in groups[-1]:
+            groups.append({})
+        groups[-1][label] = number
+    turns = [one for one in groups if {"x", "y", "z", "w"} <= one.keys()]
+    angles = [one for one in groups if one.keys() & {"roll", "pitch", "yaw"}]
+    places = [
+        one for one in groups if {"x", "y", "z"} <= one.keys() and not one.keys() & {"w", "q"}
+    ]
+    if not turns and not angles:
+        return None
+    translation = tuple(places[0][axis] for axis in "xyz") if places else (0.0, 0.0, 0.0)
+    if turns:
+        written = _quaternion([turns[0][axis] for axis in "xyzw"], "labelled x y z w")
+    else:
+        given = [angles[0].get(name, 0.0) for name in ("roll", "pitch", "yaw")]
+        turn = quaternion_from_rpy(*_angles(given, degrees or _says_degrees(text)))
+        written = Written(Transform(rotation=turn), False, "labelled roll pitch yaw")
+    notes = written.notes
+    if max(len(turns), len(angles)) > 1:
+        notes = (*notes, f"There are {max(len(turns), len(angles))} of them: this is the first.")
+    pose = Transform(translation, written.transform.rotation)
+    return Written(pose, bool(places), written.form, notes)
+
+
+def _says_degrees(text: str) -> bool:
+    return "°" in text or any(word in _DEGREES for word in re.findall(r"[a-z]+", text.lower()))
+
+
+# Bare numbers
+
+
+def _bare(text: str, form: str | None, degrees: bool) -> Written:
+    """Numbers in whatever brackets: of a matrix, or of a form that is named."""
+    numbers: list[float] = []
+    in_radians: set[int] = set()
+    named = None
+    for match in _TOKEN.finditer(text):
+        word = match["word"]
+        if match["pi"]:
+            in_radians.add(len(numbers))
+            numbers.append(_of_pi(match))
+        elif match["number"]:
+            numbers.append(float(match["number"]))
+        elif word and word.lower() in _NAMED:
+            named = named or _NAMED[word.lower()]
+        elif word and word.lower() in _DEGREES:
+            degrees = True
+        elif word and word.lower() not in _FILLER:
+            raise UsageError(f"'{word[:60]}' is no part of a rotation.")
+        elif match["other"] and match["other"] not in _PUNCTUATION:
+            raise UsageError(f"'{match['other']}' is no part of a rotation.")
+    degrees = degrees or "°" in text
+    if degrees:
+        # What is told in π is in radians among degrees, too.
+        numbers = [math.degrees(n) if k in in_radians else n for k, n in enumerate(numbers)]
+    if not all(map(math.isfinite, numbers)):
+        raise UsageError("A number in there is too large to be one.")
+    form = form or named
+    count = len(numbers)
+    if not count:
+        raise UsageError("There is no number in that: paste a rotation, or a pose.")
+    if count in (9, 12, 16) and form in (None, "matrix"):
+        return _matrix(numbers)
+    if form is None:
+        raise _ambiguous(count)
+    wanted = {"xyzw": 4, "wxyz": 4, "axis-angle": 4, "matrix": 9}.get(form, 3)
+    if count != wanted:
+        raise UsageError(f"{form} takes {wanted} numbers, and there are {count}.")
+    return _of_form(form, numbers, degrees)
+
+
+def _ambiguous(count: int) -> UsageError:
+    """Why `count` bare numbers need a form, or are no rotation in any."""
+    if count == 4:
+        return UsageError(
+            "Four bare numbers can be x y z w or w x y z: say which with --as xyzw or --as wxyz."
+        )
+    if count == 3:
+        return UsageError(
+            "Three bare numbers can be angles or a rotation vector: say which with --as rpy, "
+            "--as ypr, --as rotvec, or an order of axes such as --as szyx."
+        )
+    given = "1 number is" if count == 1 else f"{count} numbers are"
+    return UsageError(
+        f"{given} no rotation: a quaternion has 4, angles are 3, a matrix has 9 or 16."
+    )
+
+
+def _value(text: str) -> float:
+    match = _TOKEN.fullmatch(text)
+    assert match is not None
+    return _of_pi(match) if match["pi"] else float(text)
+
+
+def _of_pi(match: "re.Match[str]") -> float:
+    value = math.pi * float(match["times"] or 1.0)
+    if match["by"]:
+        by = float(match["by"])
+        if match["how"] == "/" and by == 0.0:
+            raise UsageError(f"'{match[0]}' divides by zero.")
+        value = value / by if match["how"] == "/" else value * by
+    return -value if match["sign"] == "-" else value
+
+
+def _of_form(form: str, numbers: Sequence[float], degrees: bool) -> Written:
+    if form in ("xyzw", "wxyz"):
+        turn = numbers if form == "xyzw" else xyzw_from_wxyz(numbers)
+        return _quaternion(turn, f"quaternion {' '.join(form)}")
+    unit = "degrees" if degrees else "radians"
+    if form == "axis-angle":
+        angle = math.radians(numbers[3]) if degrees else numbers[3]
+        return _turned(_about(numbers[:3], angle), f"axis and angle, {unit}")
+    x, y, z = numbers
+    if form == "rotvec":
+        vector = _angles(numbers, degrees)
+        length = math.hypot(*vector)
+        turn = _about(vector, length) if length else Quaternion(0.0, 0.0, 0.0, 1.0)
+        return _turned(turn, f"rotation vector, {unit}")
+    if form == "rpy":
+        turn = quaternion_from_rpy(*_angles((x, y, z), degrees))
+        return _turned(turn, f"roll pitch yaw, {unit}", _beyond(numbers, degrees))
+    if form == "ypr":
+        turn = quaternion_from_rpy(*_angles((z, y, x), degrees))
+        return _turned(turn, f"yaw pitch roll, {unit}", _beyond(numbers, degrees))
+    turn = quaternion_from_euler(_angles(numbers, degrees), form)
+    return _turned(turn, f"Euler angles {form}, {unit}", _beyond(numbers, degrees))
+
+
+def _about(axis: Sequence[float], angle: float) -> Quaternion:
+    try:
+        return quaternion_from_axis_angle(axis, angle)
+    except ValueError as error:
+        raise UsageError(f"{error}.") from None
+
+
+def _turned(turn: Quaternion, form: str, notes: tuple[str, ...] = ()) -> Written:
+    return Written(Transform(rotation=turn), False, form, notes)
+
+
+def _beyond(numbers: Sequence[float], degrees: bool) -> tuple[str, ...]:
+    beyond = [number for number in numbers if abs(number) > 2.0 * math.pi]
+    if degrees or not beyond:
+        return ()
+    return (f"{beyond[0]:g} radians are more than a full turn: degrees take --degrees.",)
+
+
+def _quaternion(numbers: Sequence[float], form: str) -> Written:
+    x, y, z, w = numbers
+    length = math.hypot(x, y, z, w)
+    turn = quaternions.unit((x, y, z, w))
+    if math.isnan(turn[0]):
+        raise UsageError(static_arguments.NO_ROTATION)
+    notes: tuple[str, ...] = ()
+    if abs(length - 1.0) > NOT_SCALED:
+        notes = (f"The quaternion has length {length:.6g}, and was scaled to 1.",)
+    return Written(Transform(rotation=turn), False, form, notes)
+
+
+def _matrix(numbers: Sequence[float]) -> Written:
+    count = len(numbers)
+    width = 3 if count == 9 else 4
+    rows = [tuple(numbers[start : start + width]) for start in range(0, count, width)]
+    translation = tuple(row[3] for row in rows[:3]) if width == 4 else (0.0, 0.0, 0.0)
+    if count == 16 and max(abs(a - b) for a, b in zip(rows[3], (0, 0, 0, 1), strict=True)) > 1e-6:
+        hint = "; written column by column? Then transpose it" if any(rows[3][:3]) else ""
+        raise UsageError(
+            f"The last row of a 4×4 matrix is 0 0 0 1, not {' '.join(f'{n:g}' for n in rows[3])}"
+            f"{hint}."
+        )
+    near, apart = nearest_rotation([row[:3] for row in rows[:3]])
+    if not apart < SLACK:
+        raise UsageError(
+            "The matrix is no rotation: its rows are not of length 1 and square, or it mirrors."
+        )
+    notes: tuple[str, ...] = ()
+    if apart > 1e-6:
+        notes = (
+            f"The matrix is off a rotation by {apart:.2g}, as rounding makes it: the nearest "
+            "rotation was taken.",
+        )
+    turn = quaternion_from_matrix(near)
+    name = f"{len(rows)}×{width} matrix"
+    return Written(Transform(translation, turn), width == 4, name, notes)
+
+
+def _angles(numbers: Sequence[float], degrees: bool) -> tuple[float, float, float]:
+    x, y, z = (math.radians(number) if degrees else number for number in numbers)
+    return x, y, z
+
+
+def _numbers(text: str, count: int, what: str) -> tuple[float, ...]:
+    words = [word.strip("\"'") for word in re.split(r"[\s,;]+", text) if word]
+    found = []
+    for word in words:
+        bare = word.removeprefix("${").removesuffix("}")
+        if not re.fullmatch(_VALUE, bare):
+            raise UsageError(f"{what} has '{word[:60]}' where a number belongs.")
+        found.append(_value(bare))
+    if len(found) != count or not all(map(math.isfinite, found)):
+        raise UsageError(f"{what} takes {count} finite numbers, and there are {len(found)}.")
+    return tuple(found)

@@ -1,0 +1,255 @@
+"""The words of static_transform_publisher: tf2's two styles of saying one transform."""
+
+import math
+import re
+import shlex
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from tftool.base.errors import UsageError
+from tftool.base.near_names import near_names
+from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.geometry.rigid import Transform
+
+TRANSLATION = ("x", "y", "z")
+QUATERNION = ("qx", "qy", "qz", "qw")
+EULER = ("roll", "pitch", "yaw")
+# The order of the positional style; it surprises everybody once.
+OLD_EULER = ("yaw", "pitch", "roll")
+FRAMES = ("frame-id", "child-frame-id")
+
+NO_ROTATION = "A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing."
+"""Why four zeros are refused."""
+
+OPTIONS = tuple(f"--{name}" for name in (*TRANSLATION, *QUATERNION, *EULER, *FRAMES))
+
+# The whole word must be a number; tf2 reads 3.14abc as 3.14.
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+
+Rotation = Literal["none", "euler", "quaternion"]
+
+
+@dataclass(frozen=True, slots=True)
+class StaticArguments:
+    """One static transform, as the command line says it.
+
+    Attributes:
+        transform: The pose of `child` in `parent`; its quaternion exactly as it was given.
+        parent: Frame the transform starts from, as written.
+        child: Frame it leads to, as written.
+        old_style: Whether the numbers came without names.
+        rotation: How the turn was said.
+        angles: Roll, pitch and yaw in radians as they were given; zeros for a quaternion.
+    """
+
+    transform: Transform
+    parent: str
+    child: str
+    old_style: bool
+    rotation: Rotation
+    angles: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+def parse(argv: Sequence[str]) -> StaticArguments | None:
+    """Read the words after the command's name.
+
+    `--x --y --z`, `--roll --pitch --yaw` or `--qx --qy --qz --qw`, `--frame-id` and
+    `--child-frame-id`, in any order, each with its value as the next word; or eight
+    words `x y z yaw pitch roll parent child`; or nine, `x y z qx qy qz qw parent child`.
+
+    Returns:
+        What they say; None when they ask for help.
+
+    Raises:
+        UsageError: With tf2's own text, and what to do about it.
+    """
+    words, given, asks_for_help = _split(argv)
+    if asks_for_help:
+        return None
+    euler = [name for name in EULER if name in given]
+    quaternion = [name for name in QUATERNION if name in given]
+    if euler and quaternion:
+        raise _refusal(
+            "Cannot specify both quaternion and Euler rotations",
+            f"--{euler[0]} and --{quaternion[0]} say the same thing twice: leave one out.",
+        )
+    if len(words) in (8, 9):
+        if given:
+            option = next(iter(given))
+            raise _refusal(
+                "Cannot specify both new-style (flags) and old-style (arguments)",
+                f"Leave out --{option}, or give every number by its option.",
+            )
+        return _old_style(words)
+    if words:
+        raise _refusal("Extra unparsed arguments on command-line", _about_extra(words))
+
+    parent, child = (given.get(name, "") for name in FRAMES)
+    if not parent:
+        raise _refusal("Frame id must not be empty", "Name the parent with --frame-id PARENT.")
+    if not child:
+        raise _refusal(
+            "Child frame id must not be empty", "Name the child with --child-frame-id CHILD."
+        )
+    # Every option was checked in the order of the command line.
+    numbers = {name: float(text) for name, text in given.items() if name not in FRAMES}
+    x, y, z = (numbers.get(name, 0.0) for name in TRANSLATION)
+    roll, pitch, yaw = (numbers.get(name, 0.0) for name in EULER)
+    if quaternion:
+        turn = _rotation(numbers.get(name, float(name == "qw")) for name in QUATERNION)
+        return StaticArguments(Transform((x, y, z), turn), parent, child, False, "quaternion")
+    return StaticArguments(
+        Transform((x, y, z), quaternion_from_rpy(roll, pitch, yaw)),
+        parent,
+        child,
+        False,
+        "euler" if euler else "none",
+        (roll, pitch, yaw),
+    )
+
+
+def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
+    """Read a whole line of a shell, of ROS 1's publisher as well.
+
+    Args:
+        line: What stands behind "static_transform_publisher" is read; all of it, if that is
+            not there.
+        frames: Parent and child where options leave them out.
+
+    Returns:
+        What it says; None where it asks for help.
+
+    Raises:
+        UsageError: If it cannot be read.
+    """
+    try:
+        words = shlex.split(line.replace("\\\n", " "), comments=True)
+    except ValueError as error:
+        raise UsageError(f"That line has a quote without its partner: {error}.") from None
+    start = next((n for n, word in enumerate(words) if "static_transform_publisher" in word), -1)
+    rest = words[start + 1 :]
+    # Where the line goes on with something else.
+    for end in ("--ros-args", "&", "&&", ";", "|", ">"):
+        rest = rest[: rest.index(end)] if end in rest else rest
+    rest = [part for word in rest for part in _parted(word.removesuffix(";"))]
+    named = any(word in OPTIONS for word in rest)
+    if not named and len(rest) in (9, 10) and _is_number(rest[-1]) and not _is_number(rest[-2]):
+        rest = rest[:-1]  # ROS 1: the period comes last
+    if named and frames:
+        for option, frame in zip(("--frame-id", "--child-frame-id"), frames, strict=True):
+            rest += [] if option in rest else [option, frame]
+    return parse(rest)
+
+
+def _parted(word: str) -> list[str]:
+    option, equals, value = word.partition("=")
+    return [option, value] if equals and option in OPTIONS else [word]
+
+
+def _is_number(word: str) -> bool:
+    return _NUMBER.fullmatch(word) is not None
+
+
+def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
+    """Part the words without an option from the values of the options."""
+    words: list[str] = []
+    given: dict[str, str] = {}
+    asks_for_help = False
+    rest = iter(argv)
+    for word in rest:
+        if word in ("--help", "-h"):
+            asks_for_help = True
+        elif word in OPTIONS:
+            value = next(rest, None)
+            if value is None:
+                raise _refusal(f"Not enough arguments for {word}", "Its value is the next word.")
+            name = word.removeprefix("--")
+            if name not in FRAMES:
+                _number(word, value)
+            given[name] = value
+        else:
+            words.append(word)
+    return words, given, asks_for_help
+
+
+def _rotation(numbers: Iterable[float]) -> tuple[float, ...]:
+    turn = tuple(numbers)
+    if not any(turn):
+        raise UsageError(NO_ROTATION)
+    return turn
+
+
+def _old_style(words: list[str]) -> StaticArguments:
+    *texts, parent, child = words
+    turns = OLD_EULER if len(texts) == 6 else QUATERNION
+    names = (*TRANSLATION, *turns)
+    numbers = {name: _number(name, text) for name, text in zip(names, texts, strict=True)}
+    if not parent:
+        raise _refusal("Frame id must not be empty", "The last but one word names the parent.")
+    if not child:
+        raise _refusal("Child frame id must not be empty", "The last word names the child.")
+    translation = tuple(numbers[name] for name in TRANSLATION)
+    if turns is QUATERNION:
+        turn = _rotation(numbers[name] for name in QUATERNION)
+        return StaticArguments(Transform(translation, turn), parent, child, True, "quaternion")
+    roll, pitch, yaw = (numbers[name] for name in EULER)
+    return StaticArguments(
+        Transform(translation, quaternion_from_rpy(roll, pitch, yaw)),
+        parent,
+        child,
+        True,
+        "euler",
+        (roll, pitch, yaw),
+    )
+
+
+def _number(name: str, text: str) -> float:
+    value = float(text) if _NUMBER.fullmatch(text) else math.nan
+    if not math.isfinite(value):
+        raise _refusal(
+            f"Failed to parse {name} argument as float", f"'{text}' is not a finite number."
+        )
+    return value
+
+
+def _about_extra(words: list[str]) -> str:
+    for word in words:
+        option, equals, value = word.partition("=")
+        if equals and option in OPTIONS:
+            return f"Write {option} {value} instead of {word}."
+        if word.startswith("--"):
+            near = near_names(option, OPTIONS)
+            return f"There is no {option}." + (f" Did you mean {near[0]}?" if near else "")
+    return (
+        f"Without options it takes 8 words, x y z yaw pitch roll PARENT CHILD, or 9, "
+        f"x y z qx qy qz qw PARENT CHILD; here are {len(words)}."
+    )
+
+
+def _refusal(tf2_text: str, remedy: str) -> UsageError:
+    return UsageError(f"error parsing command line arguments: {tf2_text}. {remedy}")
+
+
+def advice(said: StaticArguments) -> list[str]:
+    """What the author of these arguments may not have meant: one sentence each."""
+    sentences = []
+    if said.old_style:
+        sentences.append("Old-style arguments are deprecated; see --help for new-style arguments.")
+    roll, pitch, yaw = said.angles
+    if said.old_style and roll and not pitch and not yaw:
+        numbers = " ".join(f"{number:g}" for number in said.transform.translation)
+        sentences.append(
+            f"The sixth number is roll: {roll:g} turns about the x axis. To turn about z, "
+            f"put it fourth: {numbers} {roll:g} 0 0 {said.parent} {said.child}"
+        )
+    beyond = [angle for angle in said.angles if abs(angle) > 2.0 * math.pi]
+    if beyond:
+        sentences.append(
+            f"Angles are radians, and {beyond[0]:g} is more than a full turn; "
+            f"{beyond[0]:g} degrees would be {math.radians(beyond[0]):.6g}."
+        )
+    length = math.hypot(*said.transform.rotation)
+    if said.rotation == "quaternion" and abs(length - 1.0) > 0.01:
+        sentences.append(f"The quaternion has length {length:.4g}, not 1; receivers scale it.")
+    return sentences

@@ -1,0 +1,387 @@
+"""Message, service and action classes, made from their definitions.
+
+They behave as those that ROS 2 generates: every field has its default, the
+constructor takes keywords, an assignment is checked for type and range, messages
+compare by value and show themselves with all fields.
+"""
+
+import array
+import math
+import struct
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from operator import attrgetter
+from typing import Any, ClassVar, Final
+
+from tftool.base.errors import InputError
+from tftool.messages import schema
+from tftool.messages.field_checks import Check, array_check, element_check, packed
+from tftool.messages.schema import (
+    FLOATS,
+    INTEGERS,
+    PRIMITIVES,
+    STRINGS,
+    Schema,
+    Structure,
+    full_name,
+)
+
+_one_float32 = struct.Struct("<f")
+
+
+def as_float32(value: float) -> float:
+    """The number as a 32-bit field brings it to the other side."""
+    if not math.isfinite(value):
+        return value
+    return float(_one_float32.unpack(_one_float32.pack(value))[0])
+
+
+@dataclass(frozen=True, slots=True)
+class MessageField:
+    """One field of a class.
+
+    Attributes:
+        name: What it is called.
+        kind: Its element's type: a primitive's name, or a message class.
+        size: None for a single value, a number for a fixed array, -1 for a sequence.
+        bound: The most elements a bounded sequence may hold, None without a bound.
+        text_bound: The most characters of a bounded text, None without a bound.
+        check: What an assigned value goes through.
+        make: Gives the default.
+        described: Its type as ROS 2 writes it.
+    """
+
+    name: str
+    kind: "str | type[Message]"
+    size: int | None
+    bound: int | None
+    text_bound: int | None
+    check: Check
+    make: Callable[[], Any]
+    described: str
+
+
+class Message:
+    """What all messages have in common; the fields come from the definitions."""
+
+    __slots__ = ()
+
+    fields__: ClassVar[tuple[MessageField, ...]] = ()
+    interface__: ClassVar[str] = ""
+
+    def __init__(self, **kwargs: Any) -> None:
+        """Give every field its default, then those named their values.
+
+        Raises:
+            AssertionError: If a name is no field, or a value does not fit its field.
+        """
+        for field in self.fields__:
+            if field.name in kwargs:
+                setattr(self, field.name, kwargs.pop(field.name))
+            else:
+                setattr(self, f"_{field.name}", field.make())
+        if kwargs:
+            raise AssertionError(
+                f"Invalid arguments passed to constructor: {', '.join(sorted(kwargs))}"
+                f" ({type(self).__name__} has {', '.join(f.name for f in self.fields__) or 'none'})"
+            )
+
+    @classmethod
+    def get_fields_and_field_types(cls) -> dict[str, str]:
+        """Every field's type by its name, as ROS 2 writes them."""
+        return {field.name: field.described for field in cls.fields__}
+
+    def __repr__(self) -> str:
+        package, kind, _ = self.interface__.split("/")
+        shown = ", ".join(f"{f.name}={_shown(getattr(self, f.name))}" for f in self.fields__)
+        return f"{package}.{kind}.{type(self).__name__}({shown})"
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return False
+        return all(
+            _equal(getattr(self, field.name), getattr(other, field.name)) for field in self.fields__
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __copy__(self) -> "Message":
+        same = object.__new__(type(self))
+        for field in self.fields__:
+            setattr(same, f"_{field.name}", getattr(self, field.name))
+        return same
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Any:
+        return duplicate(self)
+
+
+def _shown(value: Any) -> str:
+    return repr(list(value)) if isinstance(value, array.array) and not len(value) else repr(value)
+
+
+def _equal(one: Any, other: Any) -> bool:
+    if hasattr(one, "dtype") or hasattr(other, "dtype"):
+        return list(one) == list(other)
+    return bool(one == other)
+
+
+def duplicate(message: Any) -> Any:
+    """A deep copy, with 32-bit fields rounded: what arrives at the other end."""
+    kind = type(message)
+    same = object.__new__(kind)
+    for field in kind.fields__:
+        slot = f"_{field.name}"
+        setattr(same, slot, _duplicated(field, getattr(message, slot)))
+    return same
+
+
+def _duplicated(field: MessageField, value: Any) -> Any:
+    if field.size is None:
+        if not isinstance(field.kind, str):
+            return duplicate(value)
+        return as_float32(value) if field.kind in ("float32", "float") else value
+    if not isinstance(field.kind, str):
+        return [duplicate(one) for one in value]
+    if isinstance(value, list):
+        return list(value)
+    return value.copy() if hasattr(value, "dtype") else value[:]
+
+
+# Making them
+
+
+MOST_NESTED: Final = 64
+"""How deep messages may lie in messages."""
+
+
+class Interfaces(Schema):
+    """Every interface's class by its name, made when it is first asked for.
+
+    The process has one set, `INTERFACES`; a recording has its own, as its definitions may be
+    those of another release, or of ROS 1.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._made: dict[str, type[Any]] = {}
+
+    def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
+        """Answer to a package's own definitions, by (kind, name)."""
+        # Classes compare by identity: as long as nothing changes they stay what they are.
+        if self.knows(package, texts):
+            return
+        super().add(package, texts)
+        for full in [full for full in self._made if full.startswith(f"{package}/")]:
+            del self._made[full]
+
+    def find(self, package: str, kind: str, name: str) -> type[Any]:
+        """The class of an interface.
+
+        Raises:
+            InputError: If there is none of that name.
+        """
+        full = f"{package}/{kind}/{name}"
+        if kind == "msg":
+            return self.part(full)
+        made = self._made.get(full)
+        if made is None:
+            made = self._made[full] = self._compound(package, kind, name)
+        return made
+
+    def message(self, name: str) -> type[Message]:
+        """The class of a message by "package/msg/Name" or "package/Name".
+
+        Raises:
+            InputError: If there is none of that name, or it contains itself.
+        """
+        return self.part(full_name(name))
+
+    def recorded(self, name: str, text: str = "") -> type[Message]:
+        """The class of a message in a recording.
+
+        Where the recording holds two definitions of one type, each message is read by the
+        one that came with it.
+
+        Args:
+            name: Its type, "geometry_msgs/PoseStamped" or "geometry_msgs/msg/PoseStamped".
+            text: The definition that the recording has for it, those of its parts behind it
+                (see `define`); "" to take ROS 2's own.
+
+        Raises:
+            InputError: If it is not known, contains itself, or its definition is wrong.
+        """
+        full = full_name(name)
+        if text.strip() and not self.define(full, text):
+            return Interfaces().recorded(full, text)
+        return self.part(full)
+
+    def part(self, full: str) -> type[Message]:
+        """The class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.
+
+        Raises:
+            InputError: If there is none of that name, or it contains itself.
+        """
+        return self._part(full, ())
+
+    def _part(self, full: str, within: tuple[str, ...]) -> type[Message]:
+        made = self._made.get(full)
+        if made is None:
+            if full in within:
+                raise InputError(f"{full} contains itself, so no message of it can ever be made")
+            if len(within) >= MOST_NESTED:
+                raise InputError(f"more than {MOST_NESTED} messages lie within each other")
+            made = self._made[full] = self._class(self.structure(full), (*within, full))
+        return made
+
+    def _compound(self, package: str, kind: str, name: str) -> type[Any]:
+        full = f"{package}/{kind}/{name}"
+        made: dict[str, Any] = {
+            part: self.part(f"{full}_{part}") for part in self.parts(package, kind, name)
+        }
+        if kind == "srv":
+            made["Event"] = _Later(lambda: self.part(f"{full}_Event"))
+        if kind == "action":
+            made["Impl"] = _Later(lambda: self._derived(full))
+        return _holder(full, made)
+
+    def _derived(self, action: str) -> type[Any]:
+        """What ROS 2 makes of an action: three services and two topics, by rclpy's names."""
+        made = self._made.get(f"{action}_Impl")
+        if made is None:
+            services = {
+                f"{one}Service": _holder(
+                    f"{action}_{one}",
+                    {
+                        part: self.part(f"{action}_{one}_{part}")
+                        for part in ("Request", "Response", "Event")
+                    },
+                )
+                for one in ("SendGoal", "GetResult")
+            }
+            made = self._made[f"{action}_Impl"] = _holder(
+                f"{action}_Impl",
+                {
+                    **services,
+                    "CancelGoalService": self.find("action_msgs", "srv", "CancelGoal"),
+                    "FeedbackMessage": self.part(f"{action}_FeedbackMessage"),
+                    "GoalStatusMessage": self.message("action_msgs/GoalStatusArray"),
+                },
+            )
+        return made
+
+    def _class(self, structure: Structure, within: tuple[str, ...]) -> type[Message]:
+        package, kind, name = structure.name.split("/")
+        members: dict[str, Any] = {
+            constant: _literal(f"{structure.name}: '{constant}'", type_name, text)
+            for constant, type_name, text in structure.constants
+        }
+        fields = tuple(self._field(structure.name, field, within) for field in structure.fields)
+        for field in fields:
+            members[field.name] = _property(field)
+        members["__slots__"] = [f"_{field.name}" for field in fields]
+        members["fields__"] = fields
+        members["interface__"] = structure.name
+        members["__module__"] = f"{package}.{kind}"
+        return type(name, (Message,), members)
+
+    def _field(
+        self, owner: str, field: schema.FieldDefinition, within: tuple[str, ...]
+    ) -> MessageField:
+        name, type_name, size = field.name, field.type, field.size
+        kind: str | type[Message] = type_name
+        described = {"float32": "float", "float64": "double"}.get(type_name, type_name)
+        if type_name not in PRIMITIVES:
+            try:
+                kind = self._part(type_name, within)
+            except InputError as error:
+                raise InputError(f"{owner}: field '{name}': {error}") from None
+            described = type_name.replace("/msg/", "/")
+        check = element_check(name, kind, field.text_bound)
+        if size is None:
+            make = _single(f"{owner}: '{name}'", kind, field.default)
+        else:
+            make = _several(f"{owner}: '{name}'", kind, size, field.default)
+            check = array_check(name, kind, size, field.bound, check)
+            described = f"{described}[{size}]" if size >= 0 else f"sequence<{described}>"
+        return MessageField(name, kind, size, field.bound, field.text_bound, check, make, described)
+
+
+class _Later:
+    """A class within another one, made when it is first asked for."""
+
+    def __init__(self, make: Callable[[], type[Any]]) -> None:
+        self._make = make
+
+    def __get__(self, instance: object, owner: object) -> type[Any]:
+        return self._make()
+
+
+def _holder(full: str, members: dict[str, Any]) -> type[Any]:
+    package, kind, name = full.split("/")
+    return type(name, (), members | {"interface__": full, "__module__": f"{package}.{kind}"})
+
+
+def _property(field: MessageField) -> property:
+    slot = f"_{field.name}"
+    check = field.check
+
+    def write(self: Any, value: Any) -> None:
+        setattr(self, slot, check(value))
+
+    # Read by the interpreter itself: messages are read far more often than written.
+    return property(attrgetter(slot), write, doc=field.described)
+
+
+def _single(place: str, kind: "str | type[Message]", default: str | None) -> Callable[[], Any]:
+    if not isinstance(kind, str):
+        return kind
+    value = _literal(place, kind, default) if default is not None else _nothing(kind)
+    return lambda: value
+
+
+def _several(
+    place: str, kind: "str | type[Message]", size: int, default: str | None
+) -> Callable[[], Any]:
+    if default is not None and isinstance(kind, str):
+        given = [
+            _literal(place, kind, part) for part in default.strip("[] ").split(",") if part.strip()
+        ]
+        return lambda: packed(kind, size, list(given))
+    if isinstance(kind, str):
+        return lambda: packed(kind, size, [_nothing(kind)] * max(0, size))
+    return lambda: [kind() for _ in range(max(0, size))]
+
+
+def _nothing(kind: str) -> Any:
+    if kind in INTEGERS:
+        return 0
+    if kind in FLOATS:
+        return 0.0
+    if kind in STRINGS:
+        return ""
+    return b"\0" if kind == "byte" else False
+
+
+def _literal(place: str, kind: str, text: str) -> Any:
+    """The value of a constant or a default, and its place for the message if it is wrong.
+
+    Raises:
+        InputError: If it is no such value.
+    """
+    text = text.strip()
+    try:
+        if kind in INTEGERS or kind == "byte":
+            # ROS 1 writes 010 for ten.
+            number = int(text) if text.lstrip("+-").isdecimal() else int(text, 0)
+            return bytes([number & 0xFF]) if kind == "byte" else number
+        if kind in FLOATS:
+            return float(text)
+    except ValueError:
+        raise InputError(f"{place}: '{text[:80]}' is no {kind}") from None
+    if kind == "bool":
+        return text.lower() in ("true", "1")
+    return text[1:-1] if text[:1] in "\"'" and text[-1:] == text[:1] and len(text) > 1 else text
+
+
+INTERFACES = Interfaces()
+"""The interfaces every part of `ros` shares: a class compares by identity, so one of each."""

@@ -1,0 +1,396 @@
+"""Messages as bytes and back, by their definitions.
+
+A type is planned once for each layout, as a row of steps: a run of numbers, a text, an
+array, a list of messages. Each step writes itself from a message, and reads the values of
+its fields. Arrays of numbers are copied once on their way out and once on their way in.
+"""
+
+import array
+import struct
+import sys
+from collections.abc import Callable, Iterator
+from operator import attrgetter
+from typing import Any, Final
+
+from tftool.base.errors import MalformedMessage
+from tftool.messages.classes import Message, MessageField
+from tftool.messages.field_checks import packed, typecode
+from tftool.messages.layouts import (
+    BIG,
+    CDR,
+    LITTLE,
+    PASSED_ON,
+    Layout,
+    Payload,
+    Reader,
+    Writer,
+    check_rest,
+)
+
+MOST_FIELDS: Final = 50_000
+"""Fields of one type, those of its parts included; a definition can double them in each line."""
+
+_NATIVE = LITTLE if sys.byteorder == "little" else BIG
+_SMALLEST_TEXT: Final = 4
+
+
+class Codec:
+    """One message type's bytes in one layout.
+
+    Any object that has the fields as attributes can be written; what is read is a message
+    of the class.
+    """
+
+    def __init__(self, kind: type[Message], layout: Layout = CDR) -> None:
+        """Plan how a class's fields lie.
+
+        Args:
+            kind: The class of the messages.
+            layout: The rules that the bytes follow.
+
+        Raises:
+            MalformedMessage: If a field is of a type whose bytes differ between ROS 2
+                releases, or the type has more fields than `MOST_FIELDS`.
+        """
+        self.kind = kind
+        self.layout = layout
+        self.name = kind.interface__
+        self._plan = _Planner(self.name, layout).plan(kind)
+
+    def encode(self, message: Any) -> bytes:
+        """The bytes of one message.
+
+        Raises:
+            MalformedMessage: If a value does not fit its field.
+        """
+        writer = Writer()
+        try:
+            self._plan.write(writer, message)
+            return writer.finish(self.layout)
+        except (struct.error, OverflowError, AttributeError, TypeError, ValueError) as error:
+            raise MalformedMessage(self.name, f"a value does not fit its field: {error}") from error
+
+    def decode(self, payload: Payload) -> Any:
+        """The message of some bytes; nothing of it refers to them afterwards.
+
+        Raises:
+            MalformedMessage: If they are not one.
+        """
+        reader = Reader(self.name, payload, self.layout)
+        if len(payload) == len(self.layout.header) and not self.kind.fields__:
+            # Some writers leave the empty structure's one byte out.
+            return self.kind()
+        message = self._plan.read(reader)
+        check_rest(self.name, len(payload) - reader.position)
+        return message
+
+
+_codecs: dict[Any, Codec] = {}
+
+
+def codec(kind: type[Message]) -> Codec:
+    """The CDR codec of a message's class, made once."""
+    found = _codecs.get(kind)
+    if found is None:
+        found = _codecs[kind] = Codec(kind)
+    return found
+
+
+class _Run:
+    """Numbers of fixed size next to each other, those of parts of the message included."""
+
+    def __init__(self, leaves: list[tuple[str, str]], layout: Layout) -> None:
+        """Lay out (path, letter) pairs; padding has no path."""
+        self._get = _getter([path for path, _ in leaves if path])
+        self._letters = [letter for _, letter in leaves]
+        self.smallest = sum(map(struct.calcsize, self._letters))
+        self._start = len(layout.header)
+        # How much padding there is depends on where the run begins on the layout's grid.
+        self._mask = layout.alignment - 1
+        self._structs: dict[str, list[struct.Struct]] = {
+            order: [self._struct(order, phase, layout) for phase in range(layout.alignment)]
+            for order in {LITTLE, *layout.headers.values()}
+        }
+        self._little = self._structs[LITTLE]
+
+    def _struct(self, order: str, phase: int, layout: Layout) -> struct.Struct:
+        text, place = order, phase
+        for letter in self._letters:
+            size = struct.calcsize(letter)
+            padding = layout.padding(place, size)
+            text += "x" * padding + letter
+            place += padding + size
+        return struct.Struct(text)
+
+    def write(self, writer: Writer, message: Any) -> None:
+        chosen = self._little[(writer.before + len(writer)) & self._mask]
+        writer += chosen.pack(*self._get(message))
+
+    def read(self, reader: Reader, values: list[Any]) -> None:
+        chosen = self._structs[reader.order][(reader.position - self._start) & self._mask]
+        values += chosen.unpack_from(reader.payload, reader.take(chosen.size))
+
+
+class _Text:
+    """A text: its length and its bytes."""
+
+    smallest = _SMALLEST_TEXT
+
+    def __init__(self, path: str, bound: int | None, layout: Layout) -> None:
+        self._get = attrgetter(path)
+        self._layout = layout
+        self._bound = bound
+
+    def write(self, writer: Writer, message: Any) -> None:
+        writer.text(self._get(message), self._layout)
+
+    def read(self, reader: Reader, values: list[Any]) -> None:
+        values.append(reader.text(self._bound))
+
+
+class _Array:
+    """Numbers, bytes or truth values: a fixed array, or a sequence with its length in front."""
+
+    def __init__(self, path: str, field: MessageField, layout: Layout) -> None:
+        self._get = attrgetter(path)
+        self._field = field
+        self._layout = layout
+        assert isinstance(field.kind, str)
+        self._kind = field.kind
+        self._code = typecode(field.kind) or "B"
+        self._item = struct.calcsize(self._code)
+        self._align = min(self._item, layout.alignment)
+        self._count = field.size if field.size is not None and field.size >= 0 else None
+        self.smallest = 4 if self._count is None else self._count * self._item
+
+    def write(self, writer: Writer, message: Any) -> None:
+        value = self._get(message)
+        count = len(value)
+        _check_count(self._field, count)
+        if self._count is None:
+            writer.length(count, self._layout)
+        if not count:
+            return
+        writer += bytes(-(writer.before + len(writer)) % self._align)
+        raw = self._raw(value)
+        if raw.nbytes < PASSED_ON:
+            writer += raw
+        else:
+            writer.pass_on(raw)
+
+    def _raw(self, value: Any) -> memoryview:
+        """The little-endian bytes of a field's numbers, those of the value itself if possible."""
+        if self._kind == "byte":
+            return memoryview(b"".join(value))
+        if self._kind == "bool":
+            return memoryview(bytes(map(bool, value)))
+        held = _numbers_held(value)
+        if held is None or _letter_of(held) != self._code or _NATIVE != LITTLE:
+            numbers = array.array(self._code, value.tolist() if hasattr(value, "tolist") else value)
+            held = memoryview(self._turned(numbers, LITTLE))
+        return held.cast("B")
+
+    def read(self, reader: Reader, values: list[Any]) -> None:
+        count = reader.count(self._item, self._field.bound) if self._count is None else self._count
+        raw = reader.numbers(count, self._item)
+        if self._kind == "byte":
+            values.append([bytes(raw[place : place + 1]) for place in range(count)])
+        elif self._kind == "bool":
+            # Anything but 0 is true, and nothing is refused for it.
+            values.append(list(map(bool, raw)))
+        else:
+            found = array.array(self._code)
+            found.frombytes(raw)
+            found = self._turned(found, reader.order)
+            values.append(found if self._count is None else packed(self._kind, count, found))
+
+    def _turned(self, numbers: "array.array[Any]", order: str) -> "array.array[Any]":
+        """Numbers of this machine in another byte order, or the other way round."""
+        if order != _NATIVE and self._item > 1:
+            numbers.byteswap()
+        return numbers
+
+
+class _List:
+    """Texts or messages: as many as the type says, or a sequence with its length in front."""
+
+    def __init__(
+        self, path: str, field: MessageField, plan: "_Plan | None", layout: Layout
+    ) -> None:
+        self._get = attrgetter(path)
+        self._field = field
+        self._layout = layout
+        self._plan = plan
+        self._item = _SMALLEST_TEXT if plan is None else plan.smallest
+        self._count = field.size if field.size is not None and field.size >= 0 else None
+        self.smallest = 4 if self._count is None else self._count * self._item
+
+    def write(self, writer: Writer, message: Any) -> None:
+        items = self._get(message)
+        _check_count(self._field, len(items))
+        if self._count is None:
+            writer.length(len(items), self._layout)
+        for item in items:
+            if self._plan is None:
+                writer.text(item, self._layout)
+            else:
+                self._plan.write(writer, item)
+
+    def read(self, reader: Reader, values: list[Any]) -> None:
+        count = reader.count(self._item, self._field.bound) if self._count is None else self._count
+        reader.admit(count)
+        if self._plan is None:
+            values.append([reader.text(self._field.text_bound) for _ in range(count)])
+        else:
+            values.append([self._plan.read(reader) for _ in range(count)])
+
+
+_WIDE: Final = {"l": "q", "L": "Q"}
+
+_Step = _Run | _Text | _Array | _List
+
+
+class _Planner:
+    """Plans a type and the types it holds lists of, each once."""
+
+    def __init__(self, name: str, layout: Layout) -> None:
+        self._name = name
+        self._layout = layout
+        self._plans: dict[type[Message], _Plan] = {}
+        self._fields = 0
+
+    def plan(self, kind: type[Message]) -> "_Plan":
+        """How messages of a class lie."""
+        found = self._plans.get(kind)
+        if found is None:
+            found = self._plans[kind] = _Plan(kind, self._steps(kind))
+        return found
+
+    def _steps(self, kind: type[Message]) -> list[_Step]:
+        steps: list[_Step] = []
+        run: list[tuple[str, str]] = []
+
+        def end_run() -> None:
+            if run:
+                steps.append(_Run(list(run), self._layout))
+                run.clear()
+
+        def add(owner: type[Message], path: str) -> None:
+            if not owner.fields__ and self._layout.empty_size:
+                run.append(("", f"{self._layout.empty_size}x"))
+            hidden = self._layout.hidden.get(owner.interface__)
+            if hidden is not None and owner.fields__[:1] and owner.fields__[0].name != hidden[0]:
+                run.append(("", hidden[1]))
+            for field in owner.fields__:
+                self._count_field()
+                place = f"{path}{field.name}"
+                letter = self._letter(owner, field)
+                if field.size is not None:
+                    end_run()
+                    if letter:
+                        steps.append(_Array(place, field, self._layout))
+                    else:
+                        part = None if isinstance(field.kind, str) else self.plan(field.kind)
+                        steps.append(_List(place, field, part, self._layout))
+                elif letter:
+                    run.append((place, letter))
+                elif isinstance(field.kind, str):
+                    end_run()
+                    steps.append(_Text(place, field.text_bound, self._layout))
+                else:
+                    add(field.kind, f"{place}.")
+
+        add(kind, "")
+        end_run()
+        return steps
+
+    def _letter(self, owner: type[Message], field: MessageField) -> str | None:
+        """How a number of a field is written by `struct`; None for texts and messages."""
+        if field.kind == "wstring":
+            raise MalformedMessage(
+                self._name,
+                f"'{field.name}' is a wstring, whose bytes differ between releases",
+            )
+        if field.kind == "bool":
+            return "?"
+        if field.kind == "byte":
+            return "c"
+        return self._layout.letters.get((owner.interface__, field.name)) or typecode(field.kind)
+
+    def _count_field(self) -> None:
+        self._fields += 1
+        if self._fields > MOST_FIELDS:
+            raise MalformedMessage(
+                self._name, f"its definition unfolds to more than {MOST_FIELDS} fields"
+            )
+
+
+def _numbers_held(value: Any) -> memoryview | None:
+    """The memory of an array's numbers as it lies there; None for what has no such."""
+    try:
+        view = memoryview(value)
+    except TypeError:
+        return None
+    return view if view.ndim == 1 and view.c_contiguous else None
+
+
+def _letter_of(view: memoryview) -> str:
+    """The letter of a view's numbers, the same for numpy's arrays and Python's own."""
+    # Both have 8-byte integers as "l" where C's long is that wide; fields have them as "q".
+    letter = view.format
+    return _WIDE.get(letter, letter) if view.itemsize == 8 else letter
+
+
+def _getter(paths: list[str]) -> Callable[[Any], tuple[Any, ...]]:
+    """What gives the values of some attributes, as a tuple."""
+    if len(paths) > 1:
+        return attrgetter(*paths)
+    getters = [attrgetter(path) for path in paths]
+    return lambda message: tuple(get(message) for get in getters)
+
+
+def _check_count(field: MessageField, count: int) -> None:
+    if field.size is not None and 0 <= field.size != count:
+        raise ValueError(f"'{field.name}' takes {field.size} values, not {count}")
+    if field.bound is not None and count > field.bound:
+        raise ValueError(f"'{field.name}' takes at most {field.bound} values, not {count}")
+
+
+class _Shape:
+    """How the values of a message's fields, in order, make the message."""
+
+    def __init__(self, kind: type[Message]) -> None:
+        self._kind = kind
+        self._slots: list[tuple[str, _Shape | None]] = []
+        for field in kind.fields__:
+            # A single message's fields lie in line with the others.
+            part = None
+            if field.size is None and not isinstance(field.kind, str):
+                part = _Shape(field.kind)
+            self._slots.append((f"_{field.name}", part))
+
+    def build(self, values: Iterator[Any]) -> Any:
+        """The message, past the checks of assignment: its values were made to fit."""
+        message = object.__new__(self._kind)
+        for slot, part in self._slots:
+            setattr(message, slot, next(values) if part is None else part.build(values))
+        return message
+
+
+class _Plan:
+    """How one type of message lies in its bytes."""
+
+    def __init__(self, kind: type[Message], steps: list[_Step]) -> None:
+        self._steps = steps
+        self._shape = _Shape(kind)
+        self.smallest: int = sum(step.smallest for step in steps)
+
+    def write(self, writer: Writer, message: Any) -> None:
+        for step in self._steps:
+            step.write(writer, message)
+
+    def read(self, reader: Reader) -> Any:
+        values: list[Any] = []
+        for step in self._steps:
+            step.read(reader, values)
+        return self._shape.build(iter(values))

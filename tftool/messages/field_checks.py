@@ -1,0 +1,188 @@
+"""What may be assigned to a field: types and ranges, judged as ROS 2's own classes judge."""
+
+import array
+import math
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from tftool.messages.schema import FLOATS, INTEGERS, STRINGS
+
+_FLOAT32_MAX = 3.402823466e38
+_FLOAT64_MAX = 1.7976931348623157e308
+
+Check = Callable[[Any], Any]
+"""Gives the value as it is kept, or raises an AssertionError that says why not."""
+
+
+def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
+    """The check of a single value of a field.
+
+    Args:
+        name: The field's name.
+        kind: A primitive's name, or the class of a message.
+        text: The most characters of a text, None without a bound.
+    """
+    if not isinstance(kind, str):
+        return _check_message(name, kind)
+    if kind in INTEGERS:
+        return _check_integer(name, kind)
+    if kind in FLOATS:
+        return _check_float(name, kind)
+    if kind in STRINGS:
+        return _check_string(name, text)
+    return _check_byte(name) if kind == "byte" else _check_bool(name)
+
+
+def array_check(
+    name: str, kind: str | type[Any], size: int, bound: int | None, element: Check
+) -> Check:
+    """The check of a whole array or sequence.
+
+    Args:
+        name: The field's name.
+        kind: The elements' type.
+        size: How many there are; -1 for a sequence.
+        bound: The most elements of a sequence, None without a bound.
+        element: The check of one.
+    """
+    code = typecode(kind)
+    word = kind if isinstance(kind, str) else kind.__name__
+    number = "float" if word in FLOATS else "int" if word in INTEGERS else word
+
+    def check(value: Any) -> Any:
+        if isinstance(value, str | Mapping) or not (
+            isinstance(value, Sequence | set | array.array) or hasattr(value, "tolist")
+        ):
+            raise AssertionError(
+                f"The '{name}' field must be a set or sequence and each value of type '{number}', "
+                f"not '{type(value).__name__}'"
+            )
+        if isinstance(value, array.array) and value.typecode == code and size < 0:
+            _check_length(name, len(value), size, bound)
+            return value
+        if isinstance(value, bytes | bytearray) and kind in ("uint8", "char"):
+            values: list[Any] = list(value)
+        else:
+            values = value.tolist() if hasattr(value, "tolist") else list(value)
+        _check_length(name, len(values), size, bound)
+        for one in values:
+            element(one)
+        return packed(kind, size, values)
+
+    return check
+
+
+def typecode(kind: str | type[Any]) -> str | None:
+    """The letter of numbers that are kept as arrays; None for what is kept as a list."""
+    if not isinstance(kind, str):
+        return None
+    return INTEGERS[kind] if kind in INTEGERS else FLOATS.get(kind)
+
+
+def packed(kind: str | type[Any], size: int, values: Sequence[Any]) -> Any:
+    """Several values as a field keeps them."""
+    code = typecode(kind)
+    if code is None:
+        return values
+    if size < 0:
+        return array.array(code, values)
+    # ROS 2 keeps fixed arrays of numbers as numpy arrays, and users rely on it.
+    import numpy as np
+
+    return np.array(values, dtype=np.dtype(code))
+
+
+def _check_length(name: str, length: int, size: int, bound: int | None) -> None:
+    if size >= 0 and length != size:
+        raise AssertionError(
+            f"The '{name}' field must be a set or sequence with length {size}, not {length}"
+        )
+    if bound is not None and length > bound:
+        raise AssertionError(
+            f"The '{name}' field must be a set or sequence of at most {bound}, not {length}"
+        )
+
+
+def _check_bool(name: str) -> Check:
+    def check(value: Any) -> Any:
+        if not isinstance(value, bool):
+            raise _mismatch(name, "bool", value)
+        return value
+
+    return check
+
+
+def _check_integer(name: str, kind: str) -> Check:
+    letter = INTEGERS[kind]
+    bits = 8 * struct.calcsize(letter)
+    signed = letter.islower()
+    low, high = (-(1 << bits - 1), (1 << bits - 1) - 1) if signed else (0, (1 << bits) - 1)
+    word = "an integer" if signed else "an unsigned integer"
+
+    def check(value: Any) -> Any:
+        if not isinstance(value, int):
+            raise _mismatch(name, "int", value)
+        if not low <= value <= high:
+            raise AssertionError(f"The '{name}' field must be {word} in [{low}, {high}]")
+        return value
+
+    return check
+
+
+def _check_float(name: str, kind: str) -> Check:
+    single = kind in ("float32", "float")
+    highest = _FLOAT32_MAX if single else _FLOAT64_MAX
+    word = "a float" if single else "a double"
+
+    def check(value: Any) -> Any:
+        if not isinstance(value, float):
+            raise _mismatch(name, "float", value)
+        if not (-highest <= value <= highest) and math.isfinite(value):
+            raise AssertionError(
+                f"The '{name}' field must be {word} in [{-highest!r}, {highest!r}]"
+            )
+        return value
+
+    return check
+
+
+def _check_string(name: str, bound: int | None) -> Check:
+    def check(value: Any) -> Any:
+        if not isinstance(value, str):
+            raise _mismatch(name, "str", value)
+        if bound is not None and len(value) > bound:
+            raise AssertionError(f"The '{name}' field must be string value not longer than {bound}")
+        return value
+
+    return check
+
+
+def _check_byte(name: str) -> Check:
+    def check(value: Any) -> Any:
+        if not (isinstance(value, bytes | bytearray | memoryview) and len(value) == 1):
+            raise AssertionError(f"The '{name}' field must be of type 'bytes' with length 1")
+        return bytes(value)
+
+    return check
+
+
+def _check_message(name: str, kind: type[Any]) -> Check:
+    def check(value: Any) -> Any:
+        if not isinstance(value, kind):
+            # rclpy's Time and Duration have the names of the messages that they make.
+            hint = ", rclpy's own: write .to_msg() behind it" if hasattr(value, "to_msg") else ""
+            raise AssertionError(
+                f"The '{name}' field must be a sub message of type '{kind.__name__}', "
+                f"not '{type(value).__name__}'{hint}"
+            )
+        return value
+
+    return check
+
+
+def _mismatch(name: str, wanted: str, value: Any) -> AssertionError:
+    text = f"The '{name}' field must be of type '{wanted}', not '{type(value).__name__}'"
+    if wanted == "float" and type(value) is int:
+        text += f": write {value}.0"
+    return AssertionError(text)

@@ -1,0 +1,95 @@
+"""The hash by which ROS 2 tells one version of a type from another (REP 2016, RIHS01).
+
+The SHA-256 of a type's description, and of all types it is made of, as JSON in a form
+that is fixed to the letter. Names and types of fields count; defaults, constants and
+comments do not.
+"""
+
+import hashlib
+import json
+from typing import Any, Final
+
+from tftool.messages.schema import FieldDefinition, Schema, Structure
+
+_NESTED, _BOUNDED_STRING, _BOUNDED_WSTRING = 1, 21, 22
+_NUMBERS: Final = {
+    "int8": 2,
+    "uint8": 3,
+    # In IDL, which is what is described, a char of a .msg file is an uint8.
+    "char": 3,
+    "int16": 4,
+    "uint16": 5,
+    "int32": 6,
+    "uint32": 7,
+    "int64": 8,
+    "uint64": 9,
+    "float32": 10,
+    "float": 10,
+    "float64": 11,
+    "double": 11,
+    "bool": 15,
+    "byte": 16,
+    "string": 17,
+    "wstring": 18,
+}
+_ARRAY, _BOUNDED_SEQUENCE, _SEQUENCE = 48, 96, 144
+
+PLACEHOLDER: Final = FieldDefinition("structure_needs_at_least_one_member", "uint8")
+"""The member that IDL wants in an empty structure."""
+
+
+def type_hash(schema: Schema, full: str) -> str:
+    """The hash of a message, a service, or anything else that is a structure.
+
+    Args:
+        schema: Where its definition is.
+        full: Its full name: "std_msgs/msg/String", "std_srvs/srv/Empty",
+            "turtlesim/action/RotateAbsolute_SendGoal".
+
+    Raises:
+        InputError: If there is none of that name, or a part of it is missing.
+    """
+    described: dict[str, dict[str, Any]] = {}
+    _describe(schema, schema.structure(full), described)
+    own = described.pop(full)
+    text = json.dumps(
+        {
+            "type_description": own,
+            "referenced_type_descriptions": [described[name] for name in sorted(described)],
+        }
+    )
+    return f"RIHS01_{hashlib.sha256(text.encode()).hexdigest()}"
+
+
+def _describe(schema: Schema, structure: Structure, described: dict[str, dict[str, Any]]) -> None:
+    if structure.name in described:
+        return
+    described[structure.name] = {
+        "type_name": structure.name,
+        "fields": [_described(field) for field in structure.fields or (PLACEHOLDER,)],
+    }
+    for field in structure.fields:
+        if field.type not in _NUMBERS:
+            _describe(schema, schema.structure(field.type), described)
+
+
+def _described(field: FieldDefinition) -> dict[str, Any]:
+    number = _NUMBERS.get(field.type, _NESTED)
+    if field.text_bound is not None:
+        number = _BOUNDED_STRING if field.type == "string" else _BOUNDED_WSTRING
+    capacity = 0
+    if field.size is not None and field.size >= 0:
+        number, capacity = number + _ARRAY, field.size
+    elif field.bound is not None:
+        number, capacity = number + _BOUNDED_SEQUENCE, field.bound
+    elif field.size is not None:
+        number += _SEQUENCE
+    return {
+        "name": field.name,
+        "type": {
+            "type_id": number,
+            "capacity": capacity,
+            "string_capacity": field.text_bound or 0,
+            "nested_type_name": "" if field.type in _NUMBERS else field.type,
+        },
+    }

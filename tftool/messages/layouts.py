@@ -1,0 +1,285 @@
+"""How the fields of a message lie in its bytes: ROS 2's plain CDR, and ROS 1's layout.
+
+CDR has a header of four bytes that tells the byte order; from behind it every number is
+aligned to its size, and a text ends with a zero byte that its length counts. We write
+little endian and read both. ROS 1 has no header, aligns nothing and ends no text.
+
+Bytes come from strangers: a length is compared with what has arrived before anything is
+made from it, and what does not fit is refused with a sentence.
+"""
+
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+from tftool.base.errors import MalformedMessage
+
+Payload = bytes | bytearray | memoryview
+"""The bytes of one message, as they arrive or lie in a file."""
+
+LARGEST: Final = 64 * 1024 * 1024
+"""Bytes of the largest message we read."""
+
+MOST_ITEMS: Final = 1_000_000
+"""Texts and messages in the lists of one message: each becomes an object many times its bytes."""
+
+PASSED_ON: Final = 4096
+"""Bytes from which the numbers of an array are handed over where they lie, not copied first."""
+
+LITTLE: Final = "<"
+"""Little endian, as `struct` writes it."""
+
+BIG: Final = ">"
+"""Big endian."""
+
+_LENGTHS = {order: struct.Struct(f"{order}I") for order in (LITTLE, BIG)}
+_LENGTH = _LENGTHS[LITTLE]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layout:
+    """The rules that one way of writing messages follows.
+
+    Attributes:
+        name: What it is called in messages to people.
+        header: What stands before the first field when we write.
+        headers: The byte order that each header we read announces; empty without a header.
+        alignment: The largest power of two that positions are rounded up to; 1 for none.
+        word: The same for lengths.
+        texts_end_with_zero: Whether a text's length counts a closing zero byte.
+        empty_size: Bytes of a structure without a field.
+        letters: What `struct` calls single fields that differ from their definition, by
+            (structure, field).
+        hidden: Name and `struct` padding of a structure's first field, where definitions of
+            ROS 2 leave it out.
+    """
+
+    name: str
+    header: bytes
+    headers: Mapping[bytes, str]
+    alignment: int
+    word: int
+    texts_end_with_zero: bool
+    empty_size: int
+    letters: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    hidden: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+
+    def order(self, kind: str, payload: Payload) -> str:
+        """The byte order of a message, as `struct` writes it.
+
+        Raises:
+            MalformedMessage: If it is too short, too long or written another way.
+        """
+        if len(payload) < len(self.header):
+            raise MalformedMessage(kind, f"{len(payload)} bytes are too few for a header")
+        if len(payload) > LARGEST:
+            raise MalformedMessage(kind, f"{len(payload)} bytes are more than we read ({LARGEST})")
+        if not self.headers:
+            return LITTLE
+        order = self.headers.get(bytes(payload[:2]))
+        if order is None:
+            raise MalformedMessage(
+                kind, f"its header {bytes(payload[:2]).hex()} is not that of plain CDR"
+            )
+        return order
+
+    def padding(self, position: int, size: int) -> int:
+        """Bytes to leave out at a position, counted from behind the header, before a number."""
+        return -position % min(size, self.alignment)
+
+
+CDR: Final = Layout(
+    name="CDR",
+    header=b"\x00\x01\x00\x00",
+    headers={b"\x00\x01": LITTLE, b"\x00\x00": BIG},
+    alignment=8,
+    word=4,
+    texts_end_with_zero=True,
+    # IDL knows no structure without a member, so an empty one is one byte.
+    empty_size=1,
+)
+"""ROS 2's bytes."""
+
+ROS1: Final = Layout(
+    name="ROS 1",
+    header=b"",
+    headers={},
+    alignment=1,
+    word=1,
+    texts_end_with_zero=False,
+    empty_size=0,
+    letters={
+        ("builtin_interfaces/msg/Time", "sec"): "I",
+        ("builtin_interfaces/msg/Duration", "nanosec"): "i",
+    },
+    # ROS 2 dropped the number that ROS 1 counts headers with.
+    hidden={"std_msgs/msg/Header": ("seq", "4x")},
+)
+"""ROS 1's bytes; its `time` and `duration` are read as builtin_interfaces/Time and Duration."""
+
+
+def check_rest(kind: str, rest: int) -> None:
+    """Refuse a message that goes on behind its end.
+
+    Raises:
+        MalformedMessage: If it does.
+    """
+    # Some writers round a message up to a full word.
+    if rest > 7:
+        raise MalformedMessage(kind, f"{rest} bytes are left over behind it")
+
+
+def text_bytes(text: str) -> bytes:
+    """A text as CDR writes it, without its length: UTF-8 and a closing zero.
+
+    Raises:
+        ValueError: If it holds a zero character, which would end it.
+    """
+    raw = text.encode()
+    if b"\x00" in raw:
+        raise ValueError(f"{text!r} holds a zero character, which ends a text")
+    return raw + b"\x00"
+
+
+def read_text(raw: bytes) -> str:
+    """The text of a CDR string's bytes, its closing zero included.
+
+    Raises:
+        MalformedMessage: If it is none.
+    """
+    if raw and raw[-1] != 0:
+        raise MalformedMessage("string", "a text does not end with its zero byte")
+    text = _decoded(raw[:-1])
+    if "\x00" in text:
+        raise MalformedMessage("string", "a text goes on behind its zero byte")
+    return text
+
+
+def _decoded(raw: bytes) -> str:
+    try:
+        return raw.decode()
+    except UnicodeDecodeError as error:
+        raise MalformedMessage("string", "a text is not UTF-8") from error
+
+
+class Writer(bytearray):
+    """Collects the bytes of one message behind its header.
+
+    What it holds as a bytearray is what was written since the last large array; those are
+    copied once, when all is joined.
+
+    Attributes:
+        before: Bytes in front of those it holds.
+        parts: Those bytes.
+    """
+
+    # Defaults of the class and no constructor: one is made for every message.
+    before: int = 0
+    parts: tuple[bytes | memoryview, ...] = ()
+
+    def length(self, length: int, layout: Layout) -> None:
+        """Append a length where it belongs."""
+        self += bytes(-(self.before + len(self)) % layout.word) + _LENGTH.pack(length)
+
+    def text(self, text: str, layout: Layout) -> None:
+        """Append a text.
+
+        Raises:
+            ValueError: If the layout ends texts with zero and it holds one.
+        """
+        raw = text_bytes(text) if layout.texts_end_with_zero else text.encode()
+        self += bytes(-(self.before + len(self)) % layout.word) + _LENGTH.pack(len(raw)) + raw
+
+    def pass_on(self, raw: memoryview) -> None:
+        """Append the bytes of a large array; they must not change until `finish`."""
+        self.parts = (*self.parts, bytes(self), raw)
+        self.before += len(self) + raw.nbytes
+        self.clear()
+
+    def finish(self, layout: Layout) -> bytes:
+        """All of it, behind the layout's header."""
+        return b"".join((layout.header, *self.parts, self)) if self.parts else layout.header + self
+
+
+class Reader:
+    """Walks the bytes of one message."""
+
+    __slots__ = ("_items", "_size", "_start", "kind", "layout", "order", "payload", "position")
+
+    def __init__(self, kind: str, payload: Payload, layout: Layout) -> None:
+        self.kind = kind
+        self.layout = layout
+        self.order = layout.order(kind, payload)
+        self.payload = payload
+        self._start = self.position = len(layout.header)
+        self._size = len(payload)
+        self._items = 0
+
+    def take(self, length: int, align: int = 1) -> int:
+        """Step over some bytes; where they begin."""
+        start = self.position
+        if align > 1:
+            start += -(start - self._start) % align
+        if length > self._size - start:
+            raise self._cut_off(length, start)
+        self.position = start + length
+        return start
+
+    def _cut_off(self, length: int, start: int) -> MalformedMessage:
+        rest = max(self._size - start, 0)
+        return MalformedMessage(self.kind, f"{length} bytes are announced and {rest} have arrived")
+
+    def length(self) -> int:
+        """The length that comes next."""
+        start = self.position
+        start += -(start - self._start) % self.layout.word
+        if start + 4 > self._size:
+            raise self._cut_off(4, start)
+        self.position = start + 4
+        length: int
+        (length,) = _LENGTHS[self.order].unpack_from(self.payload, start)
+        return length
+
+    def count(self, smallest: int, bound: int | None) -> int:
+        """How many items follow, each of at least `smallest` bytes."""
+        count = self.length()
+        rest = self._size - self.position
+        if count * smallest > rest:
+            raise MalformedMessage(
+                self.kind, f"a list announces {count} items and {rest} bytes have arrived"
+            )
+        if bound is not None and count > bound:
+            raise MalformedMessage(
+                self.kind, f"a list announces {count} items where at most {bound} are allowed"
+            )
+        return count
+
+    def admit(self, items: int) -> None:
+        """Allow for so many texts or messages of a list, on top of those before them."""
+        self._items += items
+        if self._items > MOST_ITEMS:
+            raise MalformedMessage(
+                self.kind, f"its lists hold more than {MOST_ITEMS} texts and messages"
+            )
+
+    def text(self, bound: int | None) -> str:
+        """The text that comes next."""
+        length = self.length()
+        start = self.position
+        if length > self._size - start:
+            raise self._cut_off(length, start)
+        self.position = end = start + length
+        raw = bytes(self.payload[start:end])
+        text = read_text(raw) if self.layout.texts_end_with_zero else _decoded(raw)
+        if bound is not None and len(text) > bound:
+            raise MalformedMessage(self.kind, f"a text is longer than {bound} characters")
+        return text
+
+    def numbers(self, count: int, size: int) -> Payload:
+        """The bytes of so many numbers of some size; many are not copied."""
+        length = count * size
+        # Nothing is aligned where nothing follows.
+        start = self.take(length, min(size, self.layout.alignment) if count else 1)
+        raw = self.payload if length < PASSED_ON else memoryview(self.payload)
+        return raw[start : self.position]

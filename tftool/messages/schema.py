@@ -1,0 +1,336 @@
+"""Definitions read: what an interface is made of, and the structures derived from it.
+
+A service travels as a request and a response, an action as three services' worth of
+messages; ROS 2 derives those, and an event for every service, from the definition.
+Each is a `Structure` by a name of its own: "std_srvs/srv/SetBool_Request".
+
+Definitions are those of ROS 2 that come with tftool, those of a workspace, and those that
+a recording brings along, of ROS 1 or ROS 2.
+"""
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from tftool.base.errors import InputError
+from tftool.messages import definitions
+
+INTEGERS: Final = {
+    "int8": "b",
+    "int16": "h",
+    "int32": "i",
+    "int64": "q",
+    "uint8": "B",
+    "char": "B",
+    "uint16": "H",
+    "uint32": "I",
+    "uint64": "Q",
+}
+"""Whole numbers, and their letters in `struct` and `array`."""
+
+FLOATS: Final = {"float32": "f", "float64": "d", "float": "f", "double": "d"}
+"""Floating-point numbers, and their letters."""
+
+STRINGS: Final = ("string", "wstring")
+
+MOST_FIELDS: Final = 10_000
+"""Fields and constants of one definition."""
+
+PRIMITIVES: Final = frozenset([*INTEGERS, *FLOATS, *STRINGS, "bool", "byte"])
+
+_PARTS: Final = {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
+
+_FIELD = re.compile(
+    r"(?P<type>[A-Za-z0-9_/]+)(?:<=(?P<text>\d+))?"
+    r"(?:\[(?P<array>(?:<=)?\d*)\])?\s+(?P<name>[A-Za-z]\w*)\s*"
+    r"(?:(?P<constant>=)\s*(?P<value>.+)|(?P<default>.+))?$"
+)
+
+_SEPARATOR = re.compile(r"^={20,}[ \t]*$", re.MULTILINE)
+_HEADING = re.compile(r"\s*(?P<language>MSG|IDL):\s*(?P<name>\S+)[^\n]*(?:\n|$)")
+_NAME = re.compile(r"(\w+)/(?:(msg|srv|action)/)?(\w+)", re.ASCII)
+_DERIVED = re.compile(r"_(?:Request|Response|Event|Goal|Result|Feedback)$")
+
+_ROS1: Final = {
+    # ROS 1 has moments and spans as primitives; ROS 2 as messages of the same two numbers.
+    "time": "builtin_interfaces/msg/Time",
+    "duration": "builtin_interfaces/msg/Duration",
+}
+_ROS1_MOVED: Final = {"roslib/msg/Header": "std_msgs/msg/Header"}
+
+_GOAL_ID = "unique_identifier_msgs/UUID goal_id\n"
+
+
+@dataclass(frozen=True, slots=True)
+class FieldDefinition:
+    """One field of a structure.
+
+    Attributes:
+        name: What it is called.
+        type: Its element's type: a primitive, or a structure's full name.
+        size: None for a single value, a number for a fixed array, -1 for a sequence.
+        bound: The most elements a bounded sequence may hold, None without a bound.
+        text_bound: The most characters of a bounded text, None without a bound.
+        default: The text after the name, if any.
+    """
+
+    name: str
+    type: str
+    size: int | None = None
+    bound: int | None = None
+    text_bound: int | None = None
+    default: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Structure:
+    """What lies in one message, in order.
+
+    Attributes:
+        name: Its full name, "geometry_msgs/msg/Pose".
+        fields: What it holds.
+        constants: Name, type and text of each constant.
+    """
+
+    name: str
+    fields: tuple[FieldDefinition, ...]
+    constants: tuple[tuple[str, str, str], ...] = ()
+
+
+def full_name(name: str) -> str:
+    """An interface's name with its folder: "std_msgs/String" is "std_msgs/msg/String".
+
+    Raises:
+        InputError: If it cannot be the name of an interface.
+    """
+    found = _NAME.fullmatch(name)
+    if found is None:
+        raise InputError(f"{name[:200]!r} is no name of an interface; write 'package/Name'")
+    package, folder, own = found.groups()
+    full = f"{package}/{folder or 'msg'}/{own}"
+    return _ROS1_MOVED.get(full, full)
+
+
+class Schema:
+    """Every interface's structures by their names, read when they are first asked for.
+
+    Definitions of a workspace's own packages can be added, and those of a recording.
+    """
+
+    def __init__(self) -> None:
+        self._texts = dict(definitions.table())
+        self._read: dict[str, Structure] = {}
+
+    def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
+        """Answer to a package's own definitions, by (kind, name)."""
+        self._texts[package] = dict(texts)
+        for full in [full for full in self._read if full.startswith(f"{package}/")]:
+            del self._read[full]
+
+    def define(self, full: str, text: str) -> bool:
+        """Take over the definitions that a recording has for one of its types.
+
+        Args:
+            full: The type's full name.
+            text: Its definition as in a .msg or .srv file; definitions of the types it is made
+                of may follow, each behind a line of '=' and a line "MSG: package/Name".
+
+        Returns:
+            Whether they are in use now; False if a structure was read before whose
+            definition differs, as where two releases recorded into one file.
+
+        Raises:
+            InputError: If a definition is wrong, or in IDL.
+        """
+        texts = _sections(full, text)
+        read = {
+            name: _parse(name, own, texts)
+            for name, own in texts.items()
+            if name.split("/")[1] == "msg"
+        }
+        if any(self._read.get(name, one) != one for name, one in read.items()):
+            return False
+        if any(name not in read and self._is_other(name, own) for name, own in texts.items()):
+            return False
+        for name, own in texts.items():
+            package, kind, short = name.split("/")
+            self._texts[package] = {**self._texts.get(package, {}), (kind, short): own}
+        self._read |= read
+        return True
+
+    def _is_other(self, full: str, text: str) -> bool:
+        """Whether a service or action was read before from another definition."""
+        package, kind, name = full.split("/")
+        known = self._texts.get(package, {}).get((kind, name), text)
+        return known != text and any(one.startswith(f"{full}_") for one in self._read)
+
+    def knows(self, package: str, texts: Mapping[tuple[str, str], str]) -> bool:
+        """Whether a package has these very definitions."""
+        return self._texts.get(package) == texts
+
+    def packages(self) -> Sequence[str]:
+        """Every package that has interfaces."""
+        return list(self._texts)
+
+    def names(self, package: str, kind: str) -> list[str]:
+        """The interfaces of a package, of kind msg, srv or action."""
+        return [name for found, name in self._texts.get(package, {}) if found == kind]
+
+    def text(self, package: str, kind: str, name: str) -> str:
+        """The text of a definition, as in its file.
+
+        Raises:
+            InputError: If there is no such interface.
+        """
+        text = self._texts.get(package, {}).get((kind, name))
+        if text is None:
+            raise InputError(f"there is no interface {package}/{kind}/{name}")
+        return text
+
+    def parts(self, package: str, kind: str, name: str) -> dict[str, str]:
+        """The parts of a service's or an action's definition, by "Request", "Goal" and so on.
+
+        Raises:
+            InputError: If there is no such interface, or it has other parts.
+        """
+        full = f"{package}/{kind}/{name}"
+        text = self.text(package, kind, name)
+        parts = _PARTS[kind]
+        texts = re.split(r"^\s*---\s*$", text, flags=re.MULTILINE)
+        if len(texts) != len(parts):
+            raise InputError(
+                f"{full}: {len(parts)} parts set apart by '---' make it up, this has {len(texts)}"
+            )
+        return dict(zip(parts, texts, strict=True))
+
+    def structure(self, full: str) -> Structure:
+        """A structure by its full name.
+
+        Raises:
+            InputError: If there is none of that name, or its definition is wrong.
+        """
+        found = self._read.get(full)
+        if found is None:
+            found = self._read[full] = _parse(full, self._text(full))
+        return found
+
+    def has(self, full: str) -> bool:
+        """Whether there is a message, service or action of that name (package/kind/Name)."""
+        package, _, rest = full.partition("/")
+        kind, _, name = rest.partition("/")
+        return (kind, name) in self._texts.get(package, {})
+
+    def _text(self, full: str) -> str:
+        package, kind, name = full_name(full).split("/")
+        if kind == "msg":
+            text = self._texts.get(package, {}).get((kind, name))
+            if text is None:
+                raise InputError(f"there is no interface {full}")
+            return text
+        base, _, part = name.rpartition("_")
+        if part == "Event":
+            return (
+                "service_msgs/ServiceEventInfo info\n"
+                f"{package}/{kind}/{base}_Request[<=1] request\n"
+                f"{package}/{kind}/{base}_Response[<=1] response"
+            )
+        if kind == "action":
+            derived = _of_action(f"{package}/{kind}/", base, part)
+            if derived is not None:
+                return derived
+        if part in _PARTS[kind] and base:
+            return self.parts(package, kind, base)[part]
+        # The service itself is a structure too: of its three messages, for its hash.
+        return (
+            f"{full}_Request request_message\n{full}_Response response_message\n"
+            f"{full}_Event event_message"
+        )
+
+
+def _of_action(folder: str, base: str, part: str) -> str | None:
+    """The lines of what ROS 2 derives from an action; None for what its definition says."""
+    action = base.rpartition("_")[0]
+    if part == "FeedbackMessage":
+        return f"{_GOAL_ID}{folder}{base}_Feedback feedback"
+    if base.endswith("_SendGoal"):
+        if part == "Request":
+            return f"{_GOAL_ID}{folder}{action}_Goal goal"
+        return "bool accepted\nbuiltin_interfaces/Time stamp"
+    if base.endswith("_GetResult"):
+        return _GOAL_ID if part == "Request" else f"int8 status\n{folder}{action}_Result result"
+    return None
+
+
+def _sections(full: str, text: str) -> dict[str, str]:
+    """The definitions in a recording's text, by their full names."""
+    first, *others = _SEPARATOR.split(text)
+    # A service's event is recorded with the definition of the service.
+    name = _DERIVED.sub("", full) if "/msg/" not in full and "---" in first else full
+    found = {name: first}
+    for other in others:
+        heading = _HEADING.match(other)
+        if heading is None:
+            raise InputError(f"{full}: a definition behind '=====' does not begin with 'MSG: name'")
+        if heading["language"] == "IDL":
+            raise InputError(f"{full}: its definition is in IDL, which is not read; .msg is")
+        found.setdefault(full_name(heading["name"]), other[heading.end() :])
+    return found
+
+
+def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Structure:
+    """Read one definition, by ROS 1's rules too where it was `recorded` with other types."""
+    fields: list[FieldDefinition] = []
+    constants: list[tuple[str, str, str]] = []
+    for raw in text.splitlines():
+        line = _without_comment(raw).strip()
+        if not line:
+            continue
+        if len(fields) + len(constants) >= MOST_FIELDS:
+            raise InputError(f"{full} has more than {MOST_FIELDS} fields")
+        match = _FIELD.match(line)
+        if match is None:
+            raise InputError(f"{full}: '{line[:200]}' is no field; write 'type name'")
+        if match["constant"]:
+            constants.append((match["name"], match["type"], match["value"]))
+        else:
+            fields.append(_field(full, match, recorded))
+    return Structure(full, tuple(fields), tuple(constants))
+
+
+def _without_comment(line: str) -> str:
+    """A line up to its comment; a '#' between quotes begins none."""
+    quote = ""
+    for at, char in enumerate(line):
+        if quote:
+            quote = "" if char == quote else quote
+        elif char in "\"'":
+            quote = char
+        elif char == "#":
+            return line[:at]
+    # An apostrophe that nothing closes is no quote.
+    return line.partition("#")[0] if quote else line
+
+
+def _field(full: str, match: "re.Match[str]", recorded: Collection[str] | None) -> FieldDefinition:
+    kind, package = match["type"], full.partition("/")[0]
+    if recorded is not None and kind in _ROS1:
+        kind = _ROS1[kind]
+    elif recorded is not None and kind == "Header" and f"{package}/msg/Header" not in recorded:
+        # ROS 1 lets definitions leave out where the header is from.
+        kind = "std_msgs/msg/Header"
+    elif kind not in PRIMITIVES:
+        kind = full_name(kind if "/" in kind else f"{package}/{kind}")
+    size = bound = None
+    brackets = match["array"]
+    if brackets is not None:
+        bound = _size(full, brackets[2:]) if brackets.startswith("<=") else None
+        size = _size(full, brackets) if brackets and bound is None else -1
+    text = _size(full, match["text"]) if match["text"] else None
+    return FieldDefinition(match["name"], kind, size, bound, text, match["default"])
+
+
+def _size(full: str, digits: str) -> int:
+    if not (digits.isascii() and digits.isdecimal() and len(digits) <= 10):
+        raise InputError(f"{full}: {digits[:20]} is no size of an array or a text")
+    return int(digits)

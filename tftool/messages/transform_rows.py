@@ -1,0 +1,246 @@
+"""Many recorded tf2_msgs/TFMessages at once: equal layouts as rows of one table, in numpy.
+
+A publisher sends the same frames again and again: its messages differ in stamps and numbers
+alone, all of them at the same places. One message is walked in Python; of others of its
+length it is only checked, word by word, that everything else is the same.
+"""
+
+import struct
+from dataclasses import dataclass
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import MalformedMessage
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.messages.layouts import CDR, Layout
+from tftool.messages.transforms import KIND
+
+Bytes: TypeAlias = npt.NDArray[np.uint8]
+"""Bytes as an array."""
+
+Words: TypeAlias = npt.NDArray[np.uint64]
+"""One row a message, in words of 8 bytes, shape (n, words)."""
+
+Records: TypeAlias = npt.NDArray[np.int64]
+"""One row a transform: its stamp, and bit by bit seven doubles, shape (n, 8)."""
+
+LONGEST_NAME: Final = 4096
+"""Bytes of the longest frame name that is read."""
+
+SMALLEST: Final = 72
+"""Bytes of a transform with empty names: stamp 8, two lengths 8, seven doubles 56."""
+
+_LITTLE: Final = b"\x00\x01"
+_BIG: Final = b"\x00\x00"
+_SEVEN: Final = {order: struct.Struct(f"{order}7d") for order in "<>"}
+_WORD: Final = {order: struct.Struct(f"{order}I") for order in "<>"}
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where one transform of a message lies.
+
+    Attributes:
+        parent: Name as it was sent.
+        child: Likewise.
+        stamp: Byte at which its stamp begins, two words of 4 bytes.
+        numbers: Byte at which its seven doubles begin.
+    """
+
+    parent: str
+    child: str
+    stamp: int
+    numbers: int
+
+
+@dataclass(frozen=True, slots=True)
+class Walked:
+    """One message walked through.
+
+    Attributes:
+        order: Its byte order, as `struct` writes it.
+        places: Its transforms.
+        fixed: Where the bytes lie that are the same in every message of its kind, as
+            (begin, end).
+    """
+
+    order: str
+    places: tuple[Place, ...]
+    fixed: tuple[tuple[int, int], ...]
+
+
+def walk(layout: Layout, payload: bytes) -> Walked:
+    """Find the transforms of a message.
+
+    Raises:
+        MalformedMessage: If the bytes are not one.
+    """
+    is_cdr = layout is CDR
+    order = _byte_order(payload) if is_cdr else "<"
+    position = 4 if is_cdr else 0
+    word = _WORD[order]
+    size = len(payload)
+    places: list[Place] = []
+    fixed: list[tuple[int, int]] = []
+    try:
+        (count,) = word.unpack_from(payload, position)
+        fixed.append((0, position + 4))
+        position += 4
+        # Stamp and numbers take 64 bytes, and two lengths 8, at least.
+        if count * SMALLEST > size - position:
+            room = (size - position) // SMALLEST
+            raise MalformedMessage(KIND, f"it announces {count} transforms, with room for {room}")
+        for _ in range(count):
+            stamp = position if is_cdr else position + 4  # behind the sequence number
+            position = stamp + 8
+            names = []
+            for _ in range(2):
+                if is_cdr:
+                    position = (position + 3) & ~3
+                (length,) = word.unpack_from(payload, position)
+                end = position + 4 + length
+                if length > LONGEST_NAME or end > size:
+                    raise MalformedMessage(KIND, f"a frame name announces {length} bytes")
+                raw = payload[position + 4 : end]
+                # ROS 2 counts the zero byte that ends a text.
+                raw = raw.removesuffix(b"\x00") if is_cdr else raw
+                names.append(raw.decode("utf-8", "backslashreplace"))
+                fixed.append((position, end))
+                position = end
+            if is_cdr:
+                # To the grid of 8 that starts behind the header.
+                position = ((position + 3) & ~7) + 4
+            places.append(Place(names[0], names[1], stamp, position))
+            position += 56
+            if position > size:
+                raise MalformedMessage(KIND, f"it ends within transform {len(places)} of {count}")
+    except struct.error as error:
+        raise MalformedMessage(KIND, f"it ends within transform {len(places) + 1}") from error
+    # Some writers round a message up to a full word.
+    if size - position > (7 if is_cdr else 0):
+        raise MalformedMessage(KIND, f"{size - position} bytes are left over behind it")
+    return Walked(order, tuple(places), tuple(fixed))
+
+
+def sample(payload: bytes, order: str, place: Place) -> tuple[Stamp, tuple[float, ...]]:
+    """Stamp and seven numbers of one transform of a message."""
+    word = _WORD[order]
+    (sec,) = word.unpack_from(payload, place.stamp)
+    (nanosec,) = word.unpack_from(payload, place.stamp + 4)
+    return _signed(sec) * NANOSECONDS + nanosec, _SEVEN[order].unpack_from(payload, place.numbers)
+
+
+def _signed(sec: int) -> int:
+    return sec - 2**32 if sec >= 2**31 else sec
+
+
+def _byte_order(payload: bytes) -> str:
+    head = payload[:2]
+    if head == _LITTLE:
+        return "<"
+    if head == _BIG:
+        return ">"
+    raise MalformedMessage(KIND, f"its header {payload[:4].hex()} is not that of plain CDR")
+
+
+def row_span(layout: Layout, length: int) -> tuple[int, int]:
+    """How the row of a message of that length lies to its bytes, in whole words.
+
+    Returns:
+        Where the row begins, from the first byte of the message on, and its length. Rows begin
+        before the message: ROS 1's up to 7 bytes; ROS 2's 4, so that its doubles, which lie on
+        a grid of 8 behind the header, do so in the row.
+    """
+    if layout is CDR:
+        return -4, (length + 4) & ~7
+    before = -length % 8
+    return -before, length + before
+
+
+def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
+    """Copy rows of equal length out of a buffer.
+
+    Args:
+        buffer: Where the rows lie.
+        starts: Where each begins, shape (n,); all of it lies in the buffer.
+        width: Bytes of a row, a multiple of 8.
+
+    Returns:
+        Shape (n, width / 8).
+    """
+    # As single items of that many bytes: numpy then copies a row in one go.
+    items: npt.NDArray[np.void] = np.ndarray(
+        (len(buffer) - width + 1,), dtype=f"V{width}", buffer=buffer.data, strides=(1,)
+    )
+    return items[starts].view(np.uint64).reshape(len(starts), width // 8)
+
+
+def _items(rows: npt.NDArray[Any], begin: int, size: int) -> npt.NDArray[np.void]:
+    """The same bytes of every row, as single items: numpy copies each in one go."""
+    return np.ndarray(
+        (len(rows),), f"V{size}", buffer=rows.data, offset=begin, strides=rows.strides[:1]
+    )
+
+
+class Template:
+    """What all messages of one layout, length and set of frames have in common.
+
+    Attributes:
+        places: Its transforms.
+    """
+
+    __slots__ = ("_begin", "_masks", "_values", "_words", "places")
+
+    def __init__(self, layout: Layout, payload: bytes, walked: Walked) -> None:
+        """Make one of a message in little endian."""
+        self.places = walked.places
+        begin, width = row_span(layout, len(payload))
+        self._begin = begin
+        mask = np.zeros(width, dtype=np.uint8)
+        row = np.zeros(width, dtype=np.uint8)
+        for first, end in walked.fixed:
+            place = slice(first - begin, end - begin)
+            mask[place] = 0xFF
+            row[place] = np.frombuffer(payload, np.uint8)[first:end]
+        masks = mask.view(np.uint64)
+        self._words = np.flatnonzero(masks)
+        self._masks = masks[self._words]
+        self._values = row.view(np.uint64)[self._words]
+
+    def value(self, word: int, mask: int) -> int:
+        """What stands in a word of its rows, as far as that is the same in all of them.
+
+        Returns:
+            The word under the mask; -1 where what it covers may differ.
+        """
+        place = int(np.searchsorted(self._words, word))
+        if place == len(self._words) or self._words[place] != word:
+            return -1
+        return int(self._values[place]) & mask if int(self._masks[place]) & mask == mask else -1
+
+    def constants(self) -> list[tuple[int, int]]:
+        """Each word that is the same in all its rows, at least in part, and which part."""
+        return list(zip(self._words.tolist(), self._masks.tolist(), strict=True))
+
+    def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
+        """Which rows have its frames, shape (n,); None where all do."""
+        apart = rows.take(self._words, axis=1)
+        apart ^= self._values
+        apart &= self._masks
+        if not apart.any():
+            return None
+        found: npt.NDArray[np.bool_] = np.logical_not(apart.any(axis=1))
+        return found
+
+    def cut(self, rows: Words, place: Place, records: Records) -> None:
+        """Write one transform out of each row into records, shape (n, 8)."""
+        if not len(rows):
+            return
+        _items(records, 8, 56)[:] = _items(rows, place.numbers - self._begin, 56)
+        times = _items(rows, place.stamp - self._begin, 8).copy().view(np.int32).reshape(-1, 2)
+        stamps = times[:, 0].astype(np.int64)
+        stamps *= NANOSECONDS
+        stamps += times[:, 1].view(np.uint32)
+        records[:, 0] = stamps

@@ -1,0 +1,205 @@
+"""Columns that were read once, kept in the user's cache folder for the next question.
+
+An entry is known by its recording's files: where they are, how long and how old they are, and
+what stands at both ends of each. What is not whole, and not what was written, is as if it were
+not there: it may be cut, be another program's, or be written by another process at the time.
+"""
+
+import contextlib
+import json
+import os
+import stat
+import tempfile
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from tftool.base.named_files import open_regular
+from tftool.recordings.cache_heads import MAGIC, SUFFIX, head_size, key_of, parsed_head
+from tftool.recordings.contract import Edge, Publisher, Transforms
+from tftool.recordings.find import Found
+
+MOST_BYTES: Final = 1 << 30
+"""Bytes of all that is kept: what was not used for longest goes first."""
+
+LARGEST: Final = MOST_BYTES // 2
+"""Bytes of what is kept of one recording."""
+
+
+class ColumnCache:
+    """A folder of columns, shared by every process of the user."""
+
+    def __init__(self, folder: Path, *, most_bytes: int = MOST_BYTES) -> None:
+        """Use a folder, which is made when the first entry is.
+
+        Args:
+            folder: Where the entries are.
+            most_bytes: Bytes of all of them.
+        """
+        self.folder = folder
+        self._most_bytes = most_bytes
+
+    def load(self, key: str) -> Transforms | None:
+        """What is kept under a key; None where nothing is, or it is not as it was written."""
+        if not key:
+            return None
+        path = self.folder / f"{key}{SUFFIX}"
+        try:
+            with open_regular(path) as file:
+                size = os.fstat(file.fileno()).st_size
+                if size > LARGEST:
+                    return None
+                data = bytearray(size)
+                if file.readinto(data) != size:
+                    return None
+            found = _unpacked(data, key)
+            # The least recently used file, by this time, is removed first.
+            os.utime(path)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            return None
+        return found
+
+    def store(self, key: str, transforms: Transforms) -> bool:
+        """Keep columns under a key; whether that was possible.
+
+        A full disk, or a folder that may not be written to, is no failure of the question.
+        """
+        if not key or len(transforms) * 68 > min(LARGEST, self._most_bytes):
+            return False
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            number, name = tempfile.mkstemp(dir=self.folder, suffix=".part")
+            try:
+                with os.fdopen(number, "wb") as file:
+                    for part in _packed(transforms, key):
+                        file.write(part)
+                os.replace(name, self.folder / f"{key}{SUFFIX}")
+            except BaseException:
+                with contextlib.suppress(OSError):
+                    os.unlink(name)
+                raise
+            self._prune()
+        except OSError:
+            return False
+        return True
+
+    def _prune(self) -> None:
+        """Remove what was not used for longest, and what others left half written."""
+        entries = []
+        newest = 0.0
+        for path in self.folder.iterdir():
+            if path.suffix in (SUFFIX, ".part"):
+                with contextlib.suppress(OSError):
+                    status = path.stat()
+                    if not stat.S_ISREG(status.st_mode):
+                        continue  # none of ours
+                    entries.append((status.st_mtime, status.st_size, path))
+                    newest = max(newest, status.st_mtime)
+        total = sum(size for _, size, _ in entries)
+        for used, size, path in sorted(entries):
+            is_left = path.suffix == ".part" and newest - used > 3600
+            if not is_left and (total <= self._most_bytes or path.suffix == ".part"):
+                continue
+            # Another process may have been quicker, or hold it open.
+            with contextlib.suppress(OSError):
+                path.unlink()
+                total -= size
+
+
+def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
+    """The bytes of an entry: a head in JSON, and all columns behind it, the wide ones first."""
+    edges = transforms.edges
+    columns: list[np.ndarray[Any, Any]] = [
+        transforms.log_times,
+        *(edge.records for edge in edges),
+        transforms.senders,
+        *(edge.messages for edge in edges),
+    ]
+    parts = [np.ascontiguousarray(one).data.cast("B") for one in columns]
+    check = 0
+    for part in parts:
+        check = zlib.crc32(part, check)
+    head = json.dumps(
+        {
+            "key": key,
+            "messages": len(transforms.log_times),
+            "edges": [
+                (edge.parent, edge.child, edge.static, edge.slashed, len(edge), edge.kept)
+                for edge in edges
+            ],
+            "publishers": [
+                (one.topic, one.node, one.durability, one.reliability, one.offers)
+                for one in transforms.publishers
+            ],
+            "damage": transforms.damage,
+            "check": check,
+        }
+    ).encode()
+    head += b" " * (-(len(MAGIC) + 12 + len(head)) % 8)
+    yield MAGIC
+    yield len(head).to_bytes(8, "little")
+    yield zlib.crc32(head).to_bytes(4, "little")
+    yield head
+    yield from parts
+
+
+def _unpacked(data: bytearray, key: str) -> Transforms:
+    """The columns of an entry.
+
+    Raises:
+        ValueError: If they are not what was written.
+    """
+    start = head_size(bytes(data[: len(MAGIC) + 12]))
+    head = parsed_head(bytes(data[:start]), key)
+    messages, counts = int(head["messages"]), [int(edge[4]) for edge in head["edges"]]
+    rows = sum(counts)
+    if min(messages, *counts, 0) < 0 or len(data) - start != 12 * messages + 68 * rows:
+        raise ValueError("cut")
+    if zlib.crc32(memoryview(data)[start:]) != head["check"]:
+        raise ValueError("damaged")
+    # One piece each, of which every edge has its rows: they may be many.
+    wide = np.frombuffer(data, "<i8", messages + 8 * rows, start)
+    narrow = np.frombuffer(data, "<i4", messages + rows, start + wide.nbytes)
+    records, places = wide[messages:].reshape(rows, 8), narrow[messages:]
+    edges, end = [], 0
+    for parent, child, static, slashed, count, kept in head["edges"]:
+        begin, end = end, end + count
+        edges.append(
+            Edge(parent, child, static, slashed, records[begin:end], places[begin:end], kept)
+        )
+    publishers = tuple(Publisher(*one) for one in head["publishers"])
+    log_times, senders = wide[:messages], narrow[:messages]
+    return Transforms(tuple(edges), log_times, senders, publishers, tuple(head["damage"]))
+
+
+class KeptColumns:
+    """The place of one recording's columns in a cache."""
+
+    def __init__(self, cache: ColumnCache, found: Found) -> None:
+        """Note what the recording's files are now.
+
+        Args:
+            cache: Where they are kept.
+            found: The recording.
+        """
+        self._cache = cache
+        self._found = found
+        self._key = self._key_now()
+
+    def load(self) -> Transforms | None:
+        """The columns, if they are kept."""
+        return self._cache.load(self._key)
+
+    def store(self, transforms: Transforms) -> None:
+        """Keep them, unless the files have changed since."""
+        if self._key and self._key_now() == self._key:
+            self._cache.store(self._key, transforms)
+
+    def _key_now(self) -> str:
+        try:
+            return key_of(self._found)
+        except OSError:
+            return ""

@@ -1,0 +1,342 @@
+"""Recorded messages in, transforms out: columns per edge that grow as a file is read."""
+
+from array import array
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.large_pages import PAGE, large_pages
+from tftool.base.stamps import Stamp
+from tftool.messages.transform_rows import (
+    Bytes,
+    Records,
+)
+from tftool.recordings.contract import Edge, Indexes, Publisher, Stamps, Transforms
+
+MOST_EDGES: Final = 100_000
+"""Edges of one recording; of what goes beyond, only the number is told."""
+
+_NEVER: Final = 2**62, 0
+_FEWEST: Final = 16
+_MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
+_FREELY: Final = 1 << 22  # rows of all edges that are allocated however few have come
+_RECORD: Final = 64  # bytes of a transform's
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Batch:
+    """Some messages of a recording, where they lie in a piece of its bytes.
+
+    Attributes:
+        buffer: The bytes.
+        starts: Where each message begins, shape (n,).
+        lengths: Bytes of each, shape (n,); all of them lie in the buffer.
+        log_times: When each was received, shape (n,).
+        senders: Each one's publisher, a number of the reader's, shape (n,).
+    """
+
+    buffer: Bytes
+    starts: Stamps
+    lengths: Stamps
+    log_times: Stamps
+    senders: Indexes
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+    def payload(self, number: int) -> bytes:
+        """The bytes of one message."""
+        start = int(self.starts[number])
+        return self.buffer[start : start + int(self.lengths[number])].tobytes()
+
+    def chosen(self, which: "Stamps | slice") -> "Batch":
+        """Some of them."""
+        return Batch(
+            self.buffer,
+            self.starts[which],
+            self.lengths[which],
+            self.log_times[which],
+            self.senders[which],
+        )
+
+
+def in_order(batches: Sequence[Batch]) -> Batch:
+    """Batches of one buffer as one, in the order in which the messages lie there."""
+    if len(batches) == 1:
+        return batches[0]
+    starts, lengths, log_times, senders = (
+        np.concatenate([getattr(one, name) for one in batches])
+        for name in ("starts", "lengths", "log_times", "senders")
+    )
+    order = np.argsort(starts, kind="stable")
+    return Batch(batches[0].buffer, starts, lengths, log_times, senders).chosen(order)
+
+
+class _Column:
+    """An array that grows in place: room that is not written yet costs no memory.
+
+    Attributes:
+        count: Rows that are in it.
+    """
+
+    __slots__ = ("_rows", "count")
+
+    def __init__(self, kind: type) -> None:
+        self._rows: npt.NDArray[Any] = np.empty(0, dtype=kind)
+        self.count = 0
+
+    def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
+        """Append rows to be written.
+
+        Args:
+            count: How many.
+            share: How much of all has come with them, from 0 to 1.
+        """
+        first = self.count
+        self.count = needed = first + count
+        if needed > len(self._rows):
+            kind, before = self._rows.dtype, self._rows
+            rows = _wanted(needed, share, _FREELY)
+            self._rows = _room(rows * kind.itemsize).view(kind)
+            self._rows[:first] = before[:first]
+        return self._rows[first:needed]
+
+    def all(self) -> npt.NDArray[Any]:
+        """What is in it."""
+        return self._rows[: self.count]
+
+
+def _wanted(needed: int, share: float, freely: int) -> int:
+    """How many rows to make room for.
+
+    Args:
+        needed: How many there must be room for.
+        share: How much of all has come with them, from 0 to 1.
+        freely: How many there may be room for, whatever is needed.
+    """
+    # What is there to come is known roughly; to copy what has come costs more than addresses
+    # that are never used.
+    most = max(needed * _MOST_AHEAD, freely)
+    likely = int(needed / share * 1.02) if share * most > needed else needed * _MOST_AHEAD
+    return max(likely, needed * 3 // 2, _FEWEST)
+
+
+def _room(size: int) -> Bytes:
+    """So many bytes, to be written."""
+    # A small page costs as much as a hundred transforms.
+    pages = large_pages(size + PAGE, size + PAGE) if size >= PAGE else None
+    if pages is None:
+        return np.empty(size, dtype=np.uint8)
+    whole = np.frombuffer(pages, dtype=np.uint8)
+    first = -whole.ctypes.data % PAGE
+    return whole[first : first + size]
+
+
+# What `Growing.state` holds, by place; the native scan has the same.
+_COUNT, _LAST, _ORDERED, _KEPT, _SLASHED, _MOVED = range(6)
+
+
+class Growing:
+    """One edge while it is read.
+
+    Attributes:
+        parent: As in `Edge`.
+        child: Likewise.
+        static: Likewise.
+        records: As the buffer's histories keep them, who take them uncopied; with room.
+        messages: Of each the message it came in; with room.
+        state: Read and written by the native scan as well: how many rows there are; the last
+            message; whether those have come in order; how many rows from the first on a history
+            would keep as they are, as far as that was looked at; how many had a slash left out
+            of their names; and how often the columns were put elsewhere.
+        first: The first message, and a number that is the greater the farther behind in it the
+            transform stands.
+    """
+
+    __slots__ = ("child", "first", "messages", "parent", "records", "state", "static")
+
+    def __init__(self, parent: str, child: str, static: bool) -> None:
+        self.parent = parent
+        self.child = child
+        self.static = static
+        self.records: Records = np.empty((0, 8), dtype=np.int64)
+        self.messages: Indexes = np.empty(0, dtype=np.int32)
+        self.state = array("q", (0, -1, 1, 0, 0, 0))
+        self.first = _NEVER
+
+    def make_room(self, count: int, share: float = 1.0, freely: int = 0) -> int:
+        """Grow the columns by `count` rows.
+
+        Args:
+            count: How many rows are added.
+            share: How much of the whole has been read with them, from 0 to 1.
+            freely: How many rows may be allocated, however few have been read.
+
+        Returns:
+            For how many there is room now that there was none for.
+        """
+        there, before = self.state[_COUNT], len(self.messages)
+        needed = there + count
+        if needed <= before:
+            return 0
+        # One that came once may never come again.
+        rows = _wanted(needed, share, freely if there else 0)
+        # Both in one piece of memory, of which the end alone is not used.
+        split = rows * _RECORD
+        room = _room(split + rows * self.messages.itemsize)
+        records, self.records = self.records, room[:split].view(np.int64).reshape(rows, 8)
+        messages, self.messages = self.messages, room[split:].view(np.int32)
+        self.records[:there] = records[:there]
+        self.messages[:there] = messages[:there]
+        self.state[_MOVED] += 1
+        return rows - before
+
+    def room(
+        self, first: tuple[int, int], last: int, count: int, share: float = 1.0
+    ) -> tuple[Records, Indexes]:
+        """Where to write transforms, and the messages they come in.
+
+        Args:
+            first: The first of those messages, which are in order, and the place in it.
+            last: The last of them.
+            count: How many transforms.
+            share: How much of all has come with them.
+        """
+        state = self.state
+        if state[_LAST] > first[0]:
+            state[_ORDERED] = 0
+        self.first = min(self.first, first)
+        state[_LAST] = last
+        self.make_room(count, share)
+        begin = state[_COUNT]
+        state[_COUNT] = end = begin + count
+        return self.records[begin:end], self.messages[begin:end]
+
+    def add_slashed(self, count: int) -> None:
+        """Count transforms of which a slash was left out."""
+        self.state[_SLASHED] += count
+
+    def finished(self) -> Edge:
+        """As a value, in the order of the messages."""
+        count, _, ordered, kept, slashed, _ = self.state
+        records, messages = self.records[:count], self.messages[:count]
+        if not ordered:
+            # Stable: one message may bring an edge twice.
+            order = np.argsort(messages, kind="stable")
+            records, messages, kept = records[order], messages[order], 0
+        return Edge(self.parent, self.child, self.static, slashed, records, messages, kept)
+
+
+class Table:
+    """All edges of a source while it is read, and the messages they came in."""
+
+    def __init__(self, expected: int = 0) -> None:
+        """Begin with none.
+
+        Args:
+            expected: About how many messages are to come.
+        """
+        self._edges: dict[tuple[str, str, bool], Growing] = {}
+        self._expected = expected
+        self._log_times = _Column(np.int64)
+        self._senders = _Column(np.int32)
+        self._left_out = 0
+        self._freely = _FREELY
+        self.refused: Counter[str] = Counter()
+        """How many messages were refused, by the reason."""
+
+    def note(self, log_times: Stamps, senders: Indexes) -> int:
+        """Number messages; the number of the first."""
+        first = self._log_times.count
+        share = self.share(first + len(log_times))
+        self._log_times.room(len(log_times), share)[:] = log_times
+        self._senders.room(len(senders), share)[:] = senders
+        return first
+
+    def share(self, messages: int) -> float:
+        """The share of the recording, from 0 to 1, that `messages` messages are."""
+        return min(messages / self._expected, 1.0) if self._expected else 1.0
+
+    def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
+        """The edge to which `count` transforms are appended; None beyond `MOST_EDGES` edges."""
+        plain = parent.removeprefix("/"), child.removeprefix("/")
+        key = (*plain, static)
+        edge = self._edges.get(key)
+        if edge is None:
+            if self.spare <= 0:
+                self.leave_out(count)
+                return None
+            edge = self._edges[key] = Growing(*key)
+        if plain != (parent, child):
+            edge.add_slashed(count)
+        return edge
+
+    @property
+    def spare(self) -> int:
+        """How many edges more there may be."""
+        return MOST_EDGES - len(self._edges)
+
+    def make_room(self, edge: Growing, message: int) -> None:
+        """Have room for one more transform of an edge, which comes in that message."""
+        self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
+
+    def leave_out(self, count: int) -> None:
+        """Count transforms for which there is no edge."""
+        self._left_out += count
+
+    def append(
+        self,
+        parent: str,
+        child: str,
+        static: bool,
+        message: tuple[int, int],
+        stamp: Stamp,
+        seven: tuple[float, ...],
+    ) -> None:
+        """Append one transform of a message, whose place in it is said with its number."""
+        edge = self.edge(parent, child, static, 1)
+        if edge is None:
+            return
+        records, messages = edge.room(message, message[0], 1)
+        messages[0] = message[0]
+        records[0, 0] = stamp
+        records.view(np.float64)[0, 1:] = seven
+
+    def finished(self, publishers: tuple[Publisher, ...]) -> Transforms:
+        """Everything as columns."""
+        damage = [
+            f"{count} {'message was' if count == 1 else 'messages were'} left out: {reason}"
+            for reason, count in sorted(self.refused.items(), key=lambda one: (-one[1], one[0]))
+        ]
+        if self._left_out:
+            damage.append(
+                f"{self._left_out} transforms were left out: there are more than "
+                f"{MOST_EDGES} pairs of frames."
+            )
+        edges = sorted(self._edges.values(), key=lambda edge: edge.first)
+        return Transforms(
+            tuple(edge.finished() for edge in edges),
+            self._log_times.all(),
+            self._senders.all(),
+            publishers,
+            tuple(damage),
+        )
+
+
+def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
+    """The number that begins at each of some bytes, wherever they lie.
+
+    Args:
+        buffer: The bytes.
+        places: Where each number begins, shape (n,); all of it lies in the buffer.
+        kind: Its type, "<u4".
+    """
+    size = np.dtype(kind).itemsize
+    words: Stamps = np.ndarray(
+        (len(buffer) - size + 1,), dtype=kind, buffer=buffer.data, strides=(1,)
+    )
+    return words[places]

@@ -1,0 +1,51 @@
+"""Pieces of a recording packed; `recordings/decompression.py` unpacks them."""
+
+import bz2
+from collections.abc import Callable
+from typing import Final
+
+from tftool.base.errors import UsageError
+
+ZSTD_LEVEL: Final = 1
+"""Higher levels cost a recorder more than they save on its disk."""
+
+
+def compressor(method: str) -> Callable[[bytes], bytes]:
+    """What packs pieces by a method: "", "none", "zstd", "lz4" or "bz2".
+
+    Raises:
+        UsageError: If there is no such method, or what it takes is not installed.
+    """
+    if method in ("", "none"):
+        return bytes
+    if method == "bz2":
+        return bz2.compress
+    try:
+        if method == "zstd":
+            import zstandard
+
+            packed: Callable[[bytes], bytes] = zstandard.ZstdCompressor(level=ZSTD_LEVEL).compress
+            return packed
+        if method == "lz4":
+            import lz4.frame
+
+            # ROS 1 reads frames of independent blocks alone, without their size in front.
+            return lambda piece: bytes(
+                lz4.frame.compress(
+                    piece, block_linked=False, content_checksum=True, store_size=False
+                )
+            )
+    except ImportError:
+        raise UsageError(
+            f"To compress with {method} needs an extra: pip install 'tftool-tf2[recordings]'"
+        ) from None
+    raise UsageError(f"'{method}' is no compression known here: none, zstd, lz4 and bz2 are.")
+
+
+def best_compression() -> str:
+    """The compression of a new MCAP file: zstd where it is installed."""
+    try:
+        compressor("zstd")
+    except UsageError:
+        return "none"
+    return "zstd"

@@ -1,0 +1,374 @@
+"""A container as a source: which streams hold transforms, and what every container shares."""
+
+import re
+import struct
+from array import array
+from collections.abc import Collection, Iterator, Mapping
+from typing import Final
+
+import numpy as np
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.messages.layouts import CDR, ROS1, Layout
+from tftool.messages.transform_rows import LONGEST_NAME
+from tftool.recordings.columns import Batch, Table
+from tftool.recordings.container import TRANSIENT_LOCAL, Container, MessageStream
+from tftool.recordings.contract import (
+    Headers,
+    Progress,
+    Publisher,
+    RawMessage,
+    RecordedTopic,
+    Stamps,
+    Transforms,
+)
+from tftool.recordings.decompression import LARGEST, unpack_beginning
+from tftool.recordings.find import ZSTD_MAGIC
+from tftool.recordings.foreign_transforms import decoder_of, is_foreign
+from tftool.recordings.message_cutter import AnyCutter, Cutter, Decoding, cutter
+
+TRANSFORM_TYPES: Final = ("tf2_msgs/TFMessage", "tf/tfMessage")
+"""Types whose messages are lists of transforms, short."""
+
+MOST_UNPACKED: Final = 1 << 26
+"""Bytes of messages that were compressed each by itself, held at once but for the last one."""
+
+CLOCK_TYPE: Final = "rosgraph_msgs/Clock"
+
+LAYOUTS: Final[Mapping[str, Layout]] = {"cdr": CDR, "ros1": ROS1}
+"""Which layout messages have, by a topic's encoding."""
+
+_HEAD_BYTES = 16 + LONGEST_NAME
+_COMMENT = re.compile(r"#.*")
+_HEADER_FIELD = re.compile(r"(std_msgs/(msg/)?|roslib/)?Header\s+\w+\s*$")
+
+# Where a recording has no definitions, as rosbag2's sqlite files before 2023.
+_SENSORS = """BatteryState CameraInfo CompressedImage FluidPressure Illuminance Image Imu JointState
+Joy LaserScan MagneticField MultiDOFJointState MultiEchoLaserScan NavSatFix PointCloud PointCloud2
+Range RelativeHumidity Temperature TimeReference"""
+_WITH_HEADER = frozenset(f"sensor_msgs/{name}" for name in _SENSORS.split()) | {
+    "diagnostic_msgs/DiagnosticArray",
+    "nav_msgs/GridCells",
+    "nav_msgs/OccupancyGrid",
+    "nav_msgs/Odometry",
+    "nav_msgs/Path",
+    "stereo_msgs/DisparityImage",
+    "visualization_msgs/Marker",
+}
+
+
+def short_type(name: str) -> str:
+    """A type's name as ROS 2 writes it short: without the "msg" in its middle."""
+    package, middle, last = name.partition("/msg/")
+    return f"{package}/{last}" if middle else name
+
+
+class Recorded:
+    """A recording, opened; see `Source`."""
+
+    def __init__(self, name: str, container: Container) -> None:
+        """Look at what a container holds.
+
+        Args:
+            name: What was opened, as it was given.
+            container: Its files.
+        """
+        self.name = name
+        self._container = container
+        self._notes: list[str] = []
+        self._senders = tuple(
+            Publisher(
+                stream.topic,
+                stream.node,
+                stream.offers.durability,
+                stream.offers.reliability,
+                stream.offers.count,
+            )
+            for stream in container.streams
+        )
+
+    @property
+    def kind(self) -> str:
+        """The container in words."""
+        return self._container.kind
+
+    @property
+    def size(self) -> int:
+        """Bytes of all its files."""
+        return self._container.size
+
+    @property
+    def start(self) -> Stamp:
+        """Log time of the first message; 0 where there is none."""
+        return self._container.start
+
+    @property
+    def end(self) -> Stamp:
+        """Log time of the last message; 0 where there is none."""
+        return self._container.end
+
+    @property
+    def damage(self) -> tuple[str, ...]:
+        """What is missing or wrong with the files, as sentences."""
+        return (*self._container.damage, *self._notes)
+
+    def _note(self, damage: str) -> None:
+        if damage not in self._notes:
+            self._notes.append(damage)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Names of its topics."""
+        return frozenset(stream.topic for stream in self._container.streams)
+
+    @property
+    def topics(self) -> tuple[RecordedTopic, ...]:
+        """Every topic, by name; each name once."""
+        first: dict[str, MessageStream] = {}
+        counts: dict[str, int] = {}
+        static: dict[str, bool] = {}
+        for stream, count in zip(self._container.streams, self._container.counts, strict=True):
+            first.setdefault(stream.topic, stream)
+            counts[stream.topic] = counts.get(stream.topic, 0) + count
+            static[stream.topic] = static.get(stream.topic, False) or is_static(stream)
+        return tuple(
+            RecordedTopic(
+                name,
+                short_type(stream.type),
+                stream.encoding,
+                counts[name],
+                stream.definition,
+                _has_transforms(stream),
+                _has_transforms(stream) and static[name],
+            )
+            for name, stream in sorted(first.items())
+        )
+
+    @property
+    def publishers(self) -> tuple[Publisher, ...]:
+        """Every stream of messages, by topic and node."""
+        return tuple(sorted(set(self._senders), key=lambda one: (one.topic, one.node)))
+
+    def transforms(
+        self, topics: Collection[str] | None = None, progress: Progress | None = None
+    ) -> Transforms:
+        """Every transform; of topics that are named, else of all whose type carries them."""
+        chosen = [n for n, one in enumerate(self._container.streams) if self._gives(one, topics)]
+        table = Table(self._container.expected(chosen))
+        cutters: dict[tuple[Layout, bool], Cutter] = {}
+        of_stream: dict[int, AnyCutter] = {}
+        for number, stream in enumerate(self._container.streams):
+            if topics is not None and stream.topic not in topics:
+                continue
+            static = is_static(stream)
+            if _is_tf(stream):
+                key = LAYOUTS[stream.encoding], static
+                if key not in cutters:
+                    cutters[key] = cutter(table, *key)
+                of_stream[number] = cutters[key]
+            elif topics is not None or _has_transforms(stream):
+                kind = short_type(stream.type)
+                try:
+                    decode = decoder_of(kind, stream.encoding, stream.definition, stream.topic)
+                except InputError as error:
+                    self._note(f"'{stream.topic}' is left out: {error}")
+                    continue
+                if decode is not None:
+                    of_stream[number] = Decoding(table, decode, static)
+        takers = set(of_stream.values())
+        for batch in self._batches(of_stream.keys(), progress):
+            first = table.note(batch.log_times, batch.senders)
+            numbers = np.arange(first, first + len(batch), dtype=np.int32)
+            if len(takers) == 1:
+                next(iter(takers)).add(batch, numbers)
+                continue
+            for taker, which in _by_cutter(batch, of_stream):
+                taker.add(batch.chosen(which), numbers[which])
+        for one in cutters.values():
+            one.flush()
+        return table.finished(self._senders)
+
+    def _gives(self, stream: MessageStream, topics: Collection[str] | None) -> bool:
+        """Whether a stream's messages are read for their transforms."""
+        return _has_transforms(stream) if topics is None else stream.topic in topics
+
+    def headers(
+        self, topics: Collection[str] | None = None, progress: Progress | None = None
+    ) -> dict[str, Headers]:
+        """Headers by topic; of topics that are named, else of all whose type begins with one."""
+        found: dict[str, _Heads] = {}
+        of_stream: dict[int, _Heads] = {}
+        for number, stream in enumerate(self._container.streams):
+            if (topics is None or stream.topic in topics) and begins_with_header(stream):
+                heads = found.setdefault(stream.topic, _Heads(stream))
+                of_stream[number] = heads
+        for batch in self._batches(of_stream.keys(), progress, _HEAD_BYTES):
+            for number in range(len(batch)):
+                start = int(batch.starts[number])
+                end = start + min(int(batch.lengths[number]), _HEAD_BYTES)
+                head = batch.buffer[start:end].tobytes()
+                log_time = int(batch.log_times[number])
+                of_stream[int(batch.senders[number])].append(head, log_time)
+        return {topic: heads.finished() for topic, heads in sorted(found.items())}
+
+    def clock(self) -> tuple[Stamps, Stamps]:
+        """What `/clock` read and when it was received, nanoseconds, each of shape (n,)."""
+        read, received = array("q"), array("q")
+        numbers = {
+            number: stream
+            for number, stream in enumerate(self._container.streams)
+            if short_type(stream.type) == CLOCK_TYPE and stream.encoding in LAYOUTS
+        }
+        for batch in self._batches(numbers.keys(), None, 12):
+            for number in range(len(batch)):
+                stream = numbers[int(batch.senders[number])]
+                payload = batch.payload(number)
+                begin = 4 if stream.encoding == "cdr" else 0
+                if len(payload) >= begin + 8:
+                    read.append(_stamp(payload, begin))
+                    received.append(int(batch.log_times[number]))
+        return np.frombuffer(read, dtype=np.int64), np.frombuffer(received, dtype=np.int64)
+
+    def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
+        """The messages of some topics, in the order of the recording."""
+        numbers = {n for n, one in enumerate(self._container.streams) if one.topic in topics}
+        for batch in self._batches(numbers):
+            for number in range(len(batch)):
+                yield RawMessage(
+                    int(batch.log_times[number]),
+                    self._senders[int(batch.senders[number])],
+                    batch.payload(number),
+                )
+
+    def _batches(
+        self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
+    ) -> Iterator[Batch]:
+        """The messages of some streams, unpacked where rosbag2 compressed each by itself."""
+        for batch in self._container.batches(wanted, progress, head):
+            start = int(batch.starts[0])
+            if batch.buffer[start : start + 4].tobytes() == ZSTD_MAGIC:
+                yield from _unpacked(batch)
+            else:
+                yield batch
+
+    def close(self) -> None:
+        """Close its files."""
+        self._container.close()
+
+
+class _Heads:
+    """One topic's headers while they are read."""
+
+    def __init__(self, stream: MessageStream) -> None:
+        self._topic = stream.topic
+        self._type = short_type(stream.type)
+        self._is_cdr = stream.encoding == "cdr"
+        self._stamps = array("q")
+        self._log_times = array("q")
+        self._frames = array("i")
+        self._names: dict[str, int] = {}
+        self._known: dict[bytes, int] = {}
+
+    def append(self, head: bytes, log_time: int) -> None:
+        """Take one from the first bytes of its message; a message that is too short is none."""
+        begin = 4  # behind CDR's header, or ROS 1's sequence number
+        order = ">" if self._is_cdr and head[:2] == b"\x00\x00" else "<"
+        if len(head) < begin + 12:
+            return
+        (length,) = struct.unpack_from(f"{order}I", head, begin + 8)
+        name = head[begin + 12 : begin + 12 + length]
+        if len(name) < length:
+            return
+        place = self._known.get(name)
+        if place is None:
+            text = (name.removesuffix(b"\x00") if self._is_cdr else name).decode(
+                "utf-8", "backslashreplace"
+            )
+            place = self._names.setdefault(text, len(self._names))
+            if len(self._known) < 4096:
+                self._known[name] = place
+        self._stamps.append(_stamp(head, begin, order))
+        self._log_times.append(log_time)
+        self._frames.append(place)
+
+    def finished(self) -> Headers:
+        """As columns."""
+        return Headers(
+            self._topic,
+            self._type,
+            np.frombuffer(self._stamps, dtype=np.int64),
+            np.frombuffer(self._log_times, dtype=np.int64),
+            tuple(self._names),
+            np.frombuffer(self._frames, dtype=np.int32),
+        )
+
+
+def _unpacked(batch: Batch) -> Iterator[Batch]:
+    """The same messages, each unpacked by itself, in pieces; empty where that fails."""
+    pieces: list[bytes] = []
+    first = held = 0
+    for number in range(len(batch)):
+        pieces.append(unpack_beginning("zstd", batch.payload(number), LARGEST))
+        held += len(pieces[-1])
+        if held < MOST_UNPACKED and number + 1 < len(batch):
+            continue
+        lengths = np.fromiter(map(len, pieces), dtype=np.int64, count=len(pieces))
+        starts = np.cumsum(lengths) - lengths
+        buffer = np.frombuffer(b"".join(pieces) or b"\0", dtype=np.uint8)
+        which = slice(first, number + 1)
+        yield Batch(buffer, starts, lengths, batch.log_times[which], batch.senders[which])
+        pieces, first, held = [], number + 1, 0
+
+
+def _by_cutter(
+    batch: Batch, of_stream: dict[int, AnyCutter]
+) -> "Iterator[tuple[AnyCutter, slice | Stamps]]":
+    """Which of a batch's messages each cutter takes."""
+    first = int(batch.senders[0])
+    if (batch.senders == first).all():
+        yield of_stream[first], slice(None)
+        return
+    owners: dict[AnyCutter, list[int]] = {}
+    for number in np.unique(batch.senders).tolist():
+        owners.setdefault(of_stream[number], []).append(number)
+    for taker, numbers in owners.items():
+        yield taker, np.flatnonzero(np.isin(batch.senders, numbers))
+
+
+def _stamp(payload: bytes, place: int, order: str = "<") -> Stamp:
+    sec, nanosec = struct.unpack_from(f"{order}iI", payload, place)
+    return int(sec) * NANOSECONDS + int(nanosec)
+
+
+def _is_tf(stream: MessageStream) -> bool:
+    return short_type(stream.type) in TRANSFORM_TYPES and stream.encoding in LAYOUTS
+
+
+def _has_transforms(stream: MessageStream) -> bool:
+    return _is_tf(stream) or is_foreign(short_type(stream.type), stream.encoding)
+
+
+def is_static(stream: MessageStream) -> bool:
+    """Whether transforms of a stream hold at all times: by name, not by a stamp of 0."""
+    last = stream.topic.rpartition("/")[2]
+    if last == "tf_static":
+        return True
+    is_latched = stream.offers.durability == TRANSIENT_LOCAL
+    return is_latched and (stream.encoding == "ros1" or "static" in stream.topic)
+
+
+def begins_with_header(stream: MessageStream) -> bool:
+    """Whether messages of a stream begin with a header that we can read."""
+    if stream.encoding not in LAYOUTS:
+        return False
+    kind = short_type(stream.type)
+    if not stream.definition:
+        return kind in _WITH_HEADER or (
+            kind.startswith("geometry_msgs/") and kind.endswith("Stamped")
+        )
+    for line in stream.definition.splitlines():
+        field = _COMMENT.sub("", line).strip()
+        if field and "=" not in field:
+            return _HEADER_FIELD.fullmatch(field) is not None
+    return False

@@ -1,0 +1,279 @@
+"""What every source of recorded frames gives, as values and columns.
+
+A source is read, not waited for: it ends, and all of it is there. Moments are whole
+nanoseconds; *stamps* are what the publisher wrote into a header, *log times* when the
+recorder received the message. Columns hold what was recorded, unjudged: not-a-number,
+zero quaternions, stamps of 0 and leading slashes included.
+"""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.stamps import Stamp
+
+Stamps: TypeAlias = npt.NDArray[np.int64]
+"""Nanoseconds, shape (n,)."""
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+"""Numbers."""
+
+Indexes: TypeAlias = npt.NDArray[np.int32]
+"""Places in another column or list, shape (n,)."""
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedTopic:
+    """One topic of a recording.
+
+    Attributes:
+        name: As recorded; ROS 2 has `tf` without a slash in places.
+        type: Name of the message type as ROS 2 writes it short: "tf2_msgs/TFMessage". As
+            recorded where it is no ROS type: "foxglove.FrameTransform".
+        encoding: "cdr", "ros1", "json", "protobuf", or whatever else is recorded.
+        count: How many messages; up to the damage, where there is any.
+        definition: The text of the message definition; empty where the recording has none.
+        transforms: Whether its type carries transforms.
+        static: Whether those hold at all times.
+    """
+
+    name: str
+    type: str
+    encoding: str = ""
+    count: int = 0
+    definition: str = ""
+    transforms: bool = False
+    static: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Publisher:
+    """One stream of messages on a topic: a connection of ROS 1, a channel of MCAP.
+
+    Attributes:
+        topic: Name of the topic.
+        node: Who publishes it, "/robot_state_publisher"; empty where that is not recorded
+            (ROS 2 records it nowhere).
+        durability: What was offered to late subscribers: "transient_local" (ROS 1's
+            latching too), "volatile", or empty where that is not recorded.
+        reliability: "reliable", "best_effort", or empty.
+        offers: How many publishers' offers of service the recorder noted for the topic.
+    """
+
+    topic: str
+    node: str = ""
+    durability: str = ""
+    reliability: str = ""
+    offers: int = 0
+
+    @property
+    def authority(self) -> str:
+        """What the buffer and its views call it: the node, else the topic."""
+        return self.node or self.topic
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Edge:
+    """Every transform of one parent, child and kind, in the order of the recording.
+
+    Attributes:
+        parent: Name as recorded, without the one leading slash it may have.
+        child: Likewise.
+        static: Whether it came on a static topic.
+        slashed: How many of its transforms had a leading slash in a name.
+        records: One row a transform, int64, shape (n, 8): the stamp, and bit by bit the
+            seven doubles x y z (metres) and x y z w (quaternion).
+        messages: The message each came in: a place in `Transforms.log_times`.
+        kept: How many rows from the first on are known to be as a buffer keeps them: each newer
+            than the one before, finite, and with a unit quaternion of tf2's sign.
+    """
+
+    parent: str
+    child: str
+    static: bool
+    slashed: int
+    records: npt.NDArray[np.int64]
+    messages: Indexes
+    kept: int = 0
+
+    def __len__(self) -> int:
+        return len(self.messages)
+
+    def __repr__(self) -> str:
+        kind = "static" if self.static else "dynamic"
+        return f"<Edge: {len(self)} {kind} transforms of {self.child!r} in {self.parent!r}>"
+
+    @property
+    def stamps(self) -> Stamps:
+        """Nanoseconds, shape (n,); a view."""
+        return self.records[:, 0]
+
+    @property
+    def translations(self) -> Floats:
+        """Metres, shape (n, 3); a view."""
+        return self.records.view(np.float64)[:, 1:4]
+
+    @property
+    def rotations(self) -> Floats:
+        """Quaternions x y z w as recorded, shape (n, 4); a view."""
+        return self.records.view(np.float64)[:, 4:]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Transforms:
+    """All transforms of a source, in columns per edge, and the messages they came in.
+
+    Attributes:
+        edges: One for each parent, child and kind, in the order they first came up.
+        log_times: When each message was received, nanoseconds, shape (m,), in the order
+            of the recording (which need not be that of time).
+        senders: The publisher of each message: a place in `publishers`, shape (m,).
+        publishers: Who published transforms.
+        damage: What could not be read of them, as sentences.
+    """
+
+    edges: tuple[Edge, ...]
+    log_times: Stamps
+    senders: Indexes
+    publishers: tuple[Publisher, ...]
+    damage: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return sum(len(edge) for edge in self.edges)
+
+    def log_times_of(self, edge: Edge) -> Stamps:
+        """When each transform of an edge was received, nanoseconds, shape (n,)."""
+        return self.log_times[edge.messages]
+
+    def senders_of(self, edge: Edge) -> Indexes:
+        """Who published each transform of an edge: places in `publishers`, shape (n,)."""
+        return self.senders[edge.messages]
+
+
+def median(column: Stamps) -> float:
+    """As numpy's of whole numbers, at a third of its cost where they are few; of one at least."""
+    half = len(column) // 2
+    if len(column) % 2:
+        return float(np.partition(column, half)[half])
+    middle = np.partition(column, (half - 1, half))
+    return (float(middle[half - 1]) + float(middle[half])) / 2.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Headers:
+    """The headers of a topic's messages, in the order of the recording.
+
+    Attributes:
+        topic: Name of the topic.
+        type: Its type.
+        stamps: Nanoseconds, shape (n,).
+        log_times: When each was received, nanoseconds, shape (n,).
+        names: The frame names that occur, as recorded (slashes included).
+        frames: Which of them each message has: a place in `names`, shape (n,).
+    """
+
+    topic: str
+    type: str
+    stamps: Stamps
+    log_times: Stamps
+    names: tuple[str, ...]
+    frames: Indexes
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+    @property
+    def frame_ids(self) -> npt.NDArray[np.object_]:
+        """The frame name of each message, shape (n,)."""
+        return np.array(self.names, dtype=object)[self.frames]
+
+
+@dataclass(frozen=True, slots=True)
+class RawMessage:
+    """One message as it was recorded.
+
+    Attributes:
+        log_time: When it was received, nanoseconds.
+        sender: Its publisher.
+        payload: Its bytes, in the topic's encoding.
+    """
+
+    log_time: Stamp
+    sender: Publisher
+    payload: bytes
+
+
+class Progress(Protocol):
+    """Is told how far reading has come."""
+
+    def __call__(self, done: int, total: int) -> None:
+        """Report that `done` of `total` bytes are read."""
+
+
+class Source(Protocol):
+    """A recording, opened: what is in it is known, its messages are read when asked for.
+
+    Whatever reads raises `InputError` if nothing can be read; damage behind which
+    something was read is told in `damage`, and never raises.
+    """
+
+    @property
+    def name(self) -> str:
+        """What was opened, as it was given."""
+
+    @property
+    def kind(self) -> str:
+        """The container in words: "MCAP", "rosbag2 (sqlite3)", "ROS 1 bag"."""
+
+    @property
+    def size(self) -> int:
+        """Bytes of all its files."""
+
+    @property
+    def start(self) -> Stamp:
+        """Log time of the first message; 0 where there is none."""
+
+    @property
+    def end(self) -> Stamp:
+        """Log time of the last message; 0 where there is none."""
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Names of its topics; to count their messages may take a while, and this does not."""
+
+    @property
+    def topics(self) -> tuple[RecordedTopic, ...]:
+        """Every topic, by name; each name once."""
+
+    @property
+    def publishers(self) -> tuple[Publisher, ...]:
+        """Every stream of messages, by topic and node."""
+
+    @property
+    def damage(self) -> tuple[str, ...]:
+        """What is missing or wrong with the files, as sentences, with what was done instead."""
+
+    def transforms(
+        self, topics: Collection[str] | None = None, progress: Progress | None = None
+    ) -> Transforms:
+        """Every transform; of topics that are named, else of all whose type carries them.
+
+        Odometry and PoseStamped are read as transforms where their topics are named.
+        """
+
+    def headers(
+        self, topics: Collection[str] | None = None, progress: Progress | None = None
+    ) -> dict[str, Headers]:
+        """Headers by topic; of topics that are named, else of all whose type begins with one."""
+
+    def clock(self) -> tuple[Stamps, Stamps]:
+        """What `/clock` read and when it was received, nanoseconds, each of shape (n,)."""
+
+    def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
+        """The messages of some topics, in the order of the recording."""
+
+    def close(self) -> None:
+        """Close its files."""

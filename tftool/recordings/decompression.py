@@ -1,0 +1,334 @@
+"""Pieces of a recording unpacked, within bounds: what is declared is checked before it is made."""
+
+import bz2
+import contextlib
+import os
+from collections.abc import Callable, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import cache
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+from tftool.base.errors import InputError, UsageError
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+LARGEST: Final = 3 << 27
+"""Bytes of the largest piece that is read or unpacked: lz4 holds twice as many, and who looks at
+its one message once more, which is below 2 GB."""
+
+MOST_GAIN: Final = 1100
+"""How many times larger a piece may become; what we know of stays below."""
+
+_SLACK: Final = 1 << 20
+
+LARGEST_DAMAGED: Final = 1 << 26
+"""Bytes that are unpacked of a damaged piece, which is held twice."""
+
+_LARGEST_AHEAD: Final = 16 << 20
+_MOST_WORKERS: Final = 4
+_WAITING: Final = 3  # pieces that no thread has begun with, at least
+_LARGEST_KEPT: Final = 31 << 20
+
+Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
+"""A piece: how it is packed, what reads its bytes, and how many it says it will be."""
+
+
+def unpack(method: str, packed: bytes, size: int) -> bytes:
+    """Unpack a piece whose size is known.
+
+    Args:
+        method: "", "none", "zstd", "lz4" or "bz2", as the container writes it.
+        packed: Its bytes in the file.
+        size: How many it says it will be.
+
+    Raises:
+        InputError: If it says too much, is damaged, or becomes another size.
+        UsageError: If what it takes is not installed.
+    """
+    if method in ("", "none"):
+        if len(packed) != size:
+            raise InputError(f"{len(packed)} bytes are there where {size} are announced")
+        return packed
+    check_size(len(packed), size)
+    try:
+        found = _whole(method, packed, size)
+    except (InputError, UsageError, MemoryError):
+        raise
+    except Exception as error:
+        raise InputError(f"its {method} data is damaged ({error})") from error
+    if len(found) != size:
+        raise InputError(f"its {method} data gives {len(found)} bytes where {size} are announced")
+    return found
+
+
+class _Room:
+    """Memory that pieces are unpacked into, one after the other: what is new costs more."""
+
+    def __init__(self) -> None:
+        self._bytes = bytearray()
+        self._zstd: Any = None
+
+    def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
+        """As the function of that name; what it gives is here as a rule, until the next one."""
+        packed = read()
+        if method == "zstd":
+            check_size(len(packed), size)
+            try:
+                if self._read(packed, size):
+                    return memoryview(self._bytes)[:size]
+            except Exception:
+                # What is wrong is for the other to say.
+                pass
+        return unpack(method, packed, size)
+
+    def _read(self, packed: bytes, size: int) -> bool:
+        """Read a frame of zstd to its end; whether it is as long as it should be."""
+        module = zstandard()
+        if module.frame_content_size(packed) != size:
+            return False
+        if len(self._bytes) < size:
+            self._bytes = bytearray(size)
+        self._zstd = self._zstd or module.ZstdDecompressor()
+        with self._zstd.stream_reader(packed) as reader:
+            found: int = reader.readinto(memoryview(self._bytes)[:size])
+            return found == size and not reader.read(1)
+
+
+class _Coming:
+    """A piece on its way.
+
+    Attributes:
+        room: Where to.
+        future: Who tells when it is there.
+    """
+
+    def __init__(self, piece: Packed, room: _Room, pool: ThreadPoolExecutor) -> None:
+        self.room = room
+        self._piece = piece
+        self.future: Future[bytes | memoryview] = pool.submit(room.unpack, *piece)
+
+    def unpack_here(self) -> None:
+        """Unpack it in this thread, if no other has begun to."""
+        if not self.future.cancel():
+            return
+        self.future = Future()
+        try:
+            self.future.set_result(self.room.unpack(*self._piece))
+        except Exception as error:
+            self.future.set_exception(error)
+
+
+class Ahead:
+    """Reads and unpacks pieces in threads while those before them are looked at; works in a `with`.
+
+    Both let go of Python's lock: on two processors it costs no time of its own. Nothing else is
+    done in a thread. Who asks for a piece that is not there yet unpacks one behind it meanwhile:
+    so every processor has work, and none has two threads to share it.
+    """
+
+    def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:
+        """Take what there is to unpack.
+
+        Args:
+            keys: Names of the pieces, each another one, in the order in which they will be asked
+                for; some may be passed over.
+            packed: Tells of a piece; None where it is not to be unpacked ahead. Is called in the
+                thread that asks, not long before that piece is asked for.
+        """
+        self._keys = iter(keys)
+        self._packed = packed
+        # In the order of their keys; None for what is not unpacked ahead.
+        self._coming: dict[object, _Coming | None] = {}
+        self._spare: list[_Room] = []
+        self._lent: _Room | None = None
+        self._workers = min(_processors() - 1, _MOST_WORKERS)
+        self._pool: ThreadPoolExecutor | None = None
+
+    def __enter__(self) -> "Ahead":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._pool is not None:
+            self._pool.shutdown(wait=True, cancel_futures=True)
+
+    def take(self, key: object) -> "Future[bytes | memoryview] | None":
+        """What `unpack` makes of a piece; None where it is not on its way.
+
+        What was taken before must not be looked at any more: its memory is used again.
+        """
+        if self._lent is not None:
+            self._spare.append(self._lent)
+            self._lent = None
+        found = self._come_to(key)
+        if found is None:
+            return None
+        self._lent = found.room
+        self._start()
+        for other in self._coming.values():
+            if found.future.done():
+                break
+            if other is not None:
+                other.unpack_here()
+        return found.future
+
+    def _come_to(self, key: object) -> _Coming | None:
+        """The piece of a key; those before it were passed over, and make room for others."""
+        self._start()
+        while self._coming:
+            passed = next(iter(self._coming))
+            found = self._coming.pop(passed)
+            if passed == key:
+                return found
+            # What a thread is unpacking now keeps its memory until that is done.
+            if found is not None and (found.future.cancel() or found.future.done()):
+                self._spare.append(found.room)
+            self._start()
+        return None
+
+    def _start(self) -> None:
+        """Have as many on their way as there are threads, and some more for who asks."""
+        while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
+            key = next(self._keys, None)
+            if key is None:
+                return
+            piece = self._packed(key)
+            if piece is None or piece[0] in ("", "none") or piece[2] > _LARGEST_AHEAD:
+                self._coming[key] = None
+                continue
+            if self._pool is None:
+                self._pool = ThreadPoolExecutor(self._workers, "tftool-unpack")
+            room = self._spare.pop() if self._spare else _Room()
+            self._coming[key] = _Coming(piece, room, self._pool)
+
+
+def _processors() -> int:
+    """How many this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
+    """Unpack as much as there is of a piece that is cut or damaged; may be nothing."""
+    size = min(size, LARGEST, most_of(len(packed)))
+    if method in ("", "none"):
+        return packed[:size]
+    size = min(size, LARGEST_DAMAGED)
+    try:
+        if method == "zstd":
+            return _beginning_of_zstd(packed, size)
+        found, broken = _in_steps(method, packed, size, len(packed))
+        if broken < len(packed) and method != "bz2":
+            # Of the step in which it broke nothing came out. A block of bz2 is all wrong then.
+            found, _ = _in_steps(method, packed, size, broken)
+    except InputError:
+        return b""
+    return bytes(memoryview(found)[:size])
+
+
+def _beginning_of_zstd(packed: bytes, size: int) -> bytes:
+    found, decompressor = bytearray(), zstandard().ZstdDecompressor()
+    with contextlib.suppress(Exception), decompressor.stream_reader(packed) as it:
+        # Of the step in which it breaks nothing comes out.
+        while len(found) < size and (more := it.read(min(4096, size - len(found)))):
+            found += more
+    return bytes(found)
+
+
+def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytearray, int]:
+    """Unpack a piece in steps up to a place, and byte by byte behind it.
+
+    Returns:
+        What came out, and where the step began in which it broke; the end if it did not.
+
+    Raises:
+        InputError: If it is not known how it is packed.
+    """
+    stream, found, start = _stream(method), bytearray(), 0
+    while start < len(packed) and len(found) < size and not stream.eof:
+        step = 4096 if start < coarse else 1
+        try:
+            # In a few bytes there may be more than is wanted of all.
+            data = packed[start : start + step]
+            while data or not (stream.eof or stream.needs_input or len(found) >= size):
+                found += stream.decompress(data, max_length=size - len(found))
+                data = b""
+        except Exception:
+            return found, start
+        start += step
+    return found, len(packed)
+
+
+def most_of(packed: int) -> int:
+    """How many bytes so many packed ones may become: what is honest stays far below."""
+    return MOST_GAIN * packed + _SLACK
+
+
+def check_size(packed: int, size: int) -> None:
+    """Refuse a size that nothing honest declares.
+
+    Raises:
+        InputError: If it is one.
+    """
+    if size > LARGEST or size > most_of(packed):
+        raise InputError(
+            f"{packed} bytes announce {size} unpacked, more than is plausible "
+            f"(at most {LARGEST}, and {MOST_GAIN} times)"
+        )
+
+
+def zstandard() -> "ModuleType":
+    """The module that unpacks zstd."""
+    try:
+        import zstandard
+    except ImportError:
+        raise _missing("zstd") from None
+    return zstandard
+
+
+@cache
+def _lz4() -> Any:
+    try:
+        import lz4.frame
+    except ImportError:
+        raise _missing("lz4") from None
+    import numpy as np
+
+    # It takes new memory for every piece, twice, and to get and clear that takes twice as long as
+    # to unpack. C's allocator of Linux keeps pieces that were freed, and gives them out again, up
+    # to the size of the largest that it had back from the system; this one is never written.
+    np.empty(_LARGEST_KEPT, dtype=np.uint8)
+    return lz4.frame
+
+
+def _missing(method: str) -> UsageError:
+    return UsageError(
+        f"This recording is compressed with {method}, which needs an extra: "
+        "pip install 'tftool-tf2[recordings]'"
+    )
+
+
+def _whole(method: str, packed: bytes, size: int) -> bytes:
+    if method == "zstd":
+        module = zstandard()
+        declared = module.frame_content_size(packed)
+        if declared not in (-1, size):
+            raise InputError(f"its zstd data announces {declared} bytes, and the file {size}")
+        found: bytes = module.ZstdDecompressor().decompress(packed, max_output_size=size)
+        return found
+    if method == "lz4":
+        # One byte more than wanted shows whether there is more.
+        unpacked: bytes = _lz4().LZ4FrameDecompressor().decompress(packed, max_length=size + 1)
+        return unpacked
+    if method == "bz2":
+        return bz2.BZ2Decompressor().decompress(packed, max_length=size + 1)
+    raise InputError(f"it is compressed in a way not known here ({method!r})")
+
+
+def _stream(method: str) -> Any:
+    if method == "lz4":
+        return _lz4().LZ4FrameDecompressor()
+    if method == "bz2":
+        return bz2.BZ2Decompressor()
+    raise InputError(f"it is compressed in a way not known here ({method!r})")

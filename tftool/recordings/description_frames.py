@@ -1,0 +1,134 @@
+"""What a robot's description adds to a recording: the frames that tf lacks."""
+
+import re
+from collections import Counter
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+from typing import Final
+
+from tftool.base.errors import InputError
+from tftool.buffer.buffer import Buffer
+from tftool.messages.classes import INTERFACES
+from tftool.messages.codec import Codec
+from tftool.messages.layouts import CDR, ROS1
+from tftool.recordings.container_reader import short_type
+from tftool.recordings.contract import RecordedTopic, Source
+from tftool.recordings.joint_state_reader import RecordedJoints
+from tftool.robots.robot_model import Robot, set_still
+from tftool.robots.urdf import LARGEST, parse_description
+
+STRING: Final = "std_msgs/String"
+DESCRIPTION: Final = "robot_description"
+
+
+@dataclass(frozen=True, slots=True)
+class DescribedFrames:
+    """What a description gave that tf did not.
+
+    Attributes:
+        still: Frames that hold at all times.
+        moving: Frames that joint states move.
+        gaps: Frames of which neither tf nor joint states say where they are.
+        prefix: What stands before a link's name in the names of its frames.
+    """
+
+    still: tuple[str, ...] = ()
+    moving: tuple[str, ...] = ()
+    gaps: tuple[str, ...] = ()
+    prefix: str = ""
+
+
+def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
+    """The topics of a recording that carry a robot's description."""
+    return [
+        topic
+        for topic in topics
+        if short_type(topic.type) == STRING
+        and topic.name.rpartition("/")[2] == DESCRIPTION
+        and topic.encoding in ("cdr", "ros1")
+        and topic.count
+    ]
+
+
+def read_description(source: Source, topic: RecordedTopic) -> Robot:
+    """The description on a topic, the first one if there are several.
+
+    Raises:
+        InputError: If it is no text.
+        DescriptionError: If it has mistakes.
+    """
+    # It is latched and comes first: the rest of a long recording need not be read for it.
+    message = next(iter(source.messages([topic.name])), None)
+    if message is None or len(message.payload) > LARGEST:
+        raise InputError(f"'{topic.name}' holds no description that can be read")
+    kind = INTERFACES.message("std_msgs/msg/String")
+    text = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR).decode(message.payload).data
+    return Robot(parse_description(text, f"{source.name}:{topic.name}"))
+
+
+def prefix_of(robot: Robot, frames: Collection[str]) -> str:
+    """What stands before the names of links in those of frames: robot_state_publisher's prefix."""
+    known = frozenset(frames)
+    if not known or any(link in known for link in robot.links):
+        return ""
+    counted: Counter[str] = Counter()
+    links = frozenset(robot.links)
+    for frame in known:
+        match = re.fullmatch(r"(.*/)([^/]+)", frame)
+        if match and match[2] in links:
+            counted[match[1]] += 1
+    return counted.most_common(1)[0][0] if counted else ""
+
+
+def missing_motion(robot: Robot, frames: Collection[str], prefix: str) -> list[str]:
+    """The joints that move whose frames tf does not have."""
+    return [
+        joint.name
+        for joint in robot.joints.values()
+        if joint.moves and prefix + joint.child not in frames
+    ]
+
+
+def add_described(
+    buffer: Buffer,
+    robot: Robot,
+    joints: RecordedJoints,
+    frames: Collection[str],
+    prefix: str = "",
+) -> DescribedFrames:
+    """Put the frames of a description into a buffer that does not have them.
+
+    Args:
+        buffer: What tf gave.
+        robot: The description.
+        joints: The joint states of the same recording.
+        frames: The children that tf gave, which are left as they are.
+        prefix: What stands before the names of links in those of frames.
+
+    Returns:
+        What was added, and what is still missing.
+    """
+    still = []
+    lacking = {joint.child for joint in robot.joints.values() if prefix + joint.child not in frames}
+    for joint in robot.joints.values():
+        if joint.child in lacking and not joint.moves and joint.type != "floating":
+            set_still(buffer, joint, prefix=prefix)
+            still.append(prefix + joint.child)
+    moved = set()
+    for states in joints.states:
+        for joint, records in robot.motion(states, lambda joint: joint.child in lacking):
+            records = records[records[:, 0] != 0]
+            if len(records):
+                parent, child = prefix + joint.parent, prefix + joint.child
+                buffer.set_records(parent, child, records, f"joint {joint.name}")
+                moved.add(child)
+    moving = [
+        prefix + joint.child for joint in robot.joints.values() if prefix + joint.child in moved
+    ]
+    there = {*still, *moving}
+    gaps = [
+        prefix + joint.child
+        for joint in robot.joints.values()
+        if joint.child in lacking and prefix + joint.child not in there
+    ]
+    return DescribedFrames(tuple(still), tuple(moving), tuple(gaps), prefix)

@@ -1,0 +1,458 @@
+"""What is changed in a recording, transform by transform and message by message."""
+
+import struct
+from collections import Counter
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from tftool.base.errors import InputError, TftoolError
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp
+from tftool.buffer.forest import stripped
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.messages.classes import Interfaces, Message
+from tftool.messages.codec import Codec
+from tftool.messages.schema import PRIMITIVES, full_name
+from tftool.messages.splice import TransformRow, TransformRows
+from tftool.recordings.channel import Channel
+from tftool.recordings.container import MessageStream, offers_of
+from tftool.recordings.container_reader import (
+    LAYOUTS,
+    TRANSFORM_TYPES,
+    begins_with_header,
+    is_static,
+    short_type,
+)
+from tftool.recordings.edit.tape import Taken
+
+LinkName = tuple[str, str]
+"""Parent and child, each without a leading slash; "*" stands for any name."""
+
+_HEADER: Final = "std_msgs/msg/Header"
+
+
+@dataclass(frozen=True, slots=True)
+class Edits:
+    """What is to be changed; names are those in the recording.
+
+    Attributes:
+        drop: Links to leave out.
+        rename: New names of frames.
+        prefix: What to put in front of every name.
+        strip_slash: Whether to take leading slashes away.
+        poses: New numbers of links: x y z, and x y z w.
+        reparent: The parent that a link's child shall hang from, without being moved.
+        statics_first: Whether the statics come in one message for each of their channels, at
+            the beginning.
+        statics_from: Statics to take in place of those of the same children.
+        start: Where to begin, nanoseconds.
+        end: Where to end.
+        by_record_time: Whether these are log times, not stamps.
+        shift: What to add to the stamps of what moves, nanoseconds.
+        restamp: Whether stamps become log times.
+        everywhere: Whether names and stamps change in all messages with a header.
+        split_every: How long each of several files lasts; 0 for one file.
+    """
+
+    drop: tuple[LinkName, ...] = ()
+    rename: Mapping[str, str] = field(default_factory=dict)
+    prefix: str = ""
+    strip_slash: bool = False
+    poses: Mapping[LinkName, tuple[float, ...]] = field(default_factory=dict)
+    reparent: Mapping[LinkName, str] = field(default_factory=dict)
+    statics_first: bool = False
+    statics_from: tuple[TransformStamped, ...] = ()
+    start: Stamp | None = None
+    end: Stamp | None = None
+    by_record_time: bool = False
+    shift: Duration = 0
+    restamp: bool = False
+    everywhere: bool = False
+    split_every: Duration = 0
+
+    @property
+    def cuts(self) -> bool:
+        """Whether only a part of the time is kept."""
+        return self.start is not None or self.end is not None
+
+    @property
+    def names(self) -> bool:
+        """Whether names of frames change."""
+        return bool(self.rename or self.prefix or self.strip_slash)
+
+    @property
+    def stamps(self) -> bool:
+        """Whether stamps change."""
+        return bool(self.shift or self.restamp)
+
+    @property
+    def links(self) -> bool:
+        """Whether transforms change."""
+        return bool(self.drop or self.poses or self.reparent or self.names or self.stamps)
+
+    def name(self, frame: str) -> str:
+        """A frame's name afterwards."""
+        plain = stripped(frame)
+        slash = frame[: len(frame) - len(plain)]
+        plain = self.rename.get(plain, plain)
+        if self.prefix:
+            return self.prefix + plain
+        return plain if self.strip_slash else slash + plain
+
+    def stamp(self, stamp: Stamp, log_time: Stamp) -> Stamp:
+        """A stamp afterwards; 0 says that there is none, and stays."""
+        if self.restamp:
+            return log_time + self.shift
+        return stamp + self.shift if stamp else stamp
+
+
+def fits(link: LinkName, wanted: LinkName) -> bool:
+    """Whether a link is one that an option names."""
+    return all(word in ("*", name) for name, word in zip(link, wanted, strict=True))
+
+
+def stream_of(channel: Channel) -> MessageStream:
+    """A channel as readers know it."""
+    offers = offers_of(channel.extra("offered_qos_profiles"))
+    if channel.extra("latching") == "1":
+        offers = offers_of("durability: transient_local")
+    definition = channel.definition.decode("utf-8", "backslashreplace")
+    if channel.schema_encoding not in ("ros1msg", "ros2msg"):
+        definition = ""
+    return MessageStream(
+        channel.topic,
+        channel.type,
+        channel.encoding,
+        definition,
+        channel.extra("callerid"),
+        offers,
+    )
+
+
+def carries_transforms(channel: Channel) -> bool:
+    """Whether a channel's messages are lists of transforms that are edited here."""
+    return short_type(channel.type) in TRANSFORM_TYPES and channel.encoding in LAYOUTS
+
+
+def carries_statics(channel: Channel) -> bool:
+    """Whether those hold at all times."""
+    return carries_transforms(channel) and is_static(stream_of(channel))
+
+
+class Window:
+    """Which moments are kept.
+
+    Attributes:
+        start: First log time of messages without a stamp of their own.
+        end: Last one.
+        stamps: First and last stamp of messages with a header; None to go by log times.
+        links: First and last stamp of each moving link's transforms; log times where
+            `stamps` is None.
+    """
+
+    def __init__(
+        self,
+        start: Stamp,
+        end: Stamp,
+        stamps: tuple[Stamp, Stamp] | None,
+        links: Mapping[LinkName, tuple[Stamp, Stamp]],
+    ) -> None:
+        self.start = start
+        self.end = end
+        self.stamps = stamps
+        self.links = links
+
+    def holds(self, moment: Stamp) -> bool:
+        """Whether a log time is kept."""
+        return self.start <= moment <= self.end
+
+    def holds_stamp(self, stamp: Stamp) -> bool:
+        """Whether a header's stamp is kept."""
+        assert self.stamps is not None
+        return self.stamps[0] <= stamp <= self.stamps[1]
+
+    def holds_row(self, row: TransformRow, log_time: Stamp) -> bool:
+        """Whether a moving transform is kept."""
+        span = self.links.get((stripped(row.parent), stripped(row.child)))
+        if span is None:
+            return self.holds(log_time)
+        return span[0] <= (row.stamp if self.stamps is not None else log_time) <= span[1]
+
+
+Reparenting = Callable[[LinkName, Stamp], Transform | None]
+"""Where a link's parent is in the new parent, at a stamp; None where that is not known."""
+
+
+class Changer:
+    """Changes messages one by one, and counts what it does.
+
+    Attributes:
+        window: Which moments are kept; None for all.
+        counts: How often each thing was done, by its name.
+        topics: Topics on which links are that change; None where that is not known.
+        passed_over: Topics whose names could not be changed, and why.
+    """
+
+    def __init__(
+        self, edits: Edits, window: Window | None = None, reparenting: Reparenting | None = None
+    ) -> None:
+        """Take what is to be done.
+
+        Args:
+            edits: What to change.
+            window: Which moments to keep; None for all.
+            reparenting: Where old parents are in new ones.
+        """
+        self._edits = edits
+        self.window = window
+        self._reparenting = reparenting
+        self._replaced = frozenset(stripped(one.child_frame_id) for one in edits.statics_from)
+        self._renamers: dict[Channel, Renamer | None] = {}
+        self._has_header: dict[Channel, bool] = {}
+        self.counts: Counter[str] = Counter()
+        self.passed_over: dict[str, str] = {}
+        self.topics: frozenset[str] | None = None
+
+    def touches(self, channel: Channel) -> bool:
+        """Whether messages of a channel may change, or be left out other than by a cut."""
+        if carries_transforms(channel):
+            if self.topics is not None:
+                return channel.topic in self.topics
+            return self._edits.links or (bool(self._replaced) and carries_statics(channel))
+        return self._edits.everywhere and (self._edits.names or self._edits.stamps)
+
+    def keeps_all(self, start: Stamp, end: Stamp) -> bool:
+        """Whether a cut leaves all messages of some log times in."""
+        window = self.window
+        return window is None or (
+            window.stamps is None and window.start <= start and end <= window.end
+        )
+
+    def changed(self, message: Taken, channel: Channel) -> Taken | None:
+        """A message as it is afterwards; None where it is left out."""
+        if carries_transforms(channel):
+            return self._transforms(message, channel)
+        if self.window is not None and not self._kept(message, channel):
+            self.counts["messages outside of the cut"] += 1
+            return None
+        if self.touches(channel):
+            return self._other(message, channel)
+        return message
+
+    # Transforms
+
+    def _transforms(self, message: Taken, channel: Channel) -> Taken | None:
+        static = carries_statics(channel)
+        try:
+            taken_apart = TransformRows(LAYOUTS[channel.encoding], message.payload)
+        except TftoolError:
+            self.counts["messages that are no transforms, copied as they are"] += 1
+            return message
+        rows = [
+            row
+            for old in taken_apart.rows
+            if (row := self.row(old, message.log_time, static=static)) is not None
+        ]
+        if not rows and taken_apart.rows:
+            self.counts["messages without a transform left"] += 1
+            return None
+        if len(rows) == len(taken_apart.rows) and all(
+            one is other for one, other in zip(rows, taken_apart.rows, strict=True)
+        ):
+            return message
+        return message._replace(payload=taken_apart.rewritten(rows))
+
+    def row(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
+        """A transform as it is afterwards; None where it is left out."""
+        edits = self._edits
+        if self.window is not None:
+            window = self.window
+            kept = window.holds(log_time) if static else window.holds_row(old, log_time)
+            if not kept:
+                self.counts["transforms outside of the cut"] += 1
+                return None
+        return self.edited(old, log_time, static=static) if edits.links or self._replaced else old
+
+    def edited(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
+        """The same, whatever the time."""
+        edits = self._edits
+        link = stripped(old.parent), stripped(old.child)
+        if any(fits(link, wanted) for wanted in edits.drop):
+            self.counts["transforms dropped"] += 1
+            return None
+        if static and link[1] in self._replaced:
+            self.counts["statics replaced"] += 1
+            return None
+        row = old
+        for wanted, numbers in edits.poses.items():
+            if fits(link, wanted):
+                self.counts["transforms set"] += 1
+                row = row._replace(numbers=numbers)
+        new_parent = edits.reparent.get(link)
+        if new_parent is not None:
+            moved = self._reparented(link, row, static=static)
+            if moved is None:
+                self.counts["transforms left out, as where the new parent is is not known"] += 1
+                return None
+            self.counts["transforms given another parent"] += 1
+            row = row._replace(parent=new_parent, numbers=moved)
+        if edits.stamps and not static:
+            stamp = edits.stamp(row.stamp, log_time)
+            if stamp != row.stamp:
+                self.counts["stamps changed"] += 1
+                row = row._replace(stamp=stamp)
+        if edits.names:
+            parent, child = edits.name(row.parent), edits.name(row.child)
+            if (parent, child) != (row.parent, row.child):
+                self.counts["transforms renamed"] += 1
+                row = row._replace(parent=parent, child=child)
+        return row
+
+    def _reparented(
+        self, link: LinkName, row: TransformRow, *, static: bool
+    ) -> tuple[float, ...] | None:
+        assert self._reparenting is not None
+        new_from_old = self._reparenting(link, 0 if static else row.stamp)
+        if new_from_old is None:
+            return None
+        x, y, z, qx, qy, qz, qw = row.numbers
+        found = new_from_old @ Transform((x, y, z), (qx, qy, qz, qw))
+        return (*found.translation, *found.rotation)
+
+    # Everything else
+
+    def _kept(self, message: Taken, channel: Channel) -> bool:
+        window = self.window
+        assert window is not None
+        if window.stamps is not None and self.has_header(channel):
+            stamp = header_stamp(message.payload, channel.encoding)
+            if stamp:
+                return window.holds_stamp(stamp)
+        return window.holds(message.log_time)
+
+    def has_header(self, channel: Channel) -> bool:
+        """Whether a channel's messages begin with a header."""
+        found = self._has_header.get(channel)
+        if found is None:
+            found = self._has_header[channel] = begins_with_header(stream_of(channel))
+        return found
+
+    def _other(self, message: Taken, channel: Channel) -> Taken:
+        """A message that is no list of transforms, with its names and stamps changed."""
+        payload = message.payload
+        if self._edits.stamps and self.has_header(channel):
+            stamp = header_stamp(payload, channel.encoding)
+            if stamp is not None and stamp != (new := self._edits.stamp(stamp, message.log_time)):
+                self.counts["stamps of other messages changed"] += 1
+                payload = _with_stamp(payload, channel.encoding, new)
+        if self._edits.names:
+            renamer = self._renamer(channel)
+            if renamer is not None:
+                try:
+                    renamed = renamer.renamed(payload)
+                except TftoolError as error:
+                    self.passed_over.setdefault(channel.topic, str(error))
+                    renamed = None
+                if renamed is not None:
+                    self.counts["other messages renamed"] += 1
+                    payload = renamed
+        return message if payload is message.payload else message._replace(payload=payload)
+
+    def _renamer(self, channel: Channel) -> "Renamer | None":
+        if channel not in self._renamers:
+            try:
+                self._renamers[channel] = renamer_of(channel, self._edits)
+            except TftoolError as error:
+                self._renamers[channel] = None
+                self.passed_over.setdefault(channel.topic, str(error))
+        return self._renamers[channel]
+
+
+def header_stamp(payload: bytes, encoding: str) -> Stamp | None:
+    """The stamp of the header that a message begins with."""
+    if len(payload) < 12:
+        return None
+    order = ">" if encoding == "cdr" and payload[:2] == b"\x00\x00" else "<"
+    sec, nanosec = struct.unpack_from(f"{order}iI", payload, 4)
+    return int(sec) * NANOSECONDS + int(nanosec)
+
+
+def _with_stamp(payload: bytes, encoding: str, stamp: Stamp) -> bytes:
+    order = ">" if encoding == "cdr" and payload[:2] == b"\x00\x00" else "<"
+    sec, nanosec = divmod(stamp, NANOSECONDS)
+    return payload[:4] + struct.pack(f"{order}iI", sec, nanosec) + payload[12:]
+
+
+class Renamer:
+    """Changes the frame names in messages of one type, wherever a header stands in them."""
+
+    def __init__(self, codec: Codec, edits: Edits) -> None:
+        self._codec = codec
+        self._edits = edits
+        # A quick look at the bytes spares most messages the way through their fields.
+        self._marks: Collection[bytes] = ()
+        if not edits.prefix and not edits.strip_slash:
+            self._marks = [name.encode() for name in edits.rename]
+
+    def renamed(self, payload: bytes) -> bytes | None:
+        """The bytes with other names; None where none changes.
+
+        Raises:
+            MalformedMessage: If it is no message of the type.
+        """
+        if self._marks and not any(mark in payload for mark in self._marks):
+            return None
+        message = self._codec.decode(payload)
+        return self._codec.encode(message) if self._rename(message) else None
+
+    def _rename(self, message: Any) -> bool:
+        changed = False
+        for one in message.fields__:
+            value = getattr(message, one.name)
+            if isinstance(value, Message):
+                changed |= self._rename(value)
+            elif isinstance(one.kind, type) and isinstance(value, Sequence):
+                for part in value:
+                    changed |= self._rename(part)
+            elif one.kind == "string" and one.size is None and one.name in _NAMES and value:
+                name = self._edits.name(value)
+                if name != value:
+                    setattr(message, one.name, name)
+                    changed = True
+        return changed
+
+
+_NAMES: Final = ("frame_id", "child_frame_id")
+
+
+def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
+    """What changes names in a channel's messages; None where its type has no header.
+
+    Raises:
+        InputError: If its type is not known.
+    """
+    if channel.encoding not in LAYOUTS:
+        raise InputError(f"its messages are written as '{channel.encoding}'")
+    interfaces = Interfaces()
+    text = stream_of(channel).definition
+    full = full_name(channel.type)
+    if text.strip():
+        interfaces.define(full, text)
+    if not _has_header(interfaces, full):
+        return None
+    kind = interfaces.message(full)
+    return Renamer(Codec(kind, LAYOUTS[channel.encoding]), edits)
+
+
+def _has_header(interfaces: Interfaces, full: str) -> bool:
+    """Whether a header stands anywhere in a type."""
+    waiting, seen = [full], {full}
+    while waiting:
+        for one in interfaces.structure(waiting.pop()).fields:
+            if one.type == _HEADER:
+                return True
+            if one.type not in PRIMITIVES and one.type not in seen:
+                seen.add(one.type)
+                waiting.append(one.type)
+    return False

@@ -1,0 +1,177 @@
+"""rosbag2's sqlite files edited as databases: copied whole, then changed where rows change.
+
+Rows that are not touched keep their bytes, numbers and order, tables of others stay, and the
+file keeps the version of its schema. What makes new files of old ones (cuts, joins, statics in
+front of all others) writes row by row instead, as other containers do.
+"""
+
+import os
+import sqlite3
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import Final
+from urllib.parse import quote
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import Stamp
+from tftool.recordings.channel import Channel
+from tftool.recordings.edit.outputs import digest
+from tftool.recordings.edit.pieces import Piece
+from tftool.recordings.edit.sqlite_tape import SqliteTape
+from tftool.recordings.edit.tape import Taken
+from tftool.recordings.rosbag2.write import translated
+
+_ROWS: Final = 2048  # read, then written, at a time
+_LOWEST: Final = -(2**63)
+
+Change = Callable[[Taken, Channel], Taken | None]
+
+
+class Unsound(Exception):
+    """The copy is no whole database: its rows must be read one by one."""
+
+
+class EditedDatabase:
+    """One database that is edited; beside `EditedFile`, which is written row by row.
+
+    Attributes:
+        path: Where it is written.
+        container: "db3".
+        channels: Its topics.
+        counts: Messages by topic, afterwards.
+        start: Log time of the first message, afterwards.
+        end: Of the last.
+    """
+
+    container = "db3"
+
+    def __init__(self, path: Path, tape: SqliteTape) -> None:
+        """Copy the file, and read back what was written.
+
+        Raises:
+            OSError: If it cannot be written.
+        """
+        self.path = path
+        self.channels = tape.channels
+        self.counts: Counter[int] = Counter()
+        self.start: Stamp = 0
+        self.end: Stamp = 0
+        self._tape = tape
+        self._wanted: dict[int, int] = {}
+        with tape.path.open("rb") as source, path.open("wb+") as out:
+            whole = Piece(source.fileno(), 0, os.fstat(source.fileno()).st_size)
+            whole.copy_to(out.fileno(), 0)
+        self._base = sqlite3.connect(path, isolation_level=None)
+
+    def change(self, change: Change, touched: list[int]) -> None:
+        """Change the messages of some topics, in one transaction.
+
+        Args:
+            change: What becomes of a message; None where it is left out.
+            touched: Numbers of the topics whose messages may change.
+
+        Raises:
+            InputError: If it cannot be written.
+            Unsound: If the database is damaged.
+        """
+        try:
+            # No journal: the file counts for nothing before it is whole and has its name.
+            self._base.execute("pragma journal_mode = off").fetchall()
+            self._base.execute("pragma synchronous = off")
+            # What is dropped is not to be found in the file any more.
+            self._base.execute("pragma secure_delete = on").fetchall()
+            with translated(self.path):
+                self._base.execute("begin")
+                self._change(change, touched)
+                self._base.execute("commit")
+            if self._base.execute("pragma quick_check(1)").fetchone() != ("ok",):
+                raise Unsound
+            self._sum_up()
+        except sqlite3.DatabaseError as error:
+            raise Unsound from error
+        except InputError as error:
+            if _is_damage(error.__cause__):
+                raise Unsound from error
+            raise
+
+    def _change(self, change: Change, touched: list[int]) -> None:
+        changed: list[tuple[int, bytes, int]] = []
+        dropped: list[tuple[int]] = []
+        for row, message in self._rows(self._base, touched):
+            after = change(message, self.channels[message.channel])
+            if after is None:
+                dropped.append((row,))
+                continue
+            before = self._wanted.get(message.channel, 0)
+            self._wanted[message.channel] = digest(before, after, self.container)
+            if after is not message:
+                changed.append((after.log_time, after.payload, row))
+            if len(changed) + len(dropped) >= _ROWS:
+                self._put(changed, dropped)
+        self._put(changed, dropped)
+
+    def _put(self, changed: list[tuple[int, bytes, int]], dropped: list[tuple[int]]) -> None:
+        self._base.executemany("update messages set timestamp = ?, data = ? where id = ?", changed)
+        self._base.executemany("delete from messages where id = ?", dropped)
+        changed.clear()
+        dropped.clear()
+
+    def _rows(self, base: sqlite3.Connection, numbers: list[int]) -> Iterator[tuple[int, Taken]]:
+        """The messages of some topics, each behind the number of its row."""
+        which = {self._tape.topic_ids[number]: number for number in numbers}
+        # Numbers of its own rows, no text of a stranger's.
+        asked = (
+            "select id, topic_id, timestamp, data from messages "
+            f"where id > ? and topic_id in ({','.join(map(str, which))}) order by id limit {_ROWS}"
+        )
+        last = _LOWEST
+        # Read in parts, so that no row is changed under a question that is still open.
+        while which and (rows := base.execute(asked, (last,)).fetchall()):
+            for row, topic, log_time, payload in rows:
+                data = payload if isinstance(payload, bytes) else b""
+                yield row, Taken(which[topic], log_time, data, log_time, 0)
+            last = rows[-1][0]
+
+    def _sum_up(self) -> None:
+        numbers = {topic: number for number, topic in enumerate(self._tape.topic_ids)}
+        asked = "select topic_id, count(*), min(timestamp), max(timestamp) from messages "
+        found = self._base.execute(asked + "group by topic_id").fetchall()
+        self.counts = Counter(
+            {numbers[topic]: count for topic, count, _, _ in found if topic in numbers}
+        )
+        self.start = min((low for _, _, low, _ in found), default=0)
+        self.end = max((high for _, _, _, high in found), default=0)
+
+    def compare(self) -> None:
+        """Read again what was changed.
+
+        Raises:
+            InputError: If it is not what was to be written.
+        """
+        found: dict[int, int] = {}
+        address = f"file:{quote(str(self.path))}?mode=ro&immutable=1"
+        with translated(self.path), closing(sqlite3.connect(address, uri=True)) as base:
+            for _, message in self._rows(base, list(self._wanted)):
+                before = found.get(message.channel, 0)
+                found[message.channel] = digest(before, message, self.container)
+        if found != self._wanted:
+            raise InputError(f"'{self.path}' was not written as it should be: its rows differ.")
+
+    def finish(self) -> None:
+        """Close it: nothing waits to be written."""
+        self._base.close()
+
+    def abandon(self) -> None:
+        """Close it as it is."""
+        self._base.close()
+
+
+def _is_damage(error: BaseException | None) -> bool:
+    """Whether an error of sqlite's speaks of the file's content, and not of the disk."""
+    return isinstance(error, sqlite3.DatabaseError) and error.sqlite_errorcode in (
+        sqlite3.SQLITE_CORRUPT,
+        sqlite3.SQLITE_NOTADB,
+        sqlite3.SQLITE_ERROR,
+    )

@@ -1,0 +1,180 @@
+"""The statics that a recording begins with, where it is a piece of another."""
+
+import contextlib
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import LAST_STAMP, Stamp
+from tftool.buffer.forest import stripped
+from tftool.buffer.sample import TransformStamped
+from tftool.messages.splice import TransformRow, TransformRows, encode_rows
+from tftool.recordings.channel import Channel
+from tftool.recordings.container_reader import LAYOUTS
+from tftool.recordings.edit.changes import (
+    Changer,
+    Edits,
+    carries_statics,
+    carries_transforms,
+)
+from tftool.recordings.edit.outputs import EditedFile
+from tftool.recordings.edit.tape import Taken, Tape
+from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
+
+
+@dataclass(slots=True)
+class _Static:
+    """One static transform as it was recorded."""
+
+    source: int
+    number: int
+    channel: Channel
+    log_time: Stamp
+    row: TransformRow
+
+
+def _row_of(sample: TransformStamped) -> TransformRow:
+    numbers = (*sample.transform.translation, *sample.transform.rotation)
+    return TransformRow(sample.stamp, sample.frame_id, sample.child_frame_id, numbers)
+
+
+class StaticHeads:
+    """What every file of a result begins with: the statics, for readers that start there.
+
+    Attributes:
+        wanted: Whether the files begin so; a recording that is only changed does not.
+    """
+
+    def __init__(
+        self,
+        edits: Edits,
+        tapes: Sequence[Tape],
+        changer: Changer,
+        start: Stamp,
+        *,
+        by_tape: bool,
+        ros2: bool,
+    ) -> None:
+        """Begin with none.
+
+        Args:
+            edits: What is changed.
+            tapes: What is read.
+            changer: Changes the statics as it changes messages.
+            start: Log time of the result's first message.
+            by_tape: Whether each tape becomes a file of its own.
+            ros2: Whether the result is one of ROS 2.
+        """
+        self.wanted = bool(
+            edits.statics_first or edits.statics_from or edits.cuts or edits.split_every
+        )
+        self._edits = edits
+        self._tapes = tapes
+        self._changer = changer
+        self._start = start
+        self._by_tape = by_tape
+        self._ros2 = ros2
+        self._statics: list[_Static] = []
+
+    @property
+    def topics(self) -> frozenset[str]:
+        """The topics that are latched because of what is written first."""
+        if not self.wanted:
+            return frozenset()
+        found = frozenset(one.channel.topic for one in self._statics)
+        return found | {"/tf_static"} if self._edits.statics_from else found
+
+    def collect(self) -> None:
+        """Read every static of the inputs, changed as the messages will be."""
+        if not self.wanted:
+            return
+        edits = self._edits
+        for source, tape in enumerate(self._tapes):
+            for block in tape.blocks():
+                if block.channels is not None and block.whole:
+                    known = [tape.channels[number] for number in block.channels]
+                    if not any(map(carries_statics, known)):
+                        continue
+                for message in block.messages():
+                    channel = tape.channels[message.channel]
+                    if carries_statics(channel):
+                        self._take(source, message, channel)
+        counts, self._changer.counts = self._changer.counts, Counter()
+        if edits.links or edits.statics_from:
+            edited = []
+            for one in self._statics:
+                row = self._changer.edited(one.row, one.log_time, static=True)
+                if row is not None:
+                    one.row = row
+                    edited.append(one)
+            self._statics = edited
+        self._changer.counts = counts
+
+    def _take(self, source: int, message: Taken, channel: Channel) -> None:
+        with contextlib.suppress(InputError):
+            rows = TransformRows(LAYOUTS[channel.encoding], message.payload).rows
+            self._statics += [
+                _Static(source, message.channel, channel, message.log_time, row) for row in rows
+            ]
+
+    def write(self, number: int, output: EditedFile, start: Stamp) -> None:
+        """Write the latest value of every static, in one message for each channel.
+
+        Args:
+            number: Which part of the result it is, from 0.
+            output: The part's file, in which nothing stands yet.
+            start: The log time of what is written.
+        """
+        if not self.wanted:
+            return
+        edits = self._edits
+        start, end = max(start, self._start), LAST_STAMP
+        if edits.split_every:
+            start = self._start + number * edits.split_every
+            end = start + edits.split_every - 1
+        if edits.cuts:
+            window = self._changer.window
+            assert window is not None
+            end = min(end, window.end)
+        chosen: dict[str, _Static] = {}
+        for one in self._statics:
+            if self._by_tape and not edits.cuts and one.source > number:
+                continue
+            child = stripped(one.row.child)
+            held = chosen.get(child)
+            # The last one up to the end; what comes up only behind it is better than nothing.
+            if held is None or one.log_time <= end or held.log_time > end >= one.log_time:
+                chosen[child] = one
+        groups: dict[tuple[int, int], list[_Static]] = {}
+        for one in chosen.values():
+            groups.setdefault((one.source, one.number), []).append(one)
+        added = [_row_of(sample) for sample in edits.statics_from]
+        for (source, own), group in sorted(groups.items()):
+            channel = group[0].channel
+            rows = [one.row for one in group] + added
+            added = []
+            payload = encode_rows(LAYOUTS[channel.encoding], rows)
+            message = Taken(own, start, payload, start, 0)
+            output.write(source, message, channel, self._tapes[source])
+        if added:
+            self._write_added(output, added, start)
+        output.writer.flush()
+        self._changer.counts["statics put first"] += len(chosen) + len(edits.statics_from)
+
+    def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
+        """The statics of another recording, where this one has no topic for them."""
+        from tftool.recordings.message_conversion import as_ros1
+
+        channel = ros2_channel("/tf_static", TRANSFORMS, static=True)
+        ros1 = output.container == "bag" or all(
+            channel.encoding == "ros1"
+            for tape in self._tapes
+            for channel in tape.channels.values()
+            if carries_transforms(channel)
+        )
+        if output.container == "bag" or (ros1 and output.container == "mcap" and not self._ros2):
+            channel = as_ros1(channel).channel
+        payload = encode_rows(LAYOUTS[channel.encoding], rows)
+        number = output.channel(channel)
+        output.append(number, Taken(number, start, payload, start, 0))

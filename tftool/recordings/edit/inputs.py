@@ -1,0 +1,157 @@
+"""The files of what is edited, each as a tape."""
+
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.named_files import open_regular
+from tftool.recordings.edit.mcap_tape import McapTape
+from tftool.recordings.edit.rosbag1_tape import Rosbag1Tape
+from tftool.recordings.edit.sqlite_tape import SqliteTape
+from tftool.recordings.edit.tape import Tape
+from tftool.recordings.find import METADATA, Kind, find, kind_of_file, refusal
+from tftool.recordings.rosbag2.folder import files_of_folder, unpack_file
+
+
+@dataclass(slots=True)
+class EditedInput:
+    """One recording that is edited. Works in a `with`.
+
+    Attributes:
+        name: As it was given.
+        tapes: Its files, in order.
+        paths: Where they are.
+        is_folder: Whether it is a folder of rosbag2's.
+        metadata: What its metadata.yaml says.
+        mode: "file" or "message" where rosbag2 compressed it beyond its storage.
+        damage: What is wrong with the folder.
+        notes: What else is worth saying of it.
+    """
+
+    name: str
+    tapes: list[Tape] = field(default_factory=list)
+    paths: list[Path] = field(default_factory=list)
+    is_folder: bool = False
+    metadata: Mapping[str, Any] | None = None
+    mode: str = ""
+    damage: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    _unpacked: "list[tempfile.TemporaryDirectory[str]]" = field(default_factory=list)
+
+    def __enter__(self) -> "EditedInput":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @property
+    def size(self) -> int:
+        """Bytes of all its files."""
+        return sum(tape.size for tape in self.tapes)
+
+    def close(self) -> None:
+        """Close its files, and take away what was unpacked."""
+        for tape in self.tapes:
+            tape.close()
+        for folder in self._unpacked:
+            folder.cleanup()
+
+    def add(self, path: Path) -> None:
+        """Open one of its files.
+
+        Raises:
+            InputError: If it cannot be read.
+        """
+        kind = kind_of_file(path)
+        place = path
+        if kind is Kind.ZSTD:
+            folder = tempfile.TemporaryDirectory(prefix="tftool-")
+            self._unpacked.append(folder)
+            place = Path(folder.name) / path.stem
+            cut = unpack_file(path, place)
+            if cut:
+                self.damage.append(cut)
+            kind = kind_of_file(place)
+            self.mode = "file"
+        self.tapes.append(open_tape(place, kind, unpacks=self.mode == "message"))
+        self.paths.append(path)
+
+
+def open_input(name: str) -> EditedInput:
+    """Open a recording to edit it: a file, a folder of rosbag2's, or a glob of files.
+
+    Raises:
+        InputError: If there is none, or it cannot be read.
+        UsageError: If the name is that of something else.
+    """
+    found = find(name)
+    if not found.kind.is_recording:
+        raise UsageError(f"'{name}' is a {found.kind.value}: a recording is needed here.")
+    opened = EditedInput(name)
+    opened.notes += found.told()
+    try:
+        if found.kind is Kind.ROSBAG2:
+            folder = found.paths[0]
+            opened.is_folder = True
+            opened.metadata = _metadata(folder)
+            compressed = str((opened.metadata or {}).get("compression_mode") or "")
+            opened.mode = compressed.lower() if compressed else ""
+            paths = files_of_folder(folder, opened.damage)
+        else:
+            paths = list(found.paths)
+        refused: list[InputError] = []
+        for path in paths:
+            if path.is_dir():
+                raise InputError(f"'{path}' is a folder among files: name recordings one by one.")
+            try:
+                opened.add(path)
+                continue
+            except InputError as error:
+                refused.append(error)
+            except OSError as error:
+                refused.append(refusal(path, error))
+            opened.damage.append(f"{path.name} is left out: {refused[-1]}")
+        if not opened.tapes:
+            raise refused[0]
+    except OSError as error:
+        opened.close()
+        raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error
+    except BaseException:
+        opened.close()
+        raise
+    return opened
+
+
+def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> Tape:
+    """Open one file.
+
+    Raises:
+        InputError: If it is no recording, or cannot be read.
+        OSError: If it cannot be opened.
+    """
+    kind = kind or kind_of_file(path)
+    if kind is Kind.MCAP:
+        return McapTape(path)
+    if kind is Kind.ROS1:
+        return Rosbag1Tape(path)
+    if kind is Kind.SQLITE:
+        return SqliteTape(path, unpacks=unpacks)
+    raise InputError(f"'{path}' is a {kind.value}, not a recording.")
+
+
+def _metadata(folder: Path) -> Mapping[str, Any] | None:
+    """What a folder's metadata says; None where it says nothing we can read."""
+    import yaml
+
+    from tftool.base import yaml_guard
+
+    try:
+        with open_regular(folder / METADATA) as file:
+            document = yaml_guard.load(file.read().decode())
+        found = document["rosbag2_bagfile_information"]
+    except (OSError, yaml.YAMLError, ValueError, KeyError, TypeError, RecursionError):
+        return None
+    return found if isinstance(found, dict) else None

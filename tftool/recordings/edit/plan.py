@@ -1,0 +1,234 @@
+"""What the options of `edit` come to for given recordings, once every name is known."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from tftool.base.errors import TransformException, UsageError
+from tftool.base.near_names import near_names
+from tftool.base.stamps import LAST_STAMP, Stamp, as_seconds, display
+from tftool.geometry.rigid import Transform
+from tftool.recordings.edit.changes import (
+    Changer,
+    Edits,
+    LinkName,
+    Reparenting,
+    Window,
+    fits,
+)
+from tftool.recordings.recording import Recording
+
+
+def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
+    """Make what changes the messages of these recordings.
+
+    Args:
+        edits: What to change.
+        recordings: The recordings, opened; their transforms are read where an option names links.
+
+    Raises:
+        UsageError: If an option names what was not recorded, or asks what cannot be.
+    """
+    _check_names(edits, recordings)
+    window = _window(edits, recordings)
+    changer = Changer(edits, window, _reparenting(edits, recordings))
+    changer.topics = _concerned(edits, recordings)
+    return changer
+
+
+def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
+    """Refuse names of links and frames that were not recorded, or would be two frames'."""
+    wanted: list[LinkName] = [*edits.drop, *edits.poses, *edits.reparent]
+    if not (wanted or edits.rename):
+        return
+    links = {(e.parent, e.child) for one in recordings for e in one.edges}
+    frames = {name for link in links for name in link}
+    for link in wanted:
+        if not any(fits(one, link) for one in links):
+            raise UsageError(_no_such_link(link, links))
+    for name in edits.rename:
+        if name not in frames:
+            raise UsageError(_no_such_frame(name, frames))
+    after = Counter(edits.name(name) for name in frames)
+    clash = [name for name, count in after.items() if count > 1]
+    if clash and edits.rename:
+        both = sorted(name for name in frames if edits.name(name) == clash[0])
+        raise UsageError(
+            f"Two frames would be called '{clash[0]}': {' and '.join(map(repr, both))}."
+        )
+
+
+def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] | None:
+    """The topics of the links that are named; None where all links change."""
+    wanted = [*edits.drop, *edits.poses, *edits.reparent]
+    if not wanted or edits.names or edits.stamps or edits.statics_from:
+        return None
+    found: set[str] = set()
+    for recording in recordings:
+        transforms = recording.transforms
+        if recording.damage:
+            return None
+        for edge in transforms.edges:
+            if any(fits((edge.parent, edge.child), link) for link in wanted):
+                senders = np.unique(transforms.senders_of(edge)).tolist()
+                found |= {transforms.publishers[sender].topic for sender in senders}
+    return frozenset(found)
+
+
+def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
+    """What is kept of the time; None where all is."""
+    if not edits.cuts:
+        return None
+    low = edits.start if edits.start is not None else 0
+    high = edits.end if edits.end is not None else LAST_STAMP
+    if high < low:
+        raise UsageError("--to lies before --from.")
+    moving = [(one, edge) for one in recordings for edge in one.edges if not edge.static]
+    spans: dict[LinkName, tuple[Stamp, Stamp]] = {}
+    offsets, logs = [], []
+    for recording, edge in moving:
+        log_times = recording.transforms.log_times_of(edge)
+        moments = log_times if edits.by_record_time else edge.stamps
+        first, last = _widened(moments, low, high)
+        link = edge.parent, edge.child
+        if link in spans:
+            first, last = min(first, spans[link][0]), max(last, spans[link][1])
+        spans[link] = first, last
+        kept = log_times[(moments >= first) & (moments <= last)]
+        if len(kept):
+            logs.append(int(kept.min()))
+        offsets.append(log_times - edge.stamps)
+    # Of an empty recording both are 0.
+    received = [
+        moment for one in recordings for moment in (one.source.start, one.source.end) if moment
+    ]
+    if edits.by_record_time or not offsets:
+        _refuse_outside(edits, recordings, received)
+        return Window(low, high, None, spans if edits.by_record_time else {})
+    offset = int(np.median(np.concatenate(offsets)))
+    # Messages of other topics may go on after the last transform.
+    dated = [edge.stamps[edge.stamps > 0] for _, edge in moving]
+    stamped = [int(moment) for one in dated if len(one) for moment in (one.min(), one.max())]
+    _refuse_outside(edits, recordings, [*stamped, *(moment - offset for moment in received)])
+    end = high if high == LAST_STAMP else high + offset
+    start = 0 if edits.start is None else low + offset
+    return Window(start, end, (low, high), spans)
+
+
+def _refuse_outside(
+    edits: Edits, recordings: Sequence[Recording], moments: Sequence[Stamp]
+) -> None:
+    """Refuse a cut of which nothing is left: one end of it lies beyond all of these moments.
+
+    Args:
+        edits: Whose cut.
+        recordings: What is cut.
+        moments: When there is something, in no order.
+
+    Raises:
+        UsageError: If it does.
+    """
+    if not moments:
+        return
+    first, last = min(moments), max(moments)
+    if edits.start is not None and edits.start > last:
+        # As people count its seconds: from the first stamp, which unset ones are not.
+        begins = [one.source.start if edits.by_record_time else one.start for one in recordings]
+        start = min(filter(None, begins), default=0)
+        raise UsageError(
+            f"Nothing was recorded after --from: it ends {as_seconds(last - start):.3f} s after "
+            f"its start, at {display(last)}."
+        )
+    if edits.end is not None and edits.end < first:
+        raise UsageError(f"Nothing was recorded before --to: it begins at {display(first)}.")
+
+
+def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:
+    """What finds the pose of a frame under its new parent; None where none gets one."""
+    if not edits.reparent:
+        return None
+    if len(recordings) > 1:
+        raise UsageError("--reparent works on one recording: join them first.")
+    recording = recordings[0]
+    static = {edge.child: edge.parent for edge in recording.edges if edge.static}
+    parents: dict[str, set[str]] = {}
+    for edge in recording.edges:
+        parents.setdefault(edge.child, set()).add(edge.parent)
+    frames = parents.keys() | {name for found in parents.values() for name in found}
+    for (parent, child), new in edits.reparent.items():
+        if new not in frames:
+            raise UsageError(_no_such_frame(new, frames))
+        if child in _above(new, parents):
+            raise UsageError(f"'{new}' hangs from '{child}': it cannot become its parent.")
+        is_static = static.get(child) == parent
+        if is_static and not _joined_by_statics(parent, new, static):
+            raise UsageError(
+                f"'{child}' is static, and '{new}' moves against '{parent}': it cannot hang "
+                "there and stay where it is."
+            )
+    buffer = recording.buffer
+
+    def found(link: LinkName, stamp: Stamp) -> Transform | None:
+        try:
+            return buffer.lookup_transform(edits.reparent[link], link[0], stamp).transform
+        except TransformException:
+            return None
+
+    return found
+
+
+def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
+    """A span and one sample more at either end, so that both ends can be interpolated."""
+    before, behind = moments[moments <= low], moments[moments >= high]
+    first = int(before.max()) if len(before) else low
+    last = int(behind.min()) if len(behind) else high
+    return first, last
+
+
+def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
+    """A frame and all it ever hung from."""
+    found, waiting = {frame}, [frame]
+    while waiting:
+        for parent in parents.get(waiting.pop(), ()):
+            if parent not in found:
+                found.add(parent)
+                waiting.append(parent)
+    return found
+
+
+def _joined_by_statics(one: str, other: str, static: Mapping[str, str]) -> bool:
+    """Whether two frames never move against each other."""
+
+    def up(frame: str) -> list[str]:
+        found = [frame]
+        while frame in static and static[frame] not in found:
+            frame = static[frame]
+            found.append(frame)
+        return found
+
+    return not set(up(one)).isdisjoint(up(other))
+
+
+def _no_such_link(link: LinkName, links: "set[LinkName]") -> str:
+    parent, child = link
+    others = sorted(p for p, c in links if c == child)
+    if others:
+        hint = f"'{child}' hangs from '{others[0]}': {others[0]}:{child}."
+    else:
+        hint = _near(f"{parent}:{child}", {f"{one}:{below}" for one, below in links})
+    return f"No link {parent}:{child} was recorded; {hint}"
+
+
+def _no_such_frame(name: str, frames: "set[str]") -> str:
+    return f"No frame '{name}' was recorded; {_near(name, frames)}"
+
+
+def _near(name: str, names: "set[str]") -> str:
+    near = near_names(name, sorted(names), 3)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    if not names:
+        return "there are no transforms in it."
+    shown = ", ".join(sorted(names)[:8])
+    return f"there are {shown}{' ...' if len(names) > 8 else '.'}"

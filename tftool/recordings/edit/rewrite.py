@@ -1,0 +1,542 @@
+"""A recording rewritten with changes: what they do not touch stays as it was, byte for byte.
+
+Every piece is read once, copied where it may be, else taken apart and changed. Then the result
+is opened, and all of it compared with what was to be written. Only then it gets its name.
+"""
+
+import contextlib
+import shutil
+from collections import Counter, deque
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.stamps import Stamp
+from tftool.recordings.channel import Channel
+from tftool.recordings.containers import container_of
+from tftool.recordings.contract import Progress
+from tftool.recordings.edit.changes import (
+    Edits,
+)
+from tftool.recordings.edit.database import EditedDatabase, Unsound
+from tftool.recordings.edit.heads import StaticHeads
+from tftool.recordings.edit.inputs import EditedInput, open_input, open_tape
+from tftool.recordings.edit.mcap_tape import McapChunk
+from tftool.recordings.edit.outputs import EditedFile, digest
+from tftool.recordings.edit.plan import changer_for
+from tftool.recordings.edit.rosbag1_tape import Rosbag1Chunk
+from tftool.recordings.edit.sqlite_tape import SqliteTape
+from tftool.recordings.edit.tape import Block, Tape
+from tftool.recordings.recording import Recording, open_recording
+from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
+from tftool.recordings.target import PART, Target, check_room, failed
+
+MOST_PARTS: Final = 10_000
+_ROOM: Final = 1 << 20
+_AHEAD: Final = 3  # chunks that are examined before they are wanted
+
+
+@dataclass(slots=True)
+class EditReport:
+    """What editing did.
+
+    Attributes:
+        messages: How many the result has.
+        counts: How often each thing was done, by its name.
+        notes: What else is to be known, as sentences.
+        files: The names of what was written.
+        copied: Chunks that were copied as they were.
+    """
+
+    messages: int = 0
+    counts: "Counter[str]" = field(default_factory=Counter)
+    notes: list[str] = field(default_factory=list)
+    files: list[str] = field(default_factory=list)
+    copied: int = 0
+
+
+def edit(
+    names: Sequence[str],
+    output: Path,
+    edits: Edits,
+    *,
+    force: bool = False,
+    dry_run: bool = False,
+    progress: Progress | None = None,
+) -> EditReport:
+    """Rewrite recordings as one, with changes.
+
+    Args:
+        names: The recordings: files or folders; several are joined.
+        output: What to write: its suffix names the container, none a folder as of rosbag2.
+        edits: What to change.
+        force: Whether it may replace what has that name.
+        dry_run: Whether only to find out what would be done.
+        progress: Is told how far it has come.
+
+    Raises:
+        UsageError: If the changes cannot be made to these recordings, one is named twice, or the
+            output is one of them, or there already.
+        InputError: If a recording cannot be read, or the output not be written.
+    """
+    container = container_of(output)
+    with contextlib.ExitStack() as stack:
+        inputs = [stack.enter_context(open_input(name)) for name in names]
+        _refuse_twice(inputs)
+        _refuse_the_input(inputs, output)
+        recordings = [stack.enter_context(open_recording(name)) for name in names]
+        job = _Job(inputs, recordings, output, container, edits, progress)
+        if dry_run:
+            return job.tried()
+        return job.done(force=force)
+
+
+def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
+    """Refuse to join a recording to itself: every message of it would be there twice.
+
+    Raises:
+        UsageError: If a file is named twice, under whatever names.
+    """
+    seen: dict[Path, str] = {}
+    for one in inputs:
+        for path in {path.resolve() for path in one.paths}:
+            if path in seen:
+                raise UsageError(
+                    f"'{one.name}' was named before, in '{seen[path]}': a recording is not joined "
+                    "to itself."
+                )
+            seen[path] = one.name
+
+
+def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
+    """Refuse to write onto what is read, under whatever name.
+
+    Raises:
+        UsageError: If the output is an input.
+    """
+    for one in inputs:
+        for path in [Path(one.name), *one.paths]:
+            if output.exists() and path.exists() and output.samefile(path):
+                raise UsageError(f"'{output}' is the input: name another output.")
+            part = output.with_name(output.name + PART)
+            if part.exists() and path.exists() and part.samefile(path):
+                raise UsageError(
+                    f"'{path}' is where '{output}' would be written: rename it before."
+                )
+            if path.parent.resolve() == output.resolve() and output.exists():
+                raise UsageError(f"'{output}' holds the input: name another output.")
+
+
+class _Job:
+    """One run over some recordings."""
+
+    def __init__(
+        self,
+        inputs: Sequence[EditedInput],
+        recordings: Sequence[Recording],
+        output: Path,
+        container: str,
+        edits: Edits,
+        progress: Progress | None,
+    ) -> None:
+        self._inputs = inputs
+        self._recordings = recordings
+        self._path = output
+        self._edits = edits
+        self._progress = progress
+        self._tapes: list[Tape] = [tape for one in inputs for tape in one.tapes]
+        self._is_folder = not container
+        self._ros2 = container == "db3"
+        if edits.split_every and container:
+            raise UsageError(
+                f"--split-every writes several files into a folder: '{output.stem}', not "
+                f"'{output.name}'."
+            )
+        if not container:
+            kinds = {tape.container for tape in self._tapes}
+            container = "db3" if kinds == {"db3"} else "mcap"
+            # A folder of bags is no recording of rosbag2's, but what splitting one gives.
+            if kinds == {"bag"} and edits.split_every:
+                container = "bag"
+            self._ros2 = container != "bag"
+        self._container = container
+        first = inputs[0]
+        self._mode = first.mode if self._is_folder and container == "db3" else ""
+        # The files of a folder stay the files of the result.
+        self._by_tape = (
+            self._is_folder and len(inputs) == 1 and first.is_folder and not edits.split_every
+        )
+        self.report = EditReport()
+        self._changer = changer_for(edits, recordings)
+        starts = [one.source.start for one in recordings if one.source.start]
+        self._start: Stamp = min(starts, default=0)
+        if self._changer.window is not None:
+            self._start = max(self._start, self._changer.window.start)
+        self._outputs: dict[int, EditedFile] = {}
+        self._databases: list[EditedDatabase] = []
+        self._order: list[int] = []
+        self._heads = StaticHeads(
+            edits, self._tapes, self._changer, self._start, by_tape=self._by_tape, ros2=self._ros2
+        )
+
+    # The runs
+
+    def tried(self) -> EditReport:
+        """What would be done."""
+        self._heads.collect()
+        done = 0
+        for source, tape in enumerate(self._tapes):
+            for block in tape.blocks():
+                if not self._untouched(block, tape):
+                    for message in block.messages():
+                        after = self._changer.changed(message, tape.channels[message.channel])
+                        self.report.messages += after is not None
+                else:
+                    self.report.messages += sum((block.channels or {}).values())
+                    self.report.copied += 1
+            done += tape.size
+            self._tell(done)
+            del source
+        self._sum_up()
+        return self.report
+
+    def done(self, *, force: bool) -> EditReport:
+        """Do it."""
+        self._check_room()
+        with Target(self._path, folder=self._is_folder, force=force) as target:
+            try:
+                self._write(target.part)
+                self._compare()
+                if self._is_folder:
+                    self._finish_folder(target.part)
+            except OSError as error:
+                raise failed(self._path, error) from error
+            finally:
+                for one in self._outputs.values():
+                    one.writer.abandon()
+                for database in self._databases:
+                    database.abandon()
+        self._sum_up()
+        return self.report
+
+    def _check_room(self) -> None:
+        size = sum(one.size for one in self._inputs)
+        same = {tape.container for tape in self._tapes} == {self._container}
+        # Another container may compress less; how much shows only while it is written.
+        check_room(self._path, (size if same else size // 2) + _ROOM)
+
+    def _write(self, part: Path) -> None:
+        databases = self._changed_in_place()
+        if databases:
+            try:
+                self._change_databases(databases, part)
+            except Unsound:
+                self._forget_databases()
+            else:
+                return
+        self._heads.collect()
+        total, done = sum(tape.size for tape in self._tapes), 0
+        for source, tape in enumerate(self._tapes):
+            for block in self._examined_ahead(tape):
+                if self._by_tape and source not in self._outputs:
+                    self._output(source, part, block.start or self._start)
+                self._write_block(source, tape, block, part)
+                if isinstance(block, McapChunk | Rosbag1Chunk):
+                    self._tell(done + min(block.behind, tape.size), 2 * total)
+            if self._by_tape:
+                self._output(source, part)
+            done += tape.size
+            self._tell(done, 2 * total)
+        if not self._outputs:
+            self._output(0, part)
+        for number, output in self._outputs.items():
+            whose = [self._tapes[number]] if self._by_tape else self._tapes
+            output.finish(whose if self._by_tape or number == self._order[0] else [])
+
+    def _examined_ahead(self, tape: Tape) -> Iterator[Block]:
+        """A tape's pieces; what is copied whole is examined while those before it are written.
+
+        To unpack a chunk and hold its CRC against it takes as long as to copy it, and both
+        work without Python's lock.
+        """
+        waiting: deque[tuple[Block, Future[bool] | None]] = deque()
+        with ThreadPoolExecutor(1, "tftool-examine") as pool:
+            try:
+                for block in tape.blocks():
+                    stays = self._stays_unseen(block, tape)
+                    waiting.append((block, pool.submit(block.sound) if stays else None))
+                    if len(waiting) > _AHEAD:
+                        yield _examined(*waiting.popleft())
+                while waiting:
+                    yield _examined(*waiting.popleft())
+            finally:
+                for _, examined in waiting:
+                    if examined is not None:
+                        examined.cancel()
+
+    def _stays_unseen(self, block: Block, tape: Tape) -> bool:
+        """Whether a block stays as it is by what its index tells, if it is sound."""
+        return (
+            block.whole
+            and bool(block.channels)
+            and self._changer.keeps_all(block.start, block.end)
+            and not any(self._changer.touches(tape.channels[n]) for n in block.channels or ())
+        )
+
+    # Databases
+
+    def _changed_in_place(self) -> list[SqliteTape]:
+        """The databases, if each becomes one that differs in some rows only; else none."""
+        tapes = [tape for tape in self._tapes if isinstance(tape, SqliteTape)]
+        alike = len(tapes) == len(self._tapes) and self._container == "db3"
+        one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
+        # Messages compressed one by one are compressed again, and damage is searched for row by
+        # row.
+        packed = self._mode == "message" or any(one.mode == "message" for one in self._inputs)
+        damaged = any(one.damage for one in self._inputs) or any(tape.damage for tape in tapes)
+        if not alike or not one_to_one or packed or damaged or self._heads.wanted:
+            return []
+        return tapes
+
+    def _change_databases(self, tapes: Sequence[SqliteTape], part: Path) -> None:
+        total, done = sum(tape.size for tape in tapes), 0
+        for tape in tapes:
+            database = EditedDatabase(self._path_in(part, len(self._databases)), tape)
+            self._databases.append(database)
+            done += tape.size
+            self._tell(done // 2, 2 * total)
+            touched = [n for n, one in tape.channels.items() if self._changer.touches(one)]
+            database.change(self._changer.changed, touched)
+            database.finish()
+            self._tell(done, 2 * total)
+
+    def _forget_databases(self) -> None:
+        for database in self._databases:
+            database.abandon()
+            database.path.unlink(missing_ok=True)
+        self._databases.clear()
+        self._changer.counts = Counter()
+
+    def _path_in(self, part: Path, number: int) -> Path:
+        """Where a file of the result is written."""
+        if not self._is_folder:
+            return part
+        suffix = {"mcap": ".mcap", "db3": ".db3", "bag": ".bag"}[self._container]
+        return part / f"{self._path.name}_{number}{suffix}"
+
+    def _write_block(self, source: int, tape: Tape, block: Block, part: Path) -> None:
+        if self._untouched(block, tape):
+            output = self._output(self._part_of(source, block.start), part)
+            if output.can_copy(source, block, tape):
+                output.copy(block)
+                return
+        touched = set()
+        for message in block.messages():
+            after = self._changer.changed(message, tape.channels[message.channel])
+            if after is None:
+                continue
+            output = self._output(self._part_of(source, after.log_time), part)
+            if output.write(source, after, tape.channels[after.channel], tape):
+                touched.add(output)
+        for output in touched:
+            output.closed_block(block)
+
+    def _untouched(self, block: Block, tape: Tape) -> bool:
+        """Whether a block stays as it is, as far as it shows without a look inside, or with one."""
+        if not block.whole or not block.channels:
+            return False
+        if not self._changer.keeps_all(block.start, block.end):
+            window_only = not self._edits.links
+            if not window_only or not self._keeps_each(block, tape):
+                return False
+        if self._part_of(0, block.start) != self._part_of(0, block.end):
+            return False
+        changing = [n for n in block.channels if self._changer.touches(tape.channels[n])]
+        if changing and not self._keeps_each(block, tape):
+            return False
+        return block.sound()
+
+    def _keeps_each(self, block: Block, tape: Tape) -> bool:
+        """Whether all messages of a block stay as they are."""
+        before = Counter(self._changer.counts)
+        for message in block.messages():
+            if self._changer.changed(message, tape.channels[message.channel]) is not message:
+                self._changer.counts = before
+                return False
+        self._changer.counts = before
+        return True
+
+    # Parts
+
+    def _part_of(self, source: int, log_time: Stamp) -> int:
+        if self._by_tape:
+            return source
+        if not self._edits.split_every:
+            return 0
+        return max(0, (log_time - self._start) // self._edits.split_every)
+
+    def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
+        """The file of a part; when it is first asked for it begins with its statics, at `start`."""
+        found = self._outputs.get(number)
+        if found is not None:
+            return found
+        if len(self._outputs) >= MOST_PARTS:
+            raise UsageError(f"That makes more than {MOST_PARTS} files: split less often.")
+        path = self._path_in(part, len(self._outputs))
+        tape = self._tapes[number if self._by_tape else 0]
+        output = self._outputs[number] = EditedFile(
+            path,
+            self._container,
+            tape,
+            ros2=self._ros2,
+            packs=self._mode == "message",
+            latched=self._heads.topics,
+            first_free=self._first_free(),
+        )
+        self._order.append(number)
+        self._heads.write(number, output, self._start if start is None else start)
+        return output
+
+    def _first_free(self) -> int:
+        """The first number that none of the inputs uses."""
+        used = [0]
+        for tape in self._tapes:
+            used += tape.channels
+            used += getattr(tape, "schemas", ())
+        return max(used) + 1
+
+    # The end
+
+    def _compare(self) -> None:
+        """Read what was written, and compare it with what was to be written.
+
+        Raises:
+            InputError: If it differs.
+        """
+        for database in self._databases:
+            database.compare()
+            self.report.messages += sum(database.counts.values())
+        total = sum(tape.size for tape in self._tapes)
+        sizes = [one.path.stat().st_size for one in self._outputs.values()]
+        done = 0
+        for output, size in zip(self._outputs.values(), sizes, strict=True):
+            tape = open_tape(output.path, unpacks=self._mode == "message")
+            try:
+                self._compare_one(output, tape)
+            finally:
+                tape.close()
+            done += size
+            self._tell(total + total * done // max(sum(sizes), 1), 2 * total)
+
+    def _compare_one(self, output: EditedFile, tape: Tape) -> None:
+        counts: Counter[tuple[str, str]] = Counter()
+        found: dict[tuple[str, str], int] = {}
+        for block in tape.blocks():
+            position = getattr(block, "position", None)
+            copied = output.copied.get(position) if position is not None else None
+            if copied is not None:
+                assert isinstance(block, McapChunk | Rosbag1Chunk)
+                # Its bytes were read back and compared when they were copied.
+                if block.raw().length != copied.chunk.raw().length:
+                    raise InputError(f"'{self._path}' differs from its input at byte {position}.")
+                for number, count in (block.channels or {}).items():
+                    channel = tape.channels[number]
+                    counts[channel.topic, channel.type] += count
+                continue
+            for message in block.messages():
+                channel = tape.channels[message.channel]
+                key = channel.topic, channel.type
+                counts[key] += 1
+                found[key] = digest(found.get(key, 0), message, output.container)
+        wanted: Counter[tuple[str, str]] = Counter()
+        for number, count in output.counts.items():
+            channel = output.channels[number]
+            wanted[channel.topic, channel.type] += count
+        if tape.damage or counts != wanted or found != output.digests:
+            what = tape.damage[0] if tape.damage else "its messages differ from what was written"
+            raise InputError(f"'{self._path}' was not written as it should be: {what}.")
+        self.report.messages += sum(counts.values())
+        self.report.copied += len(output.copied)
+
+    def _finish_folder(self, part: Path) -> None:
+        facts, topics, names = [], dict[Channel, int](), []
+        files: list[EditedFile | EditedDatabase] = [*self._outputs.values(), *self._databases]
+        for output in files:
+            count = sum(output.counts.values())
+            start = output.start if count else 0
+            names.append(output.path.name)
+            for number, channel in output.channels.items():
+                topics[channel] = topics.get(channel, 0) + output.counts[number]
+            name = output.path.name
+            if self._mode == "file":
+                name = _packed(output.path).name
+            facts.append(FileFacts(name, start, output.end, count))
+        self.report.files = [one.name for one in facts]
+        if self._container == "bag":
+            return
+        storage = {"mcap": "mcap", "db3": "sqlite3"}[self._container]
+        compression = ("zstd", self._mode.upper()) if self._mode else ("", "")
+        old: Mapping[str, object] | None = None
+        if len(self._inputs) == 1:
+            old = self._inputs[0].metadata
+        text = metadata_text(storage, facts, topics, compression=compression, old=old)
+        write_metadata(part, text)
+
+    def _sum_up(self) -> None:
+        report = self.report
+        report.counts = self._changer.counts
+        for one in self._inputs:
+            report.notes += [*one.notes, *one.damage]
+            for tape in one.tapes:
+                report.notes += tape.damage
+        for output in self._outputs.values():
+            for topic, reason in output.left_out.items():
+                text = f"'{topic}' is left out: {reason}."
+                if text not in report.notes:
+                    report.notes.append(text)
+        for topic, reason in self._changer.passed_over.items():
+            report.notes.append(f"'{topic}' keeps its names: {reason.rstrip('.')}.")
+        if self._edits.names and not self._edits.everywhere:
+            report.notes += self._old_names()
+        if not report.files:
+            report.files = [self._path.name]
+
+    def _old_names(self) -> Iterator[str]:
+        """Which topics go on using names that were changed."""
+        for recording in self._recordings:
+            for topic, headers in recording.source.headers().items():
+                old = [self._edits.name(name) != name and bool(name) for name in headers.names]
+                count = int(np.count_nonzero(np.array(old, dtype=bool)[headers.frames]))
+                if count:
+                    yield (
+                        f"{count} messages on '{topic}' still use old names: --everywhere "
+                        "changes them as well."
+                    )
+
+    def _tell(self, done: int, total: int = 0) -> None:
+        if self._progress is not None:
+            self._progress(done, total or sum(tape.size for tape in self._tapes))
+
+
+def _examined(block: Block, examined: "Future[bool] | None") -> Block:
+    if examined is not None:
+        examined.result()
+    return block
+
+
+def _packed(path: Path) -> Path:
+    """A file compressed as a whole, in its place."""
+    from tftool.recordings.decompression import zstandard
+
+    packed = path.with_name(path.name + ".zstd")
+    with path.open("rb") as source, packed.open("wb") as out:
+        writer = zstandard().ZstdCompressor(level=1).stream_writer(out, closefd=False)
+        with writer:
+            shutil.copyfileobj(source, writer, 1 << 20)
+    path.unlink()
+    return packed

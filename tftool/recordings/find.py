@@ -1,0 +1,346 @@
+"""Which kind of source a word on the command line names: decided by content, never by suffix.
+
+Only names, sizes and the first bytes are looked at; what reads the source finds out more.
+"""
+
+import contextlib
+import errno
+import glob
+import os
+import re
+import stat
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from tftool.base.errors import InputError
+from tftool.base.named_files import open_regular
+from tftool.recordings.remote_files import is_url
+
+MCAP_MAGIC = b"\x89MCAP0\r\n"
+SQLITE_MAGIC = b"SQLite format 3\x00"
+ROS1_MAGIC = b"#ROSBAG V2.0\n"
+ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
+METADATA = "metadata.yaml"
+"""What rosbag2 calls the description beside its files."""
+
+MOST_FILES = 10_000
+"""Files of one folder or glob that are looked at."""
+
+_HEAD = 4096
+_MOST_NAMES = 4
+BESIDE = ("-wal", "-shm", "-journal")
+"""How the files end that sqlite has beside a database."""
+_MCAP_MANGLED = (b"\x89MCAP0\n", b"\x89MCAP0\r\r\n")
+_OLD_BAG = b"#ROSRECORD"
+_CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
+"""What no text has: control characters but for blanks, line ends and the escape of colours."""
+_LFS = b"version https://git-lfs"
+_OTHERS = {
+    b"\x1f\x8b": "a gzip archive: unpack it first (gunzip)",
+    b"BZh": "a bzip2 archive: unpack it first (bunzip2)",
+    b"\x04\x22\x4d\x18": "an lz4 archive: unpack it first (lz4 -d)",
+    b"PK\x03\x04": "a zip archive: unpack it first (unzip)",
+    b"\xfd7zXZ\x00": "an xz archive: unpack it first (unxz)",
+    b"RRF2": "a recording of Rerun, which is not read here",
+    b"\x7fELF": "a program",
+    b"%PDF": "a PDF",
+    b"\x89PNG": "a picture",
+}
+
+
+class Kind(Enum):
+    """What a source is, in words."""
+
+    SCENARIO = "scenario"
+    DESCRIPTION = "robot description"
+    STATICS = "file of static transforms"
+    MCAP = "MCAP"
+    SQLITE = "rosbag2 (sqlite3)"
+    ROS1 = "ROS 1 bag"
+    ZSTD = "compressed file"
+    ROSBAG2 = "rosbag2"
+    SEVERAL = "several recordings"
+
+    @property
+    def is_recording(self) -> bool:
+        """Whether `open_recording` reads it."""
+        return self not in (Kind.SCENARIO, Kind.DESCRIPTION, Kind.STATICS)
+
+
+_RECORDINGS = (Kind.MCAP, Kind.SQLITE, Kind.ROS1, Kind.ZSTD)
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a word names.
+
+    Attributes:
+        name: The word.
+        kind: What it is. ROSBAG2 is a folder with rosbag2's metadata.
+        paths: The file or the folder; of SEVERAL, each of its recordings in the order of
+            their names, files and folders.
+        passed_over: Files beside them, in the folder or of the glob, that are no recordings.
+    """
+
+    name: str
+    kind: Kind
+    paths: tuple[Path, ...]
+    passed_over: tuple[Path, ...] = ()
+
+    def told(self) -> list[str]:
+        """What is worth saying of what was found, as sentences: which files are passed over."""
+        if not self.passed_over:
+            return []
+        names = ", ".join(map(_said, self.passed_over[:_MOST_NAMES]))
+        more = len(self.passed_over) - _MOST_NAMES
+        beside = f" and {more} more" if more > 0 else ""
+        return [f"Passed over, as no recordings: {names}{beside}."]
+
+
+def _said(path: Path) -> str:
+    with contextlib.suppress(OSError):
+        if not path.stat().st_size:
+            return f"'{path.name}' (empty)"
+    return f"'{path.name}'"
+
+
+def names_a_path(word: str) -> bool:
+    """Whether a word names something in the file system: a file, a folder, a glob that fits."""
+    try:
+        return os.path.lexists(word) or bool(_globbed(word))
+    except ValueError:
+        return False  # a zero character
+
+
+def _meant(path: Path) -> str:
+    """Where such a path lies one folder further down, as in the src of a workspace; or nothing."""
+    if path.is_absolute() or ".." in path.parts:
+        return ""
+    with contextlib.suppress(OSError):
+        below = [os.path.join(one, path) for one in sorted(os.listdir())]
+        # What cannot be looked into is not it.
+        found = next((one for one in below if os.path.exists(one)), "")
+        return f" Did you mean '{found}'?" if found else ""
+    return ""
+
+
+def find(word: str) -> Found:
+    """What a path or a glob names.
+
+    Raises:
+        InputError: If there is nothing, or nothing we read; it says what is there instead.
+    """
+    path = Path(word)
+    try:
+        if not path.exists():
+            matches = _globbed(word)
+            if matches:
+                return _several(word, matches)
+            if path.is_symlink():
+                raise InputError(f"'{word}' is a link to nothing: {os.readlink(path)}")
+            if is_url(word):
+                raise InputError(
+                    f"'{word}' is a URL, of which 'tftool info' and 'tftool doctor' read "
+                    "recordings: fetch it to a file for what else is asked of it."
+                )
+            raise InputError(f"There is no file or folder '{word}'.{_meant(path)}")
+        if path.is_dir():
+            return _folder(word, path)
+        if path.name == METADATA and _is_metadata(path):
+            return Found(word, Kind.ROSBAG2, (path.parent,))
+        return Found(word, kind_of_file(path), (path,))
+    except PermissionError as error:
+        raise InputError(
+            f"'{error.filename or word}' may not be read: permission denied."
+        ) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"'{word}' cannot be read: {reason}") from error
+
+
+_DESCRIBING = {".urdf", ".xacro"}
+_WRITTEN = {*_DESCRIBING, ".yaml", ".yml", ".xml", ".py"}
+"""Suffixes of what people write, and no recorder."""
+
+
+def kind_of_file(path: Path) -> Kind:
+    """What one file is, by its first bytes.
+
+    Raises:
+        InputError: If it is empty, or nothing we read.
+        OSError: If it cannot be read.
+    """
+    mode = path.stat().st_mode
+    if not stat.S_ISREG(mode):
+        what = "a pipe" if stat.S_ISFIFO(mode) else "a device"
+        raise InputError(f"'{path}' is {what}, which cannot be searched: save it to a file first.")
+    with path.open("rb") as file:
+        head = file.read(_HEAD)
+    if not head:
+        nothing = "" if path.suffix in _WRITTEN else ": nothing was recorded"
+        raise InputError(f"'{path}' is an empty file (0 bytes){nothing}.")
+    for magic, kind in (
+        (MCAP_MAGIC, Kind.MCAP),
+        (SQLITE_MAGIC, Kind.SQLITE),
+        (ROS1_MAGIC, Kind.ROS1),
+        (ZSTD_MAGIC, Kind.ZSTD),
+    ):
+        if head.startswith(magic):
+            return kind
+    if head.startswith(_MCAP_MANGLED):
+        raise InputError(
+            f"'{path}' is an MCAP file whose line ends were converted (git without "
+            "'*.mcap binary' in .gitattributes?): it cannot be repaired, fetch it again."
+        )
+    if head.startswith(_OLD_BAG):
+        version = head[1:16].split(b"\n")[0].decode("ascii", "replace")
+        raise InputError(
+            f"'{path}' is a bag of ROS's early days ({version}): 'rosbag fix' of ROS 1 "
+            "turns it into one of version 2.0."
+        )
+    if head.startswith(_LFS):
+        raise InputError(
+            f"'{path}' is only git's pointer to a large file: 'git lfs pull' fetches the file."
+        )
+    for magic, what in _OTHERS.items():
+        if head.startswith(magic):
+            raise InputError(f"'{path}' is {what}.")
+    return _kind_of_text(path, head)
+
+
+def _kind_of_text(path: Path, head: bytes) -> Kind:
+    text = head
+    if text.startswith((b"\xff\xfe", b"\xfe\xff")):
+        text = head.decode("utf-16", "replace").encode()
+    if _CONTROL.search(text):
+        raise _nothing(path)
+    start = text.removeprefix(b"\xef\xbb\xbf").lstrip()
+    if path.suffix in _DESCRIBING:
+        return Kind.DESCRIPTION
+    if start.startswith(b"<"):
+        root = re.search(rb"<([A-Za-z_][\w.:-]*)", start)
+        return Kind.STATICS if root is not None and root[1] == b"launch" else Kind.DESCRIPTION
+    is_launched = re.search(rb"^(launch\s*:|def generate_launch_description)", start, re.MULTILINE)
+    is_scenario = re.search(rb"^(nodes|about|expect)\s*:", start, re.MULTILINE)
+    is_script = b"static_transform_publisher" in start and not is_scenario
+    if is_launched or is_script:
+        return Kind.STATICS
+    if not (is_scenario or _is_text(text)):
+        raise _nothing(path)
+    return Kind.SCENARIO
+
+
+def _is_text(head: bytes) -> bool:
+    """Whether a file that begins so is UTF-8; a sign may be cut where the head ends."""
+    try:
+        head.decode()
+    except UnicodeDecodeError as error:
+        return len(head) == _HEAD and error.start >= _HEAD - 3
+    return True
+
+
+def _nothing(path: Path) -> InputError:
+    return InputError(
+        f"'{path}' is neither a recording (MCAP, rosbag2, ROS 1 bag), nor a robot "
+        "description (URDF, xacro), nor a scenario (YAML)."
+    )
+
+
+def _is_metadata(path: Path) -> bool:
+    with open_regular(path) as file:
+        return b"rosbag2_bagfile_information" in file.read(_HEAD)
+
+
+def _folder(word: str, path: Path) -> Found:
+    """What a folder holds: one recording of rosbag2, or several recordings."""
+    if (path / METADATA).exists():
+        return Found(word, Kind.ROSBAG2, (path,))
+    entries = sorted(path.iterdir())
+    paths, kinds, others = _recordings(entries)
+    if not paths:
+        raise InputError(
+            f"No recording (MCAP, rosbag2, ROS 1 bag) is in the folder '{word}', "
+            f"which has {len(entries)} {'entry' if len(entries) == 1 else 'entries'}."
+        )
+    if len(paths) == 1:
+        return Found(word, kinds.pop(), paths, others)
+    # The parts of one recording whose metadata is lost, else recordings of their own.
+    is_split = kinds in ({Kind.SQLITE}, {Kind.MCAP}) and len({_stem(one) for one in paths}) == 1
+    if is_split:
+        return Found(word, Kind.ROSBAG2, (path,), others)
+    return Found(word, Kind.SEVERAL, paths, others)
+
+
+def _several(word: str, matches: list[str]) -> Found:
+    paths, kinds, others = _recordings([Path(match) for match in matches])
+    if not paths:
+        raise InputError(
+            f"None of the {len(matches)} files that '{word}' names is a recording "
+            "(MCAP, rosbag2, ROS 1 bag)."
+        )
+    return Found(word, kinds.pop() if len(paths) == 1 else Kind.SEVERAL, paths, others)
+
+
+def _recordings(
+    entries: list[Path],
+) -> tuple[tuple[Path, ...], set[Kind], tuple[Path, ...]]:
+    """Those of many files and folders that are recordings, or may be; of which kinds; other files.
+
+    Raises:
+        PermissionError: If none is known to be one, and some may not be read.
+    """
+    if len(entries) > MOST_FILES:
+        raise InputError(
+            f"{len(entries)} files are more than are opened at once ({MOST_FILES}): name fewer."
+        )
+    found, kinds, others = [], set(), []
+    refused: PermissionError | None = None
+    for entry in entries:
+        kind = None
+        is_folder = False
+        try:
+            is_folder = entry.is_dir()
+            if not is_folder:
+                kind = kind_of_file(entry)
+            elif (entry / METADATA).exists():
+                kind = Kind.ROSBAG2
+        except PermissionError as error:
+            # It may be one: who opens it tells that it is left out.
+            found.append(entry)
+            refused = refused or error
+            continue
+        except (InputError, OSError):
+            pass  # as a link to nothing, or to itself
+        if kind is Kind.ROSBAG2 or kind in _RECORDINGS:
+            found.append(entry)
+            kinds.add(kind)
+        elif not (is_folder or entry.name.startswith(".") or entry.name.endswith(BESIDE)):
+            others.append(entry)
+    if refused is not None and not kinds:
+        raise refused
+    return tuple(found), kinds, tuple(others)
+
+
+def refusal(path: Path, error: OSError) -> InputError:
+    """What to say of one file of several that the system does not open.
+
+    Raises:
+        OSError: The error itself, if it is none of this file: too many are open.
+    """
+    if error.errno in (errno.EMFILE, errno.ENFILE):
+        raise error
+    if isinstance(error, PermissionError):
+        return InputError(f"'{path}' may not be read: permission denied.")
+    return InputError(f"'{path}' cannot be read: {error.strerror or error}.")
+
+
+def _stem(path: Path) -> str:
+    """The name that all parts of a split recording share: `run_0.mcap`, `run_1.mcap`."""
+    return path.name.partition(".")[0].rstrip("0123456789")
+
+
+def _globbed(word: str) -> list[str]:
+    if not glob.has_magic(word):
+        return []
+    return sorted(glob.glob(word))

@@ -1,0 +1,216 @@
+"""Transforms in other shapes than a TFMessage, one message at a time.
+
+Sources: foxglove.dev's schemas of FrameTransform and FrameTransforms; common_interfaces.
+"""
+
+import json
+import struct
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, Final, NamedTuple
+
+from tftool.base.errors import MalformedMessage
+from tftool.base.stamps import LAST_STAMP, NANOSECONDS, Stamp
+from tftool.messages.classes import Interfaces
+from tftool.messages.codec import Codec
+from tftool.messages.layouts import CDR, ROS1
+
+
+class Shaped(NamedTuple):
+    """One transform: its stamp, names, and x y z, x y z w."""
+
+    stamp: Stamp
+    parent: str
+    child: str
+    numbers: tuple[float, float, float, float, float, float, float]
+
+
+Decoder = Callable[[bytes], Iterable[Shaped]]
+
+_FOXGLOVE: Final = {"FrameTransform": False, "FrameTransforms": True}
+_DOUBLE = struct.Struct("<d")
+
+
+def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decoder | None":
+    """How messages of a type become transforms; None where they do not.
+
+    Args:
+        kind: The type, short.
+        encoding: How its messages are written.
+        definition: The type's definition, as recorded.
+        topic: The topic, by which a PoseStamped's child frame is called.
+
+    Raises:
+        InputError: If the type's definition is wrong or missing.
+    """
+    package, _, name = kind.replace("/", ".").rpartition(".")
+    if package in ("foxglove", "foxglove_msgs") and name in _FOXGLOVE:
+        several = _FOXGLOVE[name]
+        if encoding == "protobuf":
+            return lambda payload: _protobuf(payload, several)
+        if encoding == "json":
+            return lambda payload: _json(payload, several)
+    layout = {"cdr": CDR, "ros1": ROS1}.get(encoding)
+    read = _READERS.get(kind)
+    if layout is None or read is None:
+        return None
+    decode = Codec(Interfaces().recorded(kind, definition), layout).decode
+    return lambda payload: [read(decode(payload), topic)]
+
+
+def is_foreign(kind: str, encoding: str) -> bool:
+    """Whether a type carries transforms in another shape than a TFMessage."""
+    package, _, name = kind.replace("/", ".").rpartition(".")
+    if package in ("foxglove", "foxglove_msgs") and name in _FOXGLOVE:
+        return encoding in ("protobuf", "json")
+    return kind == "geometry_msgs/TransformStamped" and encoding in ("cdr", "ros1")
+
+
+def _stamp(message: Any) -> Stamp:
+    stamp = message.header.stamp
+    return int(stamp.sec) * NANOSECONDS + int(stamp.nanosec)
+
+
+def _numbers(place: Any, turn: Any) -> tuple[float, float, float, float, float, float, float]:
+    return place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w
+
+
+def _transform_stamped(message: Any, topic: str) -> Shaped:
+    pose = message.transform
+    return Shaped(
+        _stamp(message),
+        message.header.frame_id,
+        message.child_frame_id,
+        _numbers(pose.translation, pose.rotation),
+    )
+
+
+def _odometry(message: Any, topic: str) -> Shaped:
+    pose = message.pose.pose
+    return Shaped(
+        _stamp(message),
+        message.header.frame_id,
+        message.child_frame_id,
+        _numbers(pose.position, pose.orientation),
+    )
+
+
+def _pose_stamped(message: Any, topic: str) -> Shaped:
+    pose = getattr(message.pose, "pose", message.pose)
+    return Shaped(
+        _stamp(message),
+        message.header.frame_id,
+        topic.strip("/"),
+        _numbers(pose.position, pose.orientation),
+    )
+
+
+_READERS: Final[dict[str, Callable[[Any, str], Shaped]]] = {
+    "geometry_msgs/TransformStamped": _transform_stamped,
+    "nav_msgs/Odometry": _odometry,
+    "geometry_msgs/PoseStamped": _pose_stamped,
+    "geometry_msgs/PoseWithCovarianceStamped": _pose_stamped,
+}
+
+
+# foxglove's
+
+
+def _json(payload: bytes, several: bool) -> list[Shaped]:
+    try:
+        document = json.loads(payload)
+        return [_of_json(one) for one in (document["transforms"] if several else [document])]
+    except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as error:
+        raise MalformedMessage("foxglove.FrameTransform", f"not its JSON: {error}") from error
+    except RecursionError as error:
+        raise MalformedMessage("foxglove.FrameTransform", "it is nested too deep") from error
+
+
+def _of_json(one: dict[str, Any]) -> Shaped:
+    time = one["timestamp"]
+    place, turn = one["translation"], one["rotation"]
+    stamp = int(time["sec"]) * NANOSECONDS + int(time["nsec"])
+    numbers = [float(place[axis]) for axis in "xyz"] + [float(turn[axis]) for axis in "xyzw"]
+    x, y, z, qx, qy, qz, qw = numbers
+    parent, child = str(one["parent_frame_id"]), str(one["child_frame_id"])
+    return Shaped(_checked(stamp), parent, child, (x, y, z, qx, qy, qz, qw))
+
+
+def _protobuf(payload: bytes, several: bool) -> list[Shaped]:
+    try:
+        if not several:
+            return [_of_protobuf(payload)]
+        return [_of_protobuf(value) for number, value in _fields(payload) if number == 1]
+    except (IndexError, struct.error, TypeError, ValueError) as error:
+        raise MalformedMessage("foxglove.FrameTransform", f"not its protobuf: {error}") from error
+
+
+def _of_protobuf(payload: bytes) -> Shaped:
+    seconds = nanoseconds = 0
+    names = ["", ""]
+    # What is zero is left out; a rotation that is left out altogether turns nothing.
+    place, turn = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]
+    turned = False
+    for number, value in _fields(payload):
+        if number == 1:
+            for part, count in _fields(value):
+                if part == 1:
+                    seconds = int(count)
+                elif part == 2:
+                    nanoseconds = int(count)
+        elif number in (2, 3):
+            if not isinstance(value, bytes):
+                raise ValueError("a name is no text")
+            names[number - 2] = value.decode("utf-8", "backslashreplace")
+        elif number in (4, 5):
+            target = place if number == 4 else turn
+            turned = turned or number == 5
+            for part, double in _fields(value):
+                if 1 <= part <= len(target):
+                    (target[part - 1],) = _DOUBLE.unpack(double)
+    if not turned:
+        turn = [0.0, 0.0, 0.0, 1.0]
+    x, y, z = place
+    qx, qy, qz, qw = turn
+    stamp = _checked(seconds * NANOSECONDS + nanoseconds)
+    return Shaped(stamp, names[0], names[1], (x, y, z, qx, qy, qz, qw))
+
+
+def _checked(stamp: int) -> Stamp:
+    if not -LAST_STAMP <= stamp <= LAST_STAMP:
+        raise ValueError(f"its stamp {stamp} ns does not fit 64 bits")
+    return stamp
+
+
+def _fields(payload: bytes) -> Iterator[tuple[int, Any]]:
+    """Number and value of each protobuf field: varints as numbers, all else as bytes."""
+    position, size = 0, len(payload)
+    while position < size:
+        key, position = _varint(payload, position)
+        kind = key & 7
+        if kind == 0:
+            value, position = _varint(payload, position)
+            yield key >> 3, value
+            continue
+        if kind == 2:
+            length, position = _varint(payload, position)
+        elif kind in (1, 5):
+            length = 8 if kind == 1 else 4
+        else:
+            raise ValueError(f"a field of kind {kind}")
+        if position + length > size:
+            raise ValueError(f"a field announces {length} bytes")
+        yield key >> 3, payload[position : position + length]
+        position += length
+
+
+def _varint(payload: bytes, position: int) -> tuple[int, int]:
+    value = shift = 0
+    while True:
+        byte = payload[position]
+        position += 1
+        value |= (byte & 0x7F) << shift
+        if byte < 0x80:
+            return value, position
+        shift += 7
+        if shift > 63:
+            raise ValueError("a number of more than 64 bits")

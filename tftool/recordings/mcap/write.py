@@ -1,0 +1,562 @@
+"""MCAP written: chunks with their message indexes, CRCs, attachments, and the summary.
+
+Source: the MCAP format specification, version 0.
+"""
+
+import io
+import struct
+import zlib
+from array import array
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.stamps import Stamp
+from tftool.recordings.channel import Channel, CopiedPiece
+from tftool.recordings.compression import compressor
+from tftool.recordings.find import MCAP_MAGIC
+
+HEADER: Final = 0x01
+FOOTER: Final = 0x02
+SCHEMA: Final = 0x03
+CHANNEL: Final = 0x04
+MESSAGE: Final = 0x05
+CHUNK: Final = 0x06
+MESSAGE_INDEX: Final = 0x07
+CHUNK_INDEX: Final = 0x08
+ATTACHMENT: Final = 0x09
+ATTACHMENT_INDEX: Final = 0x0A
+STATISTICS: Final = 0x0B
+METADATA: Final = 0x0C
+METADATA_INDEX: Final = 0x0D
+SUMMARY_OFFSET: Final = 0x0E
+DATA_END: Final = 0x0F
+
+COMPRESSIONS: Final = ("zstd", "lz4", "none")
+
+CHUNK_SIZE: Final = 1 << 20
+"""Bytes of messages in a chunk, before they are compressed."""
+
+MOST_CHANNELS: Final = 65_535
+
+RECORD: Final = struct.Struct("<BQ")
+CHUNK_HEAD: Final = struct.Struct("<QQQI")
+MESSAGE_HEAD: Final = struct.Struct("<BQHIQQ")
+"""A message's record up to its payload: code and length, channel, sequence, both times."""
+
+_U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
+_UNCHUNKED: Final = 1 << 16  # bytes that are written at a time where there are no chunks
+_LARGE_PIECE: Final = 1 << 16  # bytes from which on joining costs more than a write of its own
+_NOTHING_YET: Final = 2**64 - 1
+
+
+@dataclass(frozen=True, slots=True)
+class CopiedAttachment:
+    """An attachment of another file.
+
+    Attributes:
+        piece: Its record.
+        times: Its two times, as they are packed.
+        names: Its name and media type, likewise.
+        size: Bytes of what is attached.
+    """
+
+    piece: CopiedPiece
+    times: bytes
+    names: bytes
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
+class ChunkEntry:
+    """A chunk as the summary tells of it.
+
+    Attributes:
+        start: Log time of its first message.
+        end: Of its last.
+        place: Where its record begins.
+        length: Bytes of its record.
+        indexes: For each channel where its message index begins.
+        indexes_length: Bytes of those.
+        method: How it is compressed.
+        packed: Bytes of its messages in the file.
+        size: Bytes of them unpacked.
+    """
+
+    start: int
+    end: int
+    place: int
+    length: int
+    indexes: Mapping[int, int]
+    indexes_length: int
+    method: str
+    packed: int
+    size: int
+
+    def record(self) -> bytes:
+        """Its record in the summary."""
+        return record(
+            CHUNK_INDEX,
+            struct.pack("<QQQQ", self.start, self.end, self.place, self.length)
+            + entries(self.indexes)
+            + _U64.pack(self.indexes_length)
+            + text(self.method)
+            + struct.pack("<QQ", self.packed, self.size),
+        )
+
+
+class McapWriter:
+    """Writes an MCAP file; see `ContainerWriter`.
+
+    Nothing of a chunk is in the file before it is closed, by its size or by `flush`; what is
+    in the file can be read up to there, whatever happens then.
+
+    Attributes:
+        position: Bytes in the file so far.
+        counts: Messages by channel.
+        first_free: The first number for channels and schemas that come without one.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        *,
+        profile: str = "ros2",
+        library: str = "",
+        compression: str = "zstd",
+        chunk_size: int = CHUNK_SIZE,
+        with_crc: bool = True,
+    ) -> None:
+        """Begin the file, in the place of what is there.
+
+        Args:
+            path: Where it is.
+            profile: What its channels follow: "ros2", "ros1", or "".
+            library: What wrote it.
+            compression: "zstd", "lz4" or "none", of each chunk.
+            chunk_size: Bytes of messages in a chunk before they are compressed; 0 for no chunks.
+            with_crc: Whether chunks and the data as a whole carry CRCs.
+
+        Raises:
+            UsageError: If the compression is not known, or not installed.
+            OSError: If the file cannot be written.
+        """
+        if compression not in COMPRESSIONS:
+            raise UsageError(
+                f"'{compression}' is no compression of MCAP: {', '.join(COMPRESSIONS)} are."
+            )
+        self.method = "" if compression == "none" else compression
+        self._pack: Callable[[bytes], bytes] = compressor(self.method)
+        self.first_free = 1
+        self._chunk_size = chunk_size
+        self._limit = chunk_size or _UNCHUNKED
+        self._with_crc = self._with_chunk_crc = with_crc
+        self._schemas: dict[tuple[str, str, bytes], int] = {}
+        self._schema_records: dict[int, bytes] = {}
+        self._channel_records: dict[int, bytes] = {}
+        self._schema_of: dict[int, int] = {}
+        self._known: dict[Channel, int] = {}
+        self._defined: set[int] = set()  # channels whose records are in the file or the chunk
+        self._chunks: list[ChunkEntry] = []
+        self._attachments: list[bytes] = []
+        self._metadata: list[bytes] = []
+        self.counts: dict[int, int] = {}
+        self._low, self._high = _NOTHING_YET, 0
+        self._new_chunk()
+        self.position = 0
+        self._crc = 0
+        self._path = path
+        self._file = io.FileIO(path, "wb+")
+        self._put(MCAP_MAGIC + record(HEADER, text(profile) + text(library)))
+
+    def _new_chunk(self) -> None:
+        self._pieces: list[bytes] = []
+        self._length = 0
+        self._indexes: dict[int, array[int]] = {}
+        self._chunk_low, self._chunk_high = _NOTHING_YET, 0
+
+    @property
+    def size(self) -> int:
+        """Bytes written so far, those that wait in the chunk included."""
+        return self.position + self._length
+
+    @property
+    def pending(self) -> int:
+        """Bytes of messages that wait in the chunk."""
+        return self._length
+
+    @property
+    def span(self) -> tuple[Stamp, Stamp]:
+        """First and last log time of what is in the file; 0 where there is none."""
+        return (0 if self._low == _NOTHING_YET else self._low), self._high
+
+    # What is known
+
+    def channel(
+        self, channel: Channel, number: int | None = None, schema: int | None = None
+    ) -> int:
+        """Make a stream known; the number by which `write` takes its messages.
+
+        Args:
+            channel: The stream; one that is known already has its number.
+            number: The number it should have, where it matters.
+            schema: The number of its schema, known already; likewise.
+
+        Raises:
+            InputError: If there are too many.
+        """
+        known = self._known.get(channel)
+        if known is not None and number in (None, known):
+            return known
+        if schema is None:
+            schema = 0
+        if not schema and (channel.type or channel.schema_encoding) and number is None:
+            schema = self.schema(channel.type, channel.schema_encoding, channel.definition)
+        number = self._free(self._channel_records, number)
+        self._known[channel] = number
+        self.add_channel(
+            number, schema, channel.topic, channel.encoding, strings(dict(channel.metadata))
+        )
+        return number
+
+    def schema(self, name: str, encoding: str, data: bytes, number: int | None = None) -> int:
+        """Make a type known; its number."""
+        key = name, encoding, data
+        if number is None and key in self._schemas:
+            return self._schemas[key]
+        number = self._free(self._schema_records, number)
+        self._schemas[key] = number
+        self._schema_records[number] = record(
+            SCHEMA, _U16.pack(number) + text(name) + text(encoding) + _U32.pack(len(data)) + data
+        )
+        return number
+
+    def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
+        """Whether the numbers of schemas are free here, or mean the same."""
+        here = {number: key for key, number in self._schemas.items()}
+        return all(
+            here[number] == schema if number in here else number not in self._schema_records
+            for number, schema in schemas.items()
+        )
+
+    def add_channel(
+        self, number: int, schema: int, topic: str, encoding: str, metadata: bytes
+    ) -> None:
+        """Make a channel known by what its record holds; its metadata packed."""
+        self._schema_of[number] = schema
+        self._channel_records[number] = record(
+            CHANNEL, struct.pack("<HH", number, schema) + text(topic) + text(encoding) + metadata
+        )
+
+    def _free(self, taken: Collection[int], wanted: int | None) -> int:
+        if wanted is not None:
+            return wanted
+        number = max(len(taken) + 1, self.first_free)
+        while number in taken:
+            number += 1
+        if number > MOST_CHANNELS:
+            raise InputError(f"An MCAP file holds at most {MOST_CHANNELS} channels and schemas.")
+        return number
+
+    def _define(self, channel: int) -> None:
+        """Put a channel's record and its schema's in front of its first message."""
+        self._defined.add(channel)
+        schema = self._schema_of[channel]
+        if schema:
+            self._keep(self._schema_records[schema])
+        self._keep(self._channel_records[channel])
+
+    # Messages
+
+    def write(
+        self,
+        channel: int,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append one message."""
+        if channel not in self._defined:
+            self._define(channel)
+        if log_time < 0:
+            raise InputError(f"A log time of {log_time} ns lies before 1970: MCAP has none.")
+        length = len(payload)
+        head = MESSAGE_HEAD.pack(
+            MESSAGE,
+            length + 22,
+            channel,
+            sequence & 0xFFFFFFFF,
+            log_time,
+            log_time if publish_time is None else publish_time,
+        )
+        index = self._indexes.get(channel)
+        if index is None:
+            index = self._indexes[channel] = array("Q")
+        index.append(log_time)
+        index.append(self._length)
+        self._pieces.append(head)
+        self._pieces.append(payload)
+        self._length += length + 31
+        if log_time < self._chunk_low:
+            self._chunk_low = log_time
+        if log_time > self._chunk_high:
+            self._chunk_high = log_time
+        if self._length >= self._limit:
+            self.flush()
+
+    def _keep(self, piece: bytes) -> None:
+        self._pieces.append(piece)
+        self._length += len(piece)
+
+    def flush(self) -> None:
+        """Put the messages that wait into the file, as a chunk."""
+        if not self._length:
+            return
+        pieces, length = self._pieces, self._length
+        indexes, low, high = self._indexes, self._chunk_low, self._chunk_high
+        self._new_chunk()
+        if not indexes:
+            low = high = 0
+        if not self._chunk_size:
+            self._put(*pieces)
+            self._count_all(indexes, low, high)
+            return
+        packed, crc = length, 0
+        if self.method:
+            records = b"".join(pieces)
+            pieces = [self._pack(records)]
+            packed = len(pieces[0])
+            crc = zlib.crc32(records) if self._with_chunk_crc else 0
+        elif self._with_chunk_crc:
+            for piece in pieces:
+                crc = zlib.crc32(piece, crc)
+        head = CHUNK_HEAD.pack(low, high, length, crc) + text(self.method) + _U64.pack(packed)
+        place = self.position
+        parts = [RECORD.pack(CHUNK, len(head) + packed), head, *pieces]
+        begin = behind = place + 9 + len(head) + packed
+        offsets = {}
+        for channel, index in indexes.items():
+            offsets[channel] = begin
+            parts.append(_index_record(channel, index))
+            begin += len(parts[-1])
+        self._put(*parts)
+        self._count_all(indexes, low, high)
+        self._chunks.append(
+            ChunkEntry(
+                low,
+                high,
+                place,
+                behind - place,
+                offsets,
+                begin - behind,
+                self.method,
+                packed,
+                length,
+            )
+        )
+
+    def flush_as(self, compression: str, *, with_crc: bool) -> None:
+        """The same, packed in a way of its own; chunks after it are packed as before."""
+        before = self.method, self._pack, self._with_chunk_crc
+        try:
+            if compression != self.method:
+                self.method, self._pack = compression, compressor(compression)
+            self._with_chunk_crc = with_crc
+            self.flush()
+        finally:
+            self.method, self._pack, self._with_chunk_crc = before
+
+    def _count_all(self, indexes: "Mapping[int, array[int]]", low: int, high: int) -> None:
+        for channel, index in indexes.items():
+            self._count(channel, len(index) // 2, low, high)
+
+    def _count(self, channel: int, count: int, low: int, high: int) -> None:
+        self.counts[channel] = self.counts.get(channel, 0) + count
+        if count:
+            self._low, self._high = min(self._low, low), max(self._high, high)
+
+    # What is copied
+
+    def copy_chunk(self, piece: CopiedPiece, entry: ChunkEntry, counts: Mapping[int, int]) -> None:
+        """Append a chunk and its message indexes as they stood in another file.
+
+        Args:
+            piece: The chunk's record and those of its message indexes.
+            entry: How it stood there; its places are moved.
+            counts: How many messages each of its channels has.
+        """
+        self.flush()
+        moved = self.position - entry.place
+        for channel, count in counts.items():
+            self._count(channel, count, entry.start, entry.end)
+        self._defined.update(counts)
+        self._copy(piece)
+        self._chunks.append(
+            ChunkEntry(
+                entry.start,
+                entry.end,
+                entry.place + moved,
+                entry.length,
+                {channel: place + moved for channel, place in entry.indexes.items()},
+                entry.indexes_length,
+                entry.method,
+                entry.packed,
+                entry.size,
+            )
+        )
+
+    def _copy(self, piece: CopiedPiece) -> None:
+        before = self._crc if self._with_crc else None
+        self._crc = piece.copy_to(self._file.fileno(), self.position, before)
+        self.position = self._file.seek(self.position + piece.length)
+
+    def copy_attachment(self, copied: CopiedAttachment) -> None:
+        """Append an attachment as it stands in another file."""
+        self.flush()
+        place = struct.pack("<QQ", self.position, copied.piece.length)
+        self._copy(copied.piece)
+        told = place + copied.times + _U64.pack(copied.size) + copied.names
+        self._attachments.append(record(ATTACHMENT_INDEX, told))
+
+    def copy_metadata(self, body: bytes) -> None:
+        """Append a metadata record that is there already.
+
+        Raises:
+            struct.error: If it is none.
+        """
+        (length,) = _U32.unpack_from(body)
+        self.flush()
+        begin = self.position
+        piece = record(METADATA, body)
+        self._put(piece)
+        self._metadata.append(
+            record(METADATA_INDEX, struct.pack("<QQ", begin, len(piece)) + body[: 4 + length])
+        )
+
+    # The end
+
+    def finish(self) -> None:
+        """Write the rest of the messages and the summary, and close the file."""
+        try:
+            self.flush()
+            self._close()
+        finally:
+            self._file.close()
+
+    def _close(self) -> None:
+        end = record(DATA_END, _U32.pack(self._crc if self._with_crc else 0))
+        summary = self._summary(self.position + len(end))
+        self._put(end + summary + MCAP_MAGIC)
+
+    def abandon(self) -> None:
+        """Close the file as it is; what is in it can be read up to its end."""
+        self._file.close()
+
+    def rescue(self) -> bool:
+        """Close the file when the disk is full: up to its last whole chunk, with a summary.
+
+        Returns:
+            Whether there was room for the summary.
+        """
+        self._new_chunk()
+        whole = self.position
+        self._file.close()
+        try:
+            self._file = io.FileIO(self._path, "rb+")
+            self._file.truncate(whole)
+            self._file.seek(whole)
+            self.finish()
+        except OSError:
+            with open(self._path, "rb+") as file:
+                file.truncate(whole)
+            return False
+        return True
+
+    def _summary(self, begin: int) -> bytes:
+        low = 0 if self._low == _NOTHING_YET else self._low
+        statistics = struct.pack(
+            "<QHIIIIQQ",
+            sum(self.counts.values()),
+            len(self._schema_records),
+            len(self._channel_records),
+            len(self._attachments),
+            len(self._metadata),
+            len(self._chunks),
+            low,
+            self._high,
+        ) + entries(self.counts)
+        groups = (
+            (SCHEMA, list(self._schema_records.values())),
+            (CHANNEL, list(self._channel_records.values())),
+            (STATISTICS, [record(STATISTICS, statistics)]),
+            (CHUNK_INDEX, [chunk.record() for chunk in self._chunks]),
+            (ATTACHMENT_INDEX, self._attachments),
+            (METADATA_INDEX, self._metadata),
+        )
+        found, offsets, place = [], [], begin
+        for code, records in groups:
+            group = b"".join(records)
+            if group:
+                found.append(group)
+                offsets.append(record(SUMMARY_OFFSET, struct.pack("<BQQ", code, place, len(group))))
+                place += len(group)
+        summary = b"".join(found) + b"".join(offsets)
+        summary += RECORD.pack(FOOTER, 20) + struct.pack("<QQ", begin, place)
+        return summary + _U32.pack(zlib.crc32(summary))
+
+    def _put(self, *pieces: bytes) -> None:
+        """Append to the file, all of it or none that counts."""
+        for run in _runs(pieces):
+            view = memoryview(run)
+            while view:
+                view = view[self._file.write(view) or 0 :]
+        if self._with_crc:
+            for piece in pieces:
+                self._crc = zlib.crc32(piece, self._crc)
+        self.position += sum(map(len, pieces))
+
+
+def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
+    """Small pieces joined, so that they are written at once; large ones as they are."""
+    small: list[bytes] = []
+    for piece in pieces:
+        if len(piece) < _LARGE_PIECE:
+            small.append(piece)
+            continue
+        yield b"".join(small)
+        small.clear()
+        yield piece
+    yield b"".join(small)
+
+
+def record(code: int, body: bytes) -> bytes:
+    """A record of a kind."""
+    return RECORD.pack(code, len(body)) + body
+
+
+def text(words: str) -> bytes:
+    """A text behind its length."""
+    raw = words.encode("utf-8", "surrogateescape")
+    return _U32.pack(len(raw)) + raw
+
+
+def strings(values: Mapping[str, str]) -> bytes:
+    """A map of texts behind its length."""
+    packed = b"".join(text(key) + text(value) for key, value in values.items())
+    return _U32.pack(len(packed)) + packed
+
+
+def entries(values: Mapping[int, int]) -> bytes:
+    """A map of channels to numbers behind its length."""
+    packed = b"".join(struct.pack("<HQ", key, value) for key, value in values.items())
+    return _U32.pack(len(packed)) + packed
+
+
+def _index_record(channel: int, index: "array[int]") -> bytes:
+    pairs = index.tobytes()
+    return (
+        RECORD.pack(MESSAGE_INDEX, 6 + len(pairs)) + struct.pack("<HI", channel, len(pairs)) + pairs
+    )

@@ -1,0 +1,122 @@
+"""Messages of ROS 1 as ROS 2 writes them, and the other way round, by their definitions."""
+
+import re
+from collections.abc import Callable
+from typing import Final, NamedTuple
+
+from tftool.base.errors import InputError
+from tftool.messages.classes import INTERFACES, Interfaces
+from tftool.messages.codec import Codec
+from tftool.messages.layouts import CDR, ROS1
+from tftool.messages.schema import full_name
+from tftool.recordings.channel import Channel
+from tftool.recordings.container import TRANSIENT_LOCAL, offers_of
+from tftool.recordings.rosbag2.offered_qos import offers_text
+from tftool.recordings.schema_text import (
+    known_hash,
+    ros1_definition,
+    ros1_md5,
+    ros2_definition,
+    same_layout,
+    short,
+)
+
+_SEQUENCE: Final = re.compile(
+    r"^(MSG: (?:std_msgs|roslib)/Header[ \t]*\n(?:(?!MSG: ).*\n)*?)uint32 seq[ \t]*(?:#.*)?\n",
+    re.MULTILINE,
+)
+_TO_ROS2: Final = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
+
+
+class Conversion(NamedTuple):
+    """How a stream is written in another way.
+
+    Attributes:
+        channel: The stream as it is written then.
+        payload: Each message's bytes as they are written then.
+    """
+
+    channel: Channel
+    payload: Callable[[bytes], bytes]
+
+
+def as_ros2(channel: Channel) -> Conversion:
+    """A stream of ROS 1 as ROS 2 records it.
+
+    Raises:
+        InputError: If its type is not known, or its messages are written another way.
+    """
+    if channel.encoding == "cdr":
+        return Conversion(channel, bytes)
+    full, interfaces = _known(channel, "ros1")
+    kind = interfaces.message(full)
+    target = _TO_ROS2.get(full, full)
+    own = INTERFACES
+    if target == full and not (INTERFACES.has(full) and same_layout(full, INTERFACES, interfaces)):
+        own = interfaces
+    metadata = {
+        "offered_qos_profiles": offers_text(channel.extra("latching") == "1"),
+        "topic_type_hash": known_hash(target) if own is INTERFACES else "",
+    }
+    if channel.extra("callerid"):
+        metadata["callerid"] = channel.extra("callerid")
+    written = Channel(
+        channel.topic,
+        target,
+        "cdr",
+        "ros2msg",
+        ros2_definition(target, own).encode(),
+        tuple(metadata.items()),
+    )
+    read, write = Codec(kind, ROS1), Codec(kind, CDR)
+    return Conversion(written, lambda payload: write.encode(read.decode(payload)))
+
+
+def as_ros1(channel: Channel) -> Conversion:
+    """A stream of ROS 2 as ROS 1 records it.
+
+    Raises:
+        InputError: If its type is not known, ROS 1 has nothing like it, or its messages are
+            written another way.
+    """
+    if channel.encoding == "ros1":
+        return Conversion(channel, bytes)
+    full, interfaces = _known(channel, "cdr")
+    kind = interfaces.message(full)
+    metadata = {"md5sum": ros1_md5(full, interfaces)}
+    if channel.extra("callerid"):
+        metadata["callerid"] = channel.extra("callerid")
+    if offers_of(channel.extra("offered_qos_profiles")).durability == TRANSIENT_LOCAL:
+        metadata["latching"] = "1"
+    written = Channel(
+        channel.topic,
+        short(full),
+        "ros1",
+        "ros1msg",
+        ros1_definition(full, interfaces).encode(),
+        tuple(metadata.items()),
+    )
+    read, write = Codec(kind, CDR), Codec(kind, ROS1)
+    return Conversion(written, lambda payload: write.encode(read.decode(payload)))
+
+
+def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
+    """A stream's type, and the definitions by which its messages are read."""
+    if channel.encoding != encoding:
+        raise InputError(
+            f"its messages are written as '{channel.encoding}', which is not converted here"
+        )
+    text = ""
+    if channel.schema_encoding in ("ros1msg", "ros2msg"):
+        text = channel.definition.decode("utf-8", "backslashreplace")
+    full = full_name(channel.type)
+    if not text.strip():
+        INTERFACES.message(full)
+        return full, INTERFACES
+    if encoding == "ros1":
+        # ROS 2 dropped the number that ROS 1 counts headers with; reading leaves it out, too.
+        text = _SEQUENCE.sub(r"\1", text)
+    interfaces = Interfaces()
+    interfaces.define(full, text)
+    interfaces.message(full)
+    return full, interfaces

@@ -1,0 +1,356 @@
+"""Recorded messages cut into columns: natively where that was built, else in numpy."""
+
+from collections.abc import Sequence
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from tftool.base.errors import MalformedMessage, TftoolError
+from tftool.messages.layouts import CDR, Layout
+from tftool.messages.native_scan import SCAN
+from tftool.messages.transform_rows import (
+    SMALLEST,
+    Template,
+    Words,
+    row_span,
+    rows_of,
+    sample,
+    walk,
+)
+from tftool.recordings.columns import Batch, Growing, Table, words_at
+from tftool.recordings.contract import Indexes
+from tftool.recordings.foreign_transforms import Decoder
+
+_PER_LENGTH: Final = 16  # layouts of one length that are tried before messages are walked singly
+_TEMPLATE_BYTES: Final = 16_000_000
+_FEW: Final = 256  # messages that wait for others: an array operation costs a microsecond
+_LITTLE_HEADER: Final = 0x00000100
+_MOST_SCANNED: Final = 1 << 32  # bytes of a buffer whose places fit 32 bits
+
+MOST_WAITING: Final = 1 << 26
+"""Bytes of messages that wait for others, but for the last one."""
+
+
+class Cutter:
+    """Cuts messages with transforms of one layout and kind into a table.
+
+    What the kinds of it have in common: messages wait until there are some, and those that are
+    odd in any way are walked one by one.
+    """
+
+    def __init__(self, table: Table, layout: Layout, static: bool) -> None:
+        self._table = table
+        self._layout = layout
+        self._static = static
+        self._waiting: list[tuple[Batch, Indexes]] = []
+        self._count = self._held = 0
+
+    def add(self, batch: Batch, numbers: Indexes) -> None:
+        """Cut messages, or keep them until there are some more.
+
+        Args:
+            batch: The messages.
+            numbers: Their numbers in the table, shape (n,).
+        """
+        if len(batch) >= _FEW:
+            self.flush()
+            self._cut_first(batch, numbers)
+        elif len(batch):
+            # Only their bytes are kept, not the whole chunk they lie in.
+            self._waiting.append((_compacted(batch), numbers))
+            self._count += len(batch)
+            self._held += int(batch.lengths.sum())
+            if self._count >= _FEW or self._held >= MOST_WAITING:
+                self.flush()
+
+    def flush(self) -> None:
+        """Cut what waits."""
+        if not self._waiting:
+            return
+        waiting, self._waiting = self._waiting, []
+        self._count = self._held = 0
+        offset = 0
+        starts = []
+        for batch, _ in waiting:
+            starts.append(batch.starts + offset)
+            offset += len(batch.buffer)
+        joined = Batch(
+            np.concatenate([batch.buffer for batch, _ in waiting]),
+            np.concatenate(starts),
+            np.concatenate([batch.lengths for batch, _ in waiting]),
+            np.concatenate([batch.log_times for batch, _ in waiting]),
+            np.concatenate([batch.senders for batch, _ in waiting]),
+        )
+        self._cut_first(joined, np.concatenate([numbers for _, numbers in waiting]))
+
+    def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
+        """Cut messages; where there may be more edges than are kept, those that come first are."""
+        if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
+            self._cut(batch, numbers)
+            return
+        # How many transforms they can have, up to each of them.
+        most = np.cumsum(batch.lengths // SMALLEST)
+        begin = done = 0
+        while begin < len(batch):
+            # What these bring finds room in any order.
+            end = max(int(np.searchsorted(most, done + self._table.spare, "right")), begin + 1)
+            self._cut(batch.chosen(slice(begin, end)), numbers[begin:end])
+            begin, done = end, int(most[end - 1])
+
+    def _cut(self, batch: Batch, numbers: Indexes) -> None:
+        """Cut messages in whatever order is quickest."""
+        raise NotImplementedError
+
+    def _walk(self, batch: Batch, numbers: Indexes) -> None:
+        """Read messages one by one, whatever is odd about them."""
+        for number in range(len(batch)):
+            payload = batch.payload(number)
+            try:
+                walked = walk(self._layout, payload)
+            except MalformedMessage as error:
+                self._table.refused[str(error)] += 1
+                continue
+            message = int(numbers[number])
+            for rank, place in enumerate(walked.places):
+                stamp, seven = sample(payload, walked.order, place)
+                self._table.append(
+                    place.parent, place.child, self._static, (message, rank), stamp, seven
+                )
+
+
+class TemplateCutter(Cutter):
+    """Cuts them in numpy: equal layouts as rows of one table."""
+
+    def __init__(self, table: Table, layout: Layout, static: bool) -> None:
+        super().__init__(table, layout, static)
+        self._templates: dict[int, list[Template]] = {}
+        # Of a length: for how many layouts, which word tells them apart, and which part of it.
+        self._told: dict[int, tuple[int, int, int]] = {}
+        self._bytes = 0
+
+    def _cut(self, batch: Batch, numbers: Indexes) -> None:
+        lengths = batch.lengths
+        if len(batch) == 1:
+            self._walk(batch, numbers)
+            return
+        if (lengths == lengths[0]).all():
+            self._cut_equal(batch, numbers, int(lengths[0]))
+            return
+        for length in np.unique(lengths).tolist():
+            which = np.flatnonzero(lengths == length)
+            self._cut_equal(batch.chosen(which), numbers[which], length)
+
+    def _cut_equal(self, batch: Batch, numbers: Indexes, length: int) -> None:
+        """Cut messages that are equally long."""
+        begin, width = row_span(self._layout, length)
+        if width < SMALLEST:
+            self._walk(batch, numbers)
+            return
+        if int(batch.starts.min()) + begin < 0:
+            buffer = np.concatenate([np.zeros(8, dtype=np.uint8), batch.buffer])
+            batch = Batch(buffer, batch.starts + 8, batch.lengths, batch.log_times, batch.senders)
+        templates = self._templates.setdefault(length, [])
+        if len(templates) > 1:
+            batch, numbers = self._cut_told(batch, numbers, length)
+            if not len(batch):
+                return
+        rows = rows_of(batch.buffer, batch.starts + begin, width)
+        tried = 0
+        while len(rows):
+            if tried == len(templates):
+                if self._layout is CDR and int(rows[0, 0]) >> 32 != _LITTLE_HEADER:
+                    odd = rows[:, 0] >> np.uint64(32) != _LITTLE_HEADER
+                    self._walk(batch.chosen(np.flatnonzero(odd)), numbers[odd])
+                    rest = np.flatnonzero(~odd)
+                    rows, numbers, batch = rows[rest], numbers[rest], batch.chosen(rest)
+                    continue
+                if tried >= _PER_LENGTH or not self._learn(batch.payload(0), length):
+                    self._walk(batch, numbers)
+                    return
+            template = templates[tried]
+            fits = template.fits(rows)
+            if fits is None:
+                self._append(template, rows, numbers)
+                # What came last is likely to come next.
+                templates.insert(0, templates.pop(tried))
+                return
+            if fits.any():
+                self._append(template, rows[fits], numbers[fits])
+                rest = np.flatnonzero(~fits)
+                rows, numbers, batch = rows[rest], numbers[rest], batch.chosen(rest)
+            tried += 1
+
+    def _cut_told(self, batch: Batch, numbers: Indexes, length: int) -> tuple[Batch, Indexes]:
+        """Cut messages of layouts that one word tells apart: each row is copied only once.
+
+        Returns:
+            What is left, of layouts that are not known yet, in a batch and its numbers.
+        """
+        templates = self._templates[length]
+        told = self._told.get(length)
+        if told is None or told[0] != len(templates):
+            told = self._told[length] = (len(templates), *telling_word(templates))
+        _, word, mask = told
+        if not mask:
+            return batch, numbers
+        begin, width = row_span(self._layout, length)
+        starts = batch.starts + begin
+        found = words_at(batch.buffer, starts + 8 * word, "<u8")
+        found &= np.uint64(mask)
+        left = np.ones(len(batch), dtype=np.bool_)
+        for template in templates:
+            which = np.flatnonzero(found == np.uint64(template.value(word, mask)))
+            if not len(which):
+                continue
+            rows = rows_of(batch.buffer, starts[which], width)
+            fits = template.fits(rows)
+            if fits is not None:
+                which, rows = which[fits], rows[fits]
+            if len(which):
+                self._append(template, rows, numbers[which])
+                left[which] = False
+        rest = np.flatnonzero(left)
+        return batch.chosen(rest), numbers[rest]
+
+    def _learn(self, payload: bytes, length: int) -> bool:
+        """Make a template of a message; whether it could be one."""
+        try:
+            walked = walk(self._layout, payload)
+        except MalformedMessage:
+            return False
+        self._bytes += 4 * length
+        if self._bytes > _TEMPLATE_BYTES:
+            self._bytes = 0
+            self._templates = {length: self._templates[length]}
+            self._told.clear()
+        self._templates[length].append(Template(self._layout, payload, walked))
+        return True
+
+    def _append(self, template: Template, rows: Words, numbers: Indexes) -> None:
+        for rank, place in enumerate(template.places):
+            edge = self._table.edge(place.parent, place.child, self._static, len(rows))
+            if edge is not None:
+                last = int(numbers[-1])
+                share = self._table.share(last + 1)
+                records, messages = edge.room((int(numbers[0]), rank), last, len(rows), share)
+                template.cut(rows, place, records)
+                messages[:] = numbers
+
+
+class ScanCutter(Cutter):
+    """Cuts them natively."""
+
+    def __init__(self, table: Table, layout: Layout, static: bool) -> None:
+        super().__init__(table, layout, static)
+        self._pairs = SCAN.Pairs()
+        self._edges: list[Growing] = []
+        self._numbers: dict[Growing, int] = {}
+        self._of_pair: dict[int, int] = {}
+
+    def _cut(self, batch: Batch, numbers: Indexes) -> None:
+        if len(batch.buffer) >= _MOST_SCANNED:
+            self._walk(batch, numbers)
+            return
+        columns = map(np.ascontiguousarray, (batch.starts, batch.lengths, numbers))
+        is_cdr = self._layout is CDR
+        left_out, odd = self._pairs.take(batch.buffer, *columns, is_cdr, self._aim)
+        self._table.leave_out(left_out)
+        if odd:
+            which = np.frombuffer(odd, dtype=np.uint32).astype(np.int64)
+            self._walk(batch.chosen(which), numbers[which])
+
+    def _aim(self, pair: int, message: int, rank: int) -> None:
+        """Say where a pair's transforms go, and make room.
+
+        Args:
+            pair: Its number.
+            message: That of the message that brings the next one.
+            rank: The place in it.
+        """
+        number = self._of_pair.get(pair)
+        if number is not None:
+            self._give_room(number, message)
+            return
+        names = self._named(pair)
+        edge = self._table.edge(*names, self._static, 0)
+        if edge is None:
+            self._pairs.lead(pair, -1, False)
+            return
+        edge.first = min(edge.first, (message, rank))
+        # Names with a slash and without are of one edge.
+        number = self._numbers.setdefault(edge, len(self._edges))
+        if number == len(self._edges):
+            self._edges.append(edge)
+        self._of_pair[pair] = number
+        self._give_room(number, message)
+        self._pairs.lead(pair, number, names != (edge.parent, edge.child))
+
+    def _give_room(self, number: int, message: int) -> None:
+        edge = self._edges[number]
+        self._table.make_room(edge, message)
+        self._pairs.aim(number, edge.records, edge.messages, edge.state)
+
+    def _named(self, pair: int) -> tuple[str, str]:
+        """Both names of a pair as `walk` gives them."""
+        raw = self._pairs.names(pair)
+        if self._layout is CDR:
+            raw = tuple(name.removesuffix(b"\x00") for name in raw)
+        parent, child = (name.decode("utf-8", "backslashreplace") for name in raw)
+        return parent, child
+
+
+AnyCutter: TypeAlias = "Cutter | Decoding"
+"""Whatever takes a topic's messages into a table."""
+
+
+def cutter(table: Table, layout: Layout, static: bool) -> Cutter:
+    """What cuts messages of one layout and kind into a table, as fast as it can be done here."""
+    kind = TemplateCutter if SCAN is None else ScanCutter
+    return kind(table, layout, static)
+
+
+class Decoding:
+    """Takes messages with transforms in other shapes, one by one, into a table."""
+
+    def __init__(self, table: Table, decode: Decoder, static: bool) -> None:
+        self._table = table
+        self._decode = decode
+        self._static = static
+
+    def add(self, batch: Batch, numbers: Indexes) -> None:
+        """Decode messages; see `Cutter.add`."""
+        for number in range(len(batch)):
+            message = int(numbers[number])
+            try:
+                for rank, one in enumerate(self._decode(batch.payload(number))):
+                    stamp, parent, child, seven = one
+                    self._table.append(parent, child, self._static, (message, rank), stamp, seven)
+            except TftoolError as error:
+                self._table.refused[str(error)] += 1
+
+    def flush(self) -> None:
+        """Nothing waits."""
+
+
+def telling_word(templates: Sequence[Template]) -> tuple[int, int]:
+    """A word that differs between all of some templates, and which part of it; 0 for none."""
+    for word, mask in templates[0].constants():
+        values = [template.value(word, mask) for template in templates]
+        if -1 not in values and len(set(values)) == len(values):
+            return word, mask
+    return 0, 0
+
+
+def _compacted(batch: Batch) -> Batch:
+    """The same messages in a buffer of their own, with room before each for a row."""
+    pieces = []
+    starts = np.empty(len(batch), dtype=np.int64)
+    position = 0
+    for number, (start, length) in enumerate(
+        zip(batch.starts.tolist(), batch.lengths.tolist(), strict=True)
+    ):
+        pieces += [bytes(8), batch.buffer[start : start + length].tobytes()]
+        starts[number] = position + 8
+        position += 8 + length
+    buffer = np.frombuffer(b"".join(pieces), dtype=np.uint8)
+    return Batch(buffer, starts, batch.lengths, batch.log_times, batch.senders)

@@ -1,0 +1,513 @@
+"""A recording to ask: its frames over its whole length, in one buffer."""
+
+import os
+from collections import Counter
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import InputError, TftoolError, UsageError
+from tftool.base.near_names import near_names
+from tftool.base.stamps import SIMULATED_BELOW, Stamp
+from tftool.buffer.buffer import NO_LIMIT, Buffer
+from tftool.buffer.forest import stripped
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.messages.classes import Interfaces
+from tftool.messages.codec import Codec
+from tftool.messages.layouts import CDR, ROS1
+from tftool.recordings.column_cache import ColumnCache, KeptColumns
+from tftool.recordings.container_reader import Recorded
+from tftool.recordings.contract import (
+    Edge,
+    Floats,
+    Headers,
+    Indexes,
+    Progress,
+    Publisher,
+    RawMessage,
+    RecordedTopic,
+    Source,
+    Stamps,
+    Transforms,
+)
+from tftool.recordings.description_frames import (
+    DESCRIPTION,
+    DescribedFrames,
+    add_described,
+    description_topics,
+    missing_motion,
+    prefix_of,
+    read_description,
+)
+from tftool.recordings.find import find
+from tftool.recordings.joint_state_reader import (
+    RecordedJoints,
+    joint_state_topics,
+    read_joint_states,
+)
+from tftool.recordings.odometry import implying, joined
+from tftool.recordings.rosbag2.folder import open_found
+from tftool.robots.robot_model import Robot
+
+MOST_FRAMES: Final = 1 << 18
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Samples:
+    """Every recorded transform of one child, in the order of its stamps.
+
+    Attributes:
+        stamps: Nanoseconds, shape (n,).
+        parents: What it hung from each time, shape (n,).
+        translations: Metres, shape (n, 3).
+        rotations: Quaternions x y z w as recorded, shape (n, 4).
+        authorities: Who published each: the node where it is recorded, else the topic,
+            shape (n,).
+        log_times: When each was received, nanoseconds, shape (n,).
+        static: Whether each holds at all times, shape (n,).
+    """
+
+    stamps: Stamps
+    parents: npt.NDArray[np.object_]
+    translations: Floats
+    rotations: Floats
+    authorities: npt.NDArray[np.object_]
+    log_times: Stamps
+    static: npt.NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+
+class Recording:
+    """A recording, opened; `open_recording` makes one. Works in a `with`.
+
+    What it holds is known at once; transforms are read when they are first asked for.
+    """
+
+    def __init__(
+        self,
+        source: Source,
+        progress: Progress | None = None,
+        robot: Robot | None = None,
+        kept: KeptColumns | None = None,
+        with_odometry: bool = False,
+    ) -> None:
+        """Take a source.
+
+        Args:
+            source: What is read from.
+            progress: Is told how far reading has come.
+            robot: What the recorded robot is, in place of a description in the recording.
+            kept: Where its columns are kept from one question to the next.
+            with_odometry: Whether odometry and poses count as transforms.
+        """
+        self.source = source
+        self._with_odometry = with_odometry
+        self._kept = kept
+        self._robot = robot
+        self._progress = progress
+        self._oddities: Counter[str] = Counter()
+        self._described: DescribedFrames | None = None
+        self._closed = False
+
+    def __enter__(self) -> "Recording":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<Recording {self.source.name!r}, {self.source.kind}>"
+
+    def __reduce__(self) -> str:
+        raise UsageError(
+            f"Recording '{self.name}' holds open files, and cannot be copied or sent to another "
+            "process: open it there, with open_recording."
+        )
+
+    def close(self) -> None:
+        """Close its files; what was read stays."""
+        self._closed = True
+        self.source.close()
+
+    @property
+    def _readable(self) -> Source:
+        self._require_open()
+        return self.source
+
+    def _require_open(self) -> None:
+        # A closed file of SQLite's reads as one in which nothing is.
+        if self._closed:
+            raise UsageError(
+                f"Recording '{self.name}' is closed: read what you need of it while it is open, "
+                "inside its with block."
+            )
+
+    # What is in it
+
+    @property
+    def name(self) -> str:
+        """What was opened, as it was given."""
+        return self.source.name
+
+    @property
+    def topics(self) -> tuple[RecordedTopic, ...]:
+        """Every topic: name, type, number of messages; by name."""
+        return self.source.topics
+
+    @property
+    def publishers(self) -> tuple[Publisher, ...]:
+        """Who publishes what. Names of nodes stand in ROS 1 bags alone."""
+        return self.source.publishers
+
+    @property
+    def damage(self) -> tuple[str, ...]:
+        """What could not be read, as sentences; reading on may find more."""
+        return (*self.source.damage, *self._read_damage())
+
+    def _read_damage(self) -> tuple[str, ...]:
+        return self.transforms.damage if "transforms" in self.__dict__ else ()
+
+    @cached_property
+    def transforms(self) -> Transforms:
+        """Every transform, in columns per edge."""
+        found = None if self._kept is None else self._kept.load()
+        if found is None:
+            found = self._readable.transforms(progress=self._progress)
+            # A damaged file is read again, and its damage reported again.
+            if self._kept is not None and not self.source.damage and not found.damage:
+                self._kept.store(found)
+        topics = self.odometry
+        if topics:
+            names = [topic.name for topic in topics]
+            found = joined(found, self._readable.transforms(names, self._progress))
+        return found
+
+    @cached_property
+    def odometry(self) -> tuple[RecordedTopic, ...]:
+        """Topics that carry no transforms, and whose messages are taken for some as well."""
+        return implying(self.topics) if self._with_odometry else ()
+
+    @property
+    def edges(self) -> tuple[Edge, ...]:
+        """Every pair of parent and child, with its transforms as columns."""
+        return self.transforms.edges
+
+    @cached_property
+    def span(self) -> tuple[Stamp, Stamp]:
+        """First and last stamp of what moves, nanoseconds; log times where nothing does.
+
+        Of a recording with two clocks, those of the clock that most transforms have.
+        """
+        spans: dict[bool, tuple[int, int, int]] = {}
+        for edge in self.edges:
+            if edge.static:
+                continue
+            for chosen in _by_clock(edge.stamps):
+                first, last = int(chosen.min()), int(chosen.max())
+                simulated = first < SIMULATED_BELOW
+                count, low, high = spans.get(simulated, (0, first, last))
+                spans[simulated] = (count + len(chosen), min(low, first), max(high, last))
+        if not spans and self.robot is not None:
+            moved = [states.stamps for states in self.joint_states.states if len(states)]
+            if moved:
+                return min(int(one.min()) for one in moved), max(int(one.max()) for one in moved)
+        if not spans:
+            return self.source.start, self.source.end
+        _, low, high = max(spans.values())
+        return low, high
+
+    @property
+    def start(self) -> Stamp:
+        """First stamp of what moves, nanoseconds."""
+        return self.span[0]
+
+    @property
+    def end(self) -> Stamp:
+        """Last stamp of what moves, nanoseconds."""
+        return self.span[1]
+
+    # Asking
+
+    @cached_property
+    def buffer(self) -> Buffer:
+        """All of it, without a limit to its memory: look up at any stamp.
+
+        A static's last value holds at all times. Transforms that tf2 would refuse, or with
+        stamp 0 though they move, are left out; see `oddities`. Frames that tf lacks come from
+        the robot's description and its joint states, where there are; see `described`.
+        """
+        oddities = self._oddities
+        buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)
+        transforms = self.transforms
+        moving: dict[str, list[Edge]] = {}
+        static: dict[str, list[Edge]] = {}
+        for edge in transforms.edges:
+            (static if edge.static else moving).setdefault(edge.child, []).append(edge)
+        for child in {**moving, **static}:
+            kinds = [kind[child] for kind in (moving, static) if child in kind]
+            if len(kinds) > 1:
+                oddities[f"'{child}' is sent as static and as moving: what came last counts"] += 1
+                # In tf2 a frame is one or the other, and the last to come wipes the rest.
+                kinds.sort(key=lambda edges: max(map(_last, edges)))
+            for edges in kinds:
+                if edges[0].static:
+                    _set_static(buffer, transforms, edges, oddities)
+                    continue
+                for edge in edges:
+                    _set_moving(buffer, transforms, edge, oddities)
+        if self.robot is not None:
+            self._described = self._add_described(buffer, self.robot, {*moving, *static})
+        return buffer
+
+    def _add_described(
+        self, buffer: Buffer, robot: Robot, children: Collection[str]
+    ) -> DescribedFrames:
+        known = {*children, *buffer.frames()}
+        prefix = prefix_of(robot, known)
+        wanted = missing_motion(robot, children, prefix)
+        joints = self.joint_states if wanted else RecordedJoints()
+        for text, count in joints.ignored.items():
+            self._oddities[text] += count
+        return add_described(buffer, robot, joints, children, prefix)
+
+    # The robot in it
+
+    @cached_property
+    def robot(self) -> Robot | None:
+        """The robot, by its description: the one that was given, else the one recorded.
+
+        What is wrong with a recorded one is told in `oddities`.
+        """
+        if self._robot is not None:
+            return self._robot
+        if not any(name.rpartition("/")[2] == DESCRIPTION for name in self.source.names):
+            return None
+        for topic in description_topics(self.topics):
+            try:
+                return read_description(self._readable, topic)
+            except TftoolError as error:
+                first = str(error).strip().partition("\n")[0]
+                self._oddities[f"'{topic.name}' cannot be read: {first}"] += 1
+        return None
+
+    @cached_property
+    def joint_states(self) -> RecordedJoints:
+        """The joint states that belong to the robot, as columns."""
+        inside = description_topics(self.topics)
+        namespace = inside[0].name.rpartition("/")[0] if inside and self._robot is None else ""
+        return read_joint_states(self._readable, joint_state_topics(self.topics, namespace))
+
+    @property
+    def described(self) -> DescribedFrames | None:
+        """What the robot's description added to what tf holds; None without a description."""
+        _ = self.buffer
+        return self._described
+
+    @property
+    def oddities(self) -> dict[str, int]:
+        """What the buffer left out or had to choose, as sentences, and how often."""
+        _ = self.buffer
+        return dict(self._oddities)
+
+    def headers(self, topic: str) -> Headers:
+        """The headers of a topic's messages: stamps, log times and frame names as columns.
+
+        Raises:
+            InputError: If there is no such topic, or its messages have no header.
+        """
+        self._topic(topic)
+        found = self._readable.headers([topic], self._progress)
+        if topic not in found:
+            raise InputError(f"The messages of '{topic}' do not begin with a header.")
+        return found[topic]
+
+    def samples(self, frame: str) -> Samples:
+        """Every recorded transform of one child frame, as it was recorded.
+
+        Raises:
+            InputError: If it is the child of none.
+        """
+        transforms = self.transforms
+        edges = [edge for edge in transforms.edges if edge.child == stripped(frame)]
+        if not edges:
+            raise InputError(f"No transform of '{frame}' was recorded: {self._children()}.")
+        authorities = np.array([one.authority for one in transforms.publishers], dtype=object)
+        stamps = np.concatenate([edge.stamps for edge in edges])
+        order = np.argsort(stamps, kind="stable")
+        parents = [np.full(len(edge), edge.parent, dtype=object) for edge in edges]
+        senders: Indexes = np.concatenate([transforms.senders_of(edge) for edge in edges])
+        return Samples(
+            stamps[order],
+            np.concatenate(parents)[order],
+            np.concatenate([edge.translations for edge in edges])[order],
+            np.concatenate([edge.rotations for edge in edges])[order],
+            authorities[senders[order]],
+            np.concatenate([transforms.log_times_of(edge) for edge in edges])[order],
+            np.concatenate([np.full(len(edge), edge.static) for edge in edges])[order],
+        )
+
+    def raw_messages(self, topic: str) -> Iterator[RawMessage]:
+        """A topic's messages as they were recorded, one by one.
+
+        Raises:
+            InputError: If there is no such topic.
+            UsageError: If the recording is closed, also when that is done between two messages.
+        """
+        self._topic(topic)
+        return self._while_open(self._readable.messages([topic]))
+
+    def _while_open(self, messages: Iterator[RawMessage]) -> Iterator[RawMessage]:
+        self._require_open()
+        for message in messages:
+            yield message
+            self._require_open()
+
+    def messages(self, topic: str) -> Iterator[tuple[Stamp, Any]]:
+        """A topic's messages, decoded one by one by the definition in the recording.
+
+        Returns:
+            For each the moment it was received, nanoseconds, and the message: a class with
+            the definition's fields.
+
+        Raises:
+            InputError: If there is no such topic, or its type or encoding is not known.
+            UsageError: As for `raw_messages`.
+        """
+        found = self._topic(topic)
+        layout = {"cdr": CDR, "ros1": ROS1}.get(found.encoding)
+        if layout is None:
+            raise InputError(
+                f"The messages of '{topic}' are written as '{found.encoding}', which is not "
+                "decoded here: raw_messages gives their bytes."
+            )
+        kind = Interfaces().recorded(found.type, found.definition)
+        decode = Codec(kind, layout).decode
+        return ((raw.log_time, decode(raw.payload)) for raw in self.raw_messages(topic))
+
+    def _topic(self, name: str) -> RecordedTopic:
+        for topic in self.topics:
+            if topic.name == name:
+                return topic
+        known = [topic.name for topic in self.topics]
+        near = near_names(name, known, 3)
+        rest = f" and {len(known) - 8} more" if len(known) > 8 else ""
+        there = f"there are {', '.join(sorted(known)[:8])}{rest}." if known else "there are none."
+        hint = f"did you mean {' or '.join(near)}?" if near else there
+        raise InputError(f"No topic '{name}' was recorded; {hint}")
+
+    def _children(self) -> str:
+        children = sorted({edge.child for edge in self.edges})
+        shown = ", ".join(children[:8])
+        return f"there are {shown}{' …' if len(children) > 8 else ''}" if children else "none is"
+
+
+def _by_clock(stamps: Stamps) -> list[Stamps]:
+    """Stamps above 0, those of a simulation's clock apart from others; as a rule all of one."""
+    if len(stamps) and stamps.min() >= SIMULATED_BELOW:
+        return [stamps]
+    stamps = stamps[stamps > 0]
+    is_sim = stamps < SIMULATED_BELOW
+    return [chosen for chosen in (stamps[~is_sim], stamps[is_sim]) if len(chosen)]
+
+
+def _set_moving(
+    buffer: Buffer,
+    transforms: Transforms,
+    edge: Edge,
+    oddities: "Counter[str]",
+) -> None:
+    authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
+    records, stamps = edge.records, edge.stamps
+    # Where the first one has no stamp 0 and each is newer, none has: they need not be looked at.
+    later = len(edge) and stamps[0] > 0
+    if later and buffer.adopt_records(edge.parent, edge.child, records, authority, edge.kept):
+        return
+    if not stamps.all():
+        text = f"'{edge.child}' moves, but has stamp 0: left out, as tf2 takes 0 for the latest"
+        oddities[text] += len(edge) - int(np.count_nonzero(stamps))
+        records = records[stamps != 0]
+    report = buffer.set_records(edge.parent, edge.child, records, authority)
+    if report is not None and not report:
+        for code, rows in report.reasons.items():
+            text = f"{_REFUSED.get(code, code)} ('{edge.child}' in '{edge.parent}')"
+            oddities[text] += len(rows)
+
+
+def _set_static(
+    buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
+) -> None:
+    """Set the last of a child's statics, whichever parent it names."""
+    edge = max(edges, key=_last)
+    authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
+    x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()
+    pose = Transform((x, y, z), (qx, qy, qz, qw))
+    sample = TransformStamped(int(edge.stamps[-1]), edge.parent, edge.child, pose)
+    if not buffer.set_transform_static(sample, authority):
+        oddities[f"the static '{edge.child}' in '{edge.parent}' is refused by tf2"] += 1
+    if sum(map(len, edges)) == 1:
+        return
+    values = sum(len(np.unique(one.records[:, 1:], axis=0)) for one in edges)
+    if values > 1:
+        text = f"'{edge.child}' has {values} different static values: the last one counts"
+        oddities[text] += 1
+
+
+_REFUSED: Final = {
+    "TF_NAN_INPUT": "not a number",
+    "TF_DENORMALIZED_QUATERNION": "a zero quaternion",
+    "TF_SELF_TRANSFORM": "a frame that is its own parent",
+    "TF_NO_CHILD_FRAME_ID": "no child frame",
+    "TF_NO_FRAME_ID": "no parent frame",
+    "TF_TOO_MANY_FRAMES": "too many frames",
+}
+
+
+def _last(edge: Edge) -> int:
+    return int(edge.messages[-1]) if len(edge) else -1
+
+
+def _silent(level: str, text: str) -> None:
+    """What a buffer refuses is counted here instead."""
+
+
+def open_recording(
+    path: "str | os.PathLike[str]",
+    *,
+    progress: Progress | None = None,
+    robot: Robot | None = None,
+    cache: ColumnCache | None = None,
+    with_odometry: bool = False,
+) -> Recording:
+    """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of several.
+
+    What it is is decided by its content. Damaged files are read up to the damage, and
+    `Recording.damage` says so.
+
+    Args:
+        path: File, folder or glob.
+        progress: Is told how many bytes of how many are read, while they are.
+        robot: What the recorded robot is, where the recording has no description of it, or
+            another one; see `load_urdf`.
+        cache: Where the columns of large recordings are kept for the next time; nowhere if None.
+        with_odometry: Whether messages of type Odometry, PoseStamped and
+            PoseWithCovarianceStamped count as transforms, of frames that no transform was sent
+            of. A pose names no frame: its topic does.
+
+    Raises:
+        InputError: If nothing can be read.
+        UsageError: If it is compressed, and the extra `recordings` is not installed.
+    """
+    name = os.fspath(path)
+    try:
+        found = find(name)
+        kept = None if cache is None else KeptColumns(cache, found)
+        return Recording(Recorded(name, open_found(found)), progress, robot, kept, with_odometry)
+    except OSError as error:
+        raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error

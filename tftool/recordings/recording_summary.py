@@ -1,0 +1,159 @@
+"""What a recording holds, in numbers: edges with rates and clock offsets, trees, what is odd."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tftool.base.stamps import SIMULATED_BELOW, Duration, Stamp
+from tftool.recordings.contract import Edge, Transforms, median
+from tftool.recordings.recording import Recording
+
+
+@dataclass(frozen=True, slots=True)
+class Offset:
+    """How much later than its stamp a transform was received, nanoseconds."""
+
+    least: Duration
+    median: Duration
+    most: Duration
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeFacts:
+    """One edge in numbers.
+
+    Attributes:
+        parent: Name.
+        child: Name.
+        static: Whether it holds at all times.
+        count: How many transforms.
+        rate: Hertz, by the median of its periods; None of a static or a single one.
+        first: First stamp.
+        last: Last stamp.
+        offset: Log time against stamp; None of a static.
+        simulated: Whether its stamps count from a simulation's start.
+        publishers: Who sent it: nodes where they are recorded, else topics.
+    """
+
+    parent: str
+    child: str
+    static: bool
+    count: int
+    rate: float | None
+    first: Stamp
+    last: Stamp
+    offset: Offset | None
+    simulated: bool
+    publishers: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TreeFacts:
+    """One tree: its root, and how many frames it has, by each frame's last parent."""
+
+    root: str
+    frames: int
+
+
+def edge_facts(transforms: Transforms) -> list[EdgeFacts]:
+    """Every edge in numbers, in the order in which they came up."""
+    return [_facts(transforms, edge) for edge in transforms.edges if len(edge)]
+
+
+def _facts(transforms: Transforms, edge: Edge) -> EdgeFacts:
+    stamps = edge.stamps
+    senders = transforms.senders_of(edge)
+    # Most edges come from one publisher, and in order: to find others takes several times as long.
+    numbers = [senders[0]] if senders.min() == senders.max() else np.unique(senders).tolist()
+    publishers = tuple(sorted({transforms.publishers[one].authority for one in numbers}))
+    first, last = int(stamps.min()), int(stamps.max())
+    rate = offset = None
+    if not edge.static:
+        periods = stamps[1:] - stamps[:-1]
+        if len(periods) and periods.min() <= 0:
+            ordered = np.sort(stamps)
+            periods = ordered[1:] - ordered[:-1]
+            periods = periods[periods > 0]
+        rate = 1e9 / median(periods) if len(periods) else None
+        late = transforms.log_times_of(edge) - stamps
+        offset = Offset(int(late.min()), int(median(late)), int(late.max()))
+    return EdgeFacts(
+        edge.parent,
+        edge.child,
+        edge.static,
+        len(edge),
+        rate,
+        first,
+        last,
+        offset,
+        not edge.static and first < SIMULATED_BELOW and 0 < int(median(stamps)) < SIMULATED_BELOW,
+        publishers,
+    )
+
+
+def trees(transforms: Transforms) -> list[TreeFacts]:
+    """Every tree, the largest first."""
+    parents: dict[str, tuple[int, str]] = {}
+    names: dict[str, None] = {}
+    for edge in transforms.edges:
+        if not len(edge):
+            continue
+        last = int(edge.messages[-1])
+        names.setdefault(edge.parent)
+        names.setdefault(edge.child)
+        if parents.get(edge.child, (-1, ""))[0] < last:
+            parents[edge.child] = last, edge.parent
+    roots: dict[str, str] = {}
+    for name in names:
+        passed: dict[str, None] = {}
+        here = name
+        # Up to a root, to what is known already, or round a loop.
+        while here not in roots and here in parents and here not in passed:
+            passed[here] = None
+            here = parents[here][1]
+        root = roots.get(here, here)
+        for one in (*passed, here):
+            roots[one] = root
+    counts: dict[str, int] = {}
+    for root in roots.values():
+        counts[root] = counts.get(root, 0) + 1
+    return [TreeFacts(root, n) for root, n in sorted(counts.items(), key=lambda one: -one[1])]
+
+
+def oddities(
+    recording: Recording, edges: Sequence[EdgeFacts], forest: Sequence[TreeFacts]
+) -> list[str]:
+    """What is odd about a recording's transforms, as sentences; damage is told apart.
+
+    Args:
+        recording: Which.
+        edges: Its edges in numbers.
+        forest: Its trees.
+    """
+    found = [
+        f"{text}." if count == 1 else f"{text} ({count} times)."
+        for text, count in recording.oddities.items()
+    ]
+    facts = [one for one in edges if not one.static]
+    simulated = [one for one in facts if one.simulated]
+    if simulated and len(simulated) < len(facts):
+        odd = min(simulated, [one for one in facts if not one.simulated], key=len)
+        names = ", ".join(f"{one.child} in {one.parent}" for one in odd[:4])
+        found.append(
+            f"Two clocks: the stamps of {names}{' …' if len(odd) > 4 else ''} count from "
+            f"{'the start of a simulation' if odd[0].simulated else '1970'}, those of other edges "
+            "do not. The node that sends them lacks use_sim_time, or should not have it."
+        )
+    elif simulated and recording.source.start >= SIMULATED_BELOW:
+        found.append("Stamps count from the start of a simulation; log times from 1970.")
+    if len(forest) > 1:
+        roots = ", ".join(tree.root for tree in forest[:4])
+        found.append(
+            f"{len(forest)} trees that nothing joins, with the roots {roots}"
+            f"{' …' if len(forest) > 4 else ''}."
+        )
+    slashed = sum(edge.slashed for edge in recording.edges)
+    if slashed:
+        found.append(f"{slashed} transforms have frame names with a leading slash, left out here.")
+    return found

@@ -1,0 +1,202 @@
+"""A recording to write: transforms and messages into a file that `open_recording` reads."""
+
+import os
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from tftool.base.stamps import Stamp
+from tftool.buffer.sample import TransformStamped
+from tftool.messages.classes import INTERFACES, Message
+from tftool.messages.codec import codec
+from tftool.messages.transforms import encode_transforms
+from tftool.recordings.channel import Channel, ContainerWriter
+from tftool.recordings.containers import container_of, open_container
+from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
+from tftool.recordings.target import Target, failed
+
+
+class RecordingWriter:
+    """A recording that is being written; `write_recording` makes one. Works in a `with`.
+
+    At the end of the `with` it comes to its name, whole; an exception that leaves the `with`
+    takes what was written away, and the name stays what it was.
+    """
+
+    def __init__(self, target: Target, container: ContainerWriter) -> None:
+        """Take what is written to.
+
+        Args:
+            target: Where it comes to stand.
+            container: What takes the messages.
+        """
+        self._target = target
+        self.container = container
+        self._numbers: dict[Channel, int] = {}
+        self._last = 0
+
+    def __enter__(self) -> "RecordingWriter":
+        return self
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if kind is None:
+            self.close()
+            return
+        self.discard()
+        if isinstance(error, OSError):
+            raise failed(self._target.path, error) from error
+
+    def __repr__(self) -> str:
+        return f"<RecordingWriter {str(self._target.path)!r}>"
+
+    def transforms(
+        self,
+        samples: Iterable[TransformStamped],
+        log_time: Stamp | None = None,
+        topic: str = "/tf",
+    ) -> None:
+        """Append one message of transforms.
+
+        Args:
+            samples: The transforms in it.
+            log_time: When it was received, nanoseconds; the newest stamp where it is not said.
+            topic: Where it was sent.
+        """
+        self._write_transforms(samples, log_time, topic, static=False)
+
+    def static_transforms(
+        self,
+        samples: Iterable[TransformStamped],
+        log_time: Stamp | None = None,
+        topic: str = "/tf_static",
+    ) -> None:
+        """Append one message of transforms that hold at all times; see `transforms`."""
+        self._write_transforms(samples, log_time, topic, static=True)
+
+    def _write_transforms(
+        self, samples: Iterable[TransformStamped], log_time: Stamp | None, topic: str, static: bool
+    ) -> None:
+        chosen = tuple(samples)
+        if log_time is None:
+            log_time = max((one.stamp for one in chosen), default=0) or self._last
+        channel = ros2_channel(topic, TRANSFORMS, static=static)
+        self.raw(channel, log_time, encode_transforms(chosen))
+
+    def message(self, topic: str, message: Message, log_time: Stamp) -> None:
+        """Append one message of a class that we know the definition of.
+
+        Raises:
+            InputError: If the definition is not ours, or a value does not fit its field.
+        """
+        kind = type(message)
+        self.raw(ros2_channel(topic, kind.interface__), log_time, codec(kind).encode(message))
+
+    def raw(
+        self,
+        channel: Channel,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append one message as it is.
+
+        Args:
+            channel: The stream it belongs to.
+            log_time: When it was received, nanoseconds.
+            payload: Its bytes, in the channel's encoding.
+            publish_time: When it was sent; `log_time` where it is not said.
+            sequence: Its number at its publisher.
+        """
+        number = self._numbers.get(channel)
+        if number is None:
+            number = self._numbers[channel] = self.container.channel(channel)
+        self._last = max(self._last, log_time)
+        self.container.write(number, log_time, payload, publish_time, sequence)
+
+    def new_message(self, kind: str) -> Any:
+        """An empty message of a type: `new_message("std_msgs/String")`.
+
+        Raises:
+            InputError: If the type is not known.
+        """
+        return INTERFACES.message(kind)()
+
+    def close(self) -> None:
+        """Write the rest, and bring the recording to its name.
+
+        Raises:
+            InputError: If that fails; what was written is gone then.
+        """
+        try:
+            self.container.finish()
+        except OSError as error:
+            self.discard()
+            raise failed(self._target.path, error) from error
+        except BaseException:
+            self.discard()
+            raise
+        self._target.commit()
+
+    def discard(self) -> None:
+        """Take away what was written; the name stays what it was."""
+        self.container.abandon()
+        self._target.discard()
+
+
+def write_recording(
+    path: "str | os.PathLike[str]",
+    *,
+    compression: str | None = None,
+    storage: str = "mcap",
+    profile: str = "ros2",
+    force: bool = False,
+) -> RecordingWriter:
+    """Begin a recording: MCAP, rosbag2 or a ROS 1 bag, as its name asks for.
+
+        with tftool.write_recording("run.mcap") as recording:
+            recording.static_transforms([laser_in_base])
+            recording.transforms([base_in_odom])
+
+    It is written beside its place and comes to its name when it is whole.
+
+    Args:
+        path: A name that ends in ".mcap", ".db3" or ".bag"; without a suffix it is a folder as
+            rosbag2 records it.
+        compression: "zstd", "lz4" or "none" in MCAP (zstd if None), "bz2", "lz4" or "none" in
+            ROS 1 bags (none if None).
+        storage: What a folder holds: "mcap" or "sqlite3".
+        profile: Whose rules the channels of an MCAP file follow: "ros2", or "" for none.
+        force: Whether it may replace what stands there.
+
+    Raises:
+        UsageError: If something stands there and `force` is not given, the name ends otherwise,
+            or the compression is not known or not installed.
+        InputError: If it cannot be written there.
+    """
+    place = Path(path)
+    target = Target(place, folder=not container_of(place), force=force)
+    try:
+        container = open_container(
+            target.part,
+            place,
+            storage=storage,
+            compression=compression,
+            profile=profile,
+            library=library_name(),
+        )
+    except OSError as error:
+        target.discard()
+        raise failed(place, error) from error
+    except BaseException:
+        target.discard()
+        raise
+    return RecordingWriter(target, container)
+
+
+def library_name() -> str:
+    """What we call ourselves in files."""
+    # The package stands above every room: it is asked, not imported.
+    version: str = sys.modules["tftool"].__version__
+    return f"tftool {version}"

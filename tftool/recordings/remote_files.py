@@ -1,0 +1,90 @@
+"""Recordings elsewhere: what `fsspec` opens, fetched for as long as it is read."""
+
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from tftool.base.errors import InputError, UsageError
+
+_URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*(?:::.*)?://")
+
+
+def is_url(word: str) -> bool:
+    """Whether a word names something elsewhere: `s3://bucket/run.mcap`, `https://…`."""
+    return _URL.match(word) is not None and not os.path.lexists(word)
+
+
+@contextmanager
+def fetched(place: str) -> Iterator[str]:
+    """A recording as a path: a URL is copied into a folder that is gone afterwards.
+
+    Args:
+        place: A path, which is given back, or a URL.
+
+    Raises:
+        InputError: If there is nothing there, or it cannot be fetched.
+        UsageError: If fsspec is not installed.
+    """
+    if not is_url(place):
+        yield place
+        return
+    with tempfile.TemporaryDirectory(prefix="tftool-") as folder:
+        system, path = _opened(place)
+        # The name stays, since parts of a recording are told by it.
+        name = path.rstrip("/").rpartition("/")[2] or "recording"
+        own = os.path.join(folder, re.sub(r"[^\w.-]", "_", name))
+        with _failures_told(place):
+            if system.isdir(path):
+                system.get(path.rstrip("/") + "/", own + os.sep, recursive=True)
+            else:
+                system.get_file(path, own)
+        yield own
+
+
+def listed(place: str) -> list[str]:
+    """The URLs that one with `*`, `?` or `[…]` in it names; one without names itself.
+
+    Raises:
+        InputError: If it names nothing, or cannot be listed.
+        UsageError: If fsspec is not installed.
+    """
+    system, path = _opened(place)
+    web = place.lower().startswith(("http:", "https:"))
+    # There a question mark begins a query.
+    if not re.search(r"[*\[]" if web else r"[*?\[]", path):
+        return [place]
+    with _failures_told(place):
+        found = sorted(system.glob(path))
+    if not found:
+        raise InputError(f"Nothing is named by '{place}'.")
+    return [system.unstrip_protocol(one) for one in found]
+
+
+def _opened(place: str) -> tuple[Any, str]:
+    try:
+        import fsspec
+    except ImportError:
+        raise UsageError(
+            f"'{place}' needs an extra to be fetched: pip install 'tftool-tf2[fleet]'"
+        ) from None
+    with _failures_told(place):
+        system, path = fsspec.core.url_to_fs(place)
+    return system, path
+
+
+@contextmanager
+def _failures_told(place: str) -> Iterator[None]:
+    """Every service has errors of its own; ours says which place it was about."""
+    try:
+        yield
+    except FileNotFoundError as error:
+        raise InputError(f"There is nothing at '{place}'.") from error
+    except ImportError as error:
+        # fsspec names the packages that a kind of place needs.
+        raise UsageError(f"'{place}' needs more than the extra 'fleet': {error}") from error
+    except Exception as error:
+        said = " ".join(str(error).split()) or type(error).__name__
+        raise InputError(f"'{place}' cannot be fetched: {said}") from error

@@ -1,0 +1,381 @@
+"""A recording that grows while a session runs: what is lost with a kill is a second, at most.
+
+Until a file is closed it has `.active` behind its name, as ROS 1's recorder has it; what is in it
+then can be read, and `tftool edit` makes it whole.
+"""
+
+import os
+from collections import deque
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, NamedTuple
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.messages.layouts import CDR
+from tftool.messages.splice import TransformRow, TransformRows, encode_rows
+from tftool.recordings.channel import Channel
+from tftool.recordings.mcap.write import McapWriter
+from tftool.recordings.recording_writer import library_name
+from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
+from tftool.recordings.target import failed, refuse_existing, synced
+
+ACTIVE: Final = ".active"
+"""What is added to a name while the file is open."""
+
+CHUNK_SIZE: Final = 256 * 1024
+"""Bytes of messages in a chunk: what is in one that is not full is lost with a kill."""
+
+CHUNK_TIME: Final = seconds(1)
+"""How long messages wait in a chunk, at most."""
+
+MOST_HELD: Final = 1 << 30
+"""Bytes of messages that a ring holds in memory; beyond, the oldest go."""
+
+
+class Kept(NamedTuple):
+    """One message that waits in a ring."""
+
+    channel: Channel
+    log_time: Stamp
+    payload: bytes
+    transforms: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class RecordLimits:
+    """When a recording begins a new file, or forgets.
+
+    Attributes:
+        size: Bytes of a file before the next one begins; 0 for one file.
+        duration: Nanoseconds of it, likewise.
+        ring: How much of the past is held in memory and written in the end; 0 to write at once.
+    """
+
+    size: int = 0
+    duration: Duration = 0
+    ring: Duration = 0
+
+    @property
+    def splits(self) -> bool:
+        """Whether there may be several files."""
+        return bool(self.size or self.duration)
+
+
+class RollingRecording:
+    """An MCAP file, or a folder of them, that takes messages as they arrive.
+
+    Attributes:
+        path: Its name in the end.
+        messages: How many messages came; of a ring that is closed, how many it wrote.
+        transforms: How many transforms were in them.
+        size: Bytes written, or held.
+        files: Names of the files that are closed, in order.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        limits: RecordLimits | None = None,
+        *,
+        compression: str = "zstd",
+        force: bool = False,
+    ) -> None:
+        """Begin it; with a ring nothing is written before `close`.
+
+        Args:
+            path: A name that ends in ".mcap", or one without a suffix for a folder.
+            limits: When to begin a new file.
+            compression: "zstd", "lz4" or "none".
+            force: Whether it may replace what has that name.
+
+        Raises:
+            UsageError: If there is something of that name and `force` is not given, or the name
+                cannot hold what is asked for.
+            InputError: If it cannot be written there.
+        """
+        self.path = path
+        self._limits = limits or RecordLimits()
+        self._compression = compression
+        self._is_folder = not path.suffix
+        if path.suffix not in ("", ".mcap"):
+            raise UsageError(f"'{path.name}' names no container that is recorded: '.mcap' does.")
+        if self._limits.splits and not self._is_folder:
+            raise UsageError(
+                "--max-size and --max-duration write several files, into a folder: name one, "
+                f"without '{path.suffix}' (-o {path.with_suffix('')})."
+            )
+        self.messages = self.transforms = 0
+        self.files: list[str] = []
+        self._facts: list[FileFacts] = []
+        self._topics: dict[Channel, int] = {}
+        self._statics: dict[Channel, dict[tuple[str, str], TransformRow]] = {}
+        self._held: deque[Kept] = deque()
+        self._held_bytes = 0
+        self._written = 0
+        self._writer: McapWriter | None = None
+        self._numbers: dict[int, tuple[int, Channel]] = {}
+        self._file_start: Stamp | None = None
+        self._last = 0
+        self._flushed: Stamp = 0
+        self._closed = False
+        self._make_way(force)
+        if not self._limits.ring:
+            # What cannot be written is to be known now, not after an hour.
+            self._open()
+
+    def _make_way(self, force: bool) -> None:
+        active = self._place(0).with_name(self._place(0).name + ACTIVE)
+        left = active if not self._is_folder else self.path / f"{self.path.name}_0.mcap{ACTIVE}"
+        if left.exists() and not force:
+            raise UsageError(
+                f"'{left}' is what a recorder left that did not end: 'tftool edit {left} -o "
+                "FILE.mcap' makes it whole. --force replaces it."
+            )
+        if self._is_folder and os.path.lexists(self.path):
+            # Its files would have to go before there are new ones.
+            raise UsageError(f"'{self.path}' exists: a folder is not replaced, name another one.")
+        refuse_existing(self.path, force=force)
+        try:
+            if self._is_folder:
+                self.path.mkdir()
+            elif self.path.is_dir():
+                raise UsageError(f"'{self.path}' is a folder: not replaced.")
+            elif not os.access(self.path.parent, os.W_OK):
+                # A ring is written in the end: that it can be must be known before.
+                active.open("xb").close()
+                active.unlink()
+        except OSError as error:
+            raise failed(self.path, error) from error
+
+    @property
+    def size(self) -> int:
+        """Bytes written so far, or held in the ring."""
+        return self._written + self._held_bytes + (self._writer.size if self._writer else 0)
+
+    def _place(self, number: int) -> Path:
+        if not self._is_folder:
+            return self.path
+        return self.path / f"{self.path.name}_{number}.mcap"
+
+    # Messages
+
+    def take(self, channel: Channel, log_time: Stamp, payload: bytes, transforms: int = 0) -> None:
+        """Take one message.
+
+        Args:
+            channel: The stream it belongs to.
+            log_time: When it was received.
+            payload: Its bytes.
+            transforms: How many transforms are in it.
+
+        Raises:
+            InputError: If it cannot be written; what was written before stays readable.
+        """
+        if self._closed:
+            return
+        self.messages += 1
+        self.transforms += transforms
+        self._last = log_time
+        if self._limits.ring:
+            self._held.append(Kept(channel, log_time, payload, transforms))
+            self._held_bytes += len(payload)
+            self._forget(log_time)
+        else:
+            self._write(channel, log_time, payload)
+        if transforms and channel.topic.rpartition("/")[2] == "tf_static":
+            self._keep_static(channel, payload)
+
+    def _forget(self, now: Stamp) -> None:
+        """Drop what is older than the ring is long."""
+        held, oldest = self._held, now - self._limits.ring
+        while held and (held[0].log_time < oldest or self._held_bytes > MOST_HELD):
+            self._held_bytes -= len(held.popleft().payload)
+
+    def _keep_static(self, channel: Channel, payload: bytes) -> None:
+        try:
+            rows = TransformRows(CDR, payload).rows
+        except InputError:
+            return
+        kept = self._statics.setdefault(channel, {})
+        for row in rows:
+            kept[row.parent, row.child] = row
+            # A child has one static: the last one, from whichever publisher.
+            for other, others in self._statics.items():
+                for link in [one for one in others if one[1] == row.child]:
+                    if other != channel or link[0] != row.parent:
+                        del others[link]
+
+    def _write(self, channel: Channel, log_time: Stamp, payload: bytes) -> None:
+        try:
+            writer = self._writer
+            if writer is None or self._is_full(writer, log_time):
+                writer = self._next(log_time)
+            if self._file_start is None:
+                self._file_start = self._flushed = log_time
+            # By identity: to hash a channel's texts for every message takes as long as writing it.
+            known = self._numbers.get(id(channel))
+            number = self._number(writer, channel) if known is None else known[0]
+            writer.write(number, log_time, payload)
+            if log_time - self._flushed >= CHUNK_TIME:
+                writer.flush()
+                self._flushed = log_time
+        except OSError as error:
+            raise self._rescued(error) from error
+
+    def _number(self, writer: McapWriter, channel: Channel) -> int:
+        """The number of a stream in the file that is open."""
+        number = writer.channel(channel)
+        self._numbers[id(channel)] = number, channel
+        return number
+
+    def _is_full(self, writer: McapWriter, now: Stamp) -> bool:
+        limits = self._limits
+        if self._file_start is None:
+            return False
+        too_large = limits.size and writer.size >= limits.size
+        too_long = limits.duration and now - self._file_start >= limits.duration
+        return bool(too_large or too_long)
+
+    def _next(self, now: Stamp) -> McapWriter:
+        """Begin the next file, with all statics at its head."""
+        if self._writer is not None:
+            self._close_file()
+        writer = self._open()
+        self._file_start = self._flushed = now
+        self._write_statics(writer, now)
+        return writer
+
+    def _write_statics(self, writer: McapWriter, now: Stamp) -> None:
+        for channel, rows in self._statics.items():
+            if rows:
+                number = self._number(writer, channel)
+                writer.write(number, now, encode_rows(CDR, tuple(rows.values())))
+        writer.flush()
+
+    def _open(self) -> McapWriter:
+        place = self._place(len(self.files))
+        try:
+            self._writer = McapWriter(
+                place.with_name(place.name + ACTIVE),
+                library=library_name(),
+                compression=self._compression,
+                chunk_size=CHUNK_SIZE,
+            )
+        except OSError as error:
+            raise failed(place, error) from error
+        self._numbers = {}
+        self._file_start = None
+        return self._writer
+
+    def tick(self, now: Stamp) -> None:
+        """Write what has waited for a second; call it a few times a second.
+
+        Raises:
+            InputError: If it cannot be written; what was written before stays readable.
+        """
+        if self._writer is None or now - self._flushed < CHUNK_TIME:
+            return
+        try:
+            self._writer.flush()
+        except OSError as error:
+            raise self._rescued(error) from error
+        self._flushed = now
+
+    def held(self) -> list[Kept]:
+        """What the ring holds, the oldest first; the statics in front."""
+        statics = [
+            Kept(
+                channel,
+                self._held[0].log_time if self._held else self._last,
+                payload,
+                len(rows),
+            )
+            for channel, rows in self._statics.items()
+            if rows
+            for payload in (encode_rows(CDR, tuple(rows.values())),)
+        ]
+        return [*statics, *self._held]
+
+    # The end
+
+    def close(self) -> None:
+        """Write the rest, and give every file its name.
+
+        Raises:
+            InputError: If that fails; what was written before stays readable.
+        """
+        if self._closed:
+            return
+        try:
+            if self._limits.ring:
+                # From now on these say what is in the file, and not what went by.
+                held = self.held()
+                self.messages = len(held)
+                self.transforms = sum(kept.transforms for kept in held)
+                if held:
+                    self._next(held[0].log_time)
+                # Statics that were sent within the ring stand in it once more.
+                for kept in self._held:
+                    self._write(kept.channel, kept.log_time, kept.payload)
+                self._held.clear()
+                self._held_bytes = 0
+            self._closed = True
+            if self._writer is None:
+                self._open()
+            self._close_file()
+            if self._is_folder:
+                write_metadata(self.path, metadata_text("mcap", self._facts, self._topics))
+                synced(self.path)
+        except OSError as error:
+            raise self._rescued(error) from error
+
+    def discard(self) -> None:
+        """Close it, and take everything of it away."""
+        self._closed = True
+        if self._writer is not None:
+            self._writer.abandon()
+            self._writer = None
+        for number in range(len(self.files)):
+            self._place(number).unlink(missing_ok=True)
+        place = self._place(len(self.files))
+        place.with_name(place.name + ACTIVE).unlink(missing_ok=True)
+        if self._is_folder:
+            self.path.rmdir()
+
+    def _close_file(self) -> None:
+        writer = self._writer
+        assert writer is not None
+        writer.finish()
+        self._named(writer)
+
+    def _named(self, writer: McapWriter) -> None:
+        """Give a file that is closed its name."""
+        place = self._place(len(self.files))
+        active = place.with_name(place.name + ACTIVE)
+        synced(active)
+        active.replace(place)
+        synced(place.parent)
+        self._writer = None
+        self._written += place.stat().st_size
+        self.files.append(place.name)
+        for number, channel in dict(self._numbers.values()).items():
+            self._topics[channel] = self._topics.get(channel, 0) + writer.counts.get(number, 0)
+        start, end = writer.span
+        self._facts.append(FileFacts(place.name, start, end, sum(writer.counts.values())))
+
+    def _rescued(self, error: OSError) -> InputError:
+        """Save what is written, and say why there is no more."""
+        self._closed = True
+        writer, self._writer = self._writer, None
+        where = self.path
+        kept = sum(one.count for one in self._facts)
+        if writer is not None:
+            kept += sum(writer.counts.values())
+            place = self._place(len(self.files))
+            if writer.rescue():
+                self._named(writer)
+            elif self.files or not self._is_folder:
+                where = place.with_name(place.name + ACTIVE)
+        refusal = failed(self.path, error)
+        return InputError(f"{refusal} {kept} messages up to there can be read in '{where}'.")

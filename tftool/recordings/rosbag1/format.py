@@ -1,0 +1,202 @@
+"""What stands in a ROS 1 bag: its records, and the messages that a chunk's index tells of.
+
+Source: wiki.ros.org/Bags/Format/2.0.
+"""
+
+import struct
+from collections.abc import Iterator
+from typing import Final, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.messages.native_scan import SCAN
+from tftool.messages.transform_rows import Bytes
+from tftool.recordings.columns import words_at
+from tftool.recordings.container import File
+from tftool.recordings.contract import Stamps
+from tftool.recordings.find import ROS1_MAGIC
+
+Entries: TypeAlias = npt.NDArray[np.uint32]
+"""Of each message seconds, nanoseconds, and where its record begins, shape (n, 3)."""
+
+MESSAGE: Final = b"\x02"
+BAG: Final = b"\x03"
+INDEX: Final = b"\x04"
+CHUNK: Final = b"\x05"
+CHUNK_INFO: Final = b"\x06"
+CONNECTION: Final = b"\x07"
+
+U32: Final = struct.Struct("<I")
+U64: Final = struct.Struct("<Q")
+
+_TIME = struct.Struct("<II")
+_LARGEST_HEADER = 1 << 20
+_HEAD = 4096
+
+
+def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int]:
+    """A record's header, where its data begins, and how long that is.
+
+    Raises:
+        InputError: If it announces too much, or the file does not have it.
+        struct.error: If it is cut.
+    """
+    block = file.up_to(position, _HEAD)
+    (length,) = U32.unpack_from(block)
+    if length > _LARGEST_HEADER:
+        raise InputError(f"a record at byte {position} announces a header of {length} bytes")
+    if length + 8 > len(block):
+        block = file.at(position, length + 8)
+    (size,) = U32.unpack_from(block, 4 + length)
+    return fields_of(block[4 : 4 + length]), position + 8 + length, size
+
+
+class ChunkInfo(NamedTuple):
+    """What a bag's index tells of a chunk: where it begins, its times, messages by connection."""
+
+    position: int
+    start: Stamp
+    end: Stamp
+    counts: dict[int, int]
+
+
+def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
+    """A bag's own header, where its index begins, and the index; 0 and b"" if it has none.
+
+    Raises:
+        InputError: If the header is missing, or the index lies elsewhere than in the file.
+        KeyError: If the header lacks a field.
+        struct.error: If a field of it is cut.
+    """
+    header, _, _ = record_head(file, len(ROS1_MAGIC))
+    if header.get(b"op") != BAG:
+        raise InputError("the bag's own header is missing")
+    (place,) = U64.unpack(header[b"index_pos"])
+    if place == 0:
+        return header, 0, b""
+    if place > file.size:
+        raise InputError(f"it should begin at byte {place} of {file.size}")
+    return header, place, file.at(place, file.size - place)
+
+
+def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
+    """Read a chunk info record.
+
+    Raises:
+        KeyError: If its header lacks a field.
+        struct.error: If a field of it is cut.
+    """
+    (position,) = U64.unpack(header[b"chunk_pos"])
+    start, end = time_of(header[b"start_time"]), time_of(header[b"end_time"])
+    pairs = struct.iter_unpack("<II", data[: len(data) // 8 * 8])
+    return ChunkInfo(position, start, end, dict(pairs))
+
+
+def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:
+    """Where a connection's messages begin, their lengths, and their log times.
+
+    Args:
+        data: A chunk's records.
+        entries: What its index tells of each message.
+        connection: Whose messages they are.
+
+    Raises:
+        InputError: If the index points at something else.
+    """
+    first = int(entries[0, 2])
+    if first > len(data) - 4:
+        raise InputError("its index points outside of it")
+    (head,) = U32.unpack_from(data.data, first)
+    header = data[first + 4 : first + 4 + min(head, _LARGEST_HEADER)].tobytes()
+    code, owner = header.find(b"op=") + 3, header.find(b"conn=") + 5
+    if code < 3 or owner < 5 or not code < len(header) >= owner + 4 or len(header) != head:
+        raise InputError("its index points at something else")
+    if SCAN is not None:
+        found = tuple(np.empty(len(entries), dtype=np.int64) for _ in range(3))
+        if SCAN.pointed(data, np.ascontiguousarray(entries), *found, connection, code, owner):
+            starts, lengths, log_times = found
+            return starts, lengths, log_times
+    places = entries[:, 2].astype(np.int64)
+    heads = _within(places, data)
+    bodies = places + 4 + heads
+    lengths = _within(bodies, data)
+    starts = bodies + 4
+    if (heads > _LARGEST_HEADER).any() or (starts + lengths > len(data)).any():
+        raise InputError("its index points outside of it")
+    if (
+        (heads != head).any()
+        or (data[places + 4 + code] != MESSAGE[0]).any()
+        or (words_at(data, places + 4 + owner, "<u4") != connection).any()
+    ):
+        raise InputError("its index points at something else")
+    return starts, lengths, entries[:, 0].astype(np.int64) * NANOSECONDS + entries[:, 1]
+
+
+def _within(places: Stamps, data: Bytes) -> Stamps:
+    """The numbers of four bytes at some places.
+
+    Raises:
+        InputError: If one lies outside.
+    """
+    if len(data) < 4 or int(places.max()) > len(data) - 4:
+        raise InputError("its index points outside of it")
+    return words_at(data, places, "<u4").astype(np.int64)
+
+
+def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes, bytes], int, int]]:
+    """Every record's header, and where its data begins and ends.
+
+    Args:
+        data: Records.
+        partial: Whether the last one may be cut.
+
+    Raises:
+        InputError: At one that goes on behind the end.
+    """
+    position, size = 0, len(data)
+    while position + 8 <= size:
+        (length,) = U32.unpack_from(data, position)
+        first = position + 8 + length
+        if not 0 < length <= _LARGEST_HEADER or first > size:
+            if partial:
+                return
+            raise InputError(f"a record announces a header of {length} bytes")
+        (count,) = U32.unpack_from(data, first - 4)
+        last = first + count
+        if last > size:
+            if partial:
+                return
+            raise InputError(f"a record announces {count} bytes and {size - first} are there")
+        yield fields_of(data[position + 4 : first - 4]), first, last
+        position = last
+
+
+def fields_of(header: bytes) -> dict[bytes, bytes]:
+    """The fields of a header, by name."""
+    found = {}
+    position, size = 0, len(header)
+    while position + 4 <= size:
+        (length,) = U32.unpack_from(header, position)
+        position += 4
+        if position + length > size:
+            raise InputError(f"a field announces {length} bytes")
+        name, _, value = header[position : position + length].partition(b"=")
+        found[name] = value
+        position += length
+    return found
+
+
+def time_of(raw: bytes) -> Stamp:
+    """A moment as a header has it."""
+    sec, nanosec = _TIME.unpack(raw)
+    return int(sec) * NANOSECONDS + int(nanosec)
+
+
+def reason_of(error: Exception) -> str:
+    """Why a record cannot be read, in words."""
+    if isinstance(error, KeyError):
+        return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
+    return "a record is cut" if isinstance(error, struct.error) else str(error)

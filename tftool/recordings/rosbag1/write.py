@@ -1,0 +1,255 @@
+"""ROS 1 bags of version 2.0 written: chunks with their index, connections, and the end.
+
+Source: wiki.ros.org/Bags/Format/2.0.
+"""
+
+import io
+import os
+import struct
+from array import array
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Final
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.recordings.channel import Channel, CopiedPiece
+from tftool.recordings.compression import compressor
+from tftool.recordings.find import ROS1_MAGIC
+from tftool.recordings.rosbag1.format import (
+    BAG,
+    CHUNK,
+    CHUNK_INFO,
+    CONNECTION,
+    INDEX,
+    U32,
+    U64,
+)
+
+COMPRESSIONS: Final = ("none", "bz2", "lz4")
+
+CHUNK_SIZE: Final = 768 * 1024
+"""Bytes of messages in a chunk, as ROS 1 has it."""
+
+_HEADER_SIZE: Final = 4096  # of the bag's own record, which is written again in the end
+_LATEST: Final = 2**32 * NANOSECONDS
+
+
+class Rosbag1Writer:
+    """Writes a ROS 1 bag; see `ContainerWriter`. A stream of its is a connection.
+
+    Attributes:
+        position: Bytes in the file so far.
+        counts: Messages by connection.
+        first_free: The first number for connections that come without one.
+    """
+
+    def __init__(
+        self, path: Path, *, compression: str = "none", chunk_size: int = CHUNK_SIZE
+    ) -> None:
+        """Begin the file, in the place of what is there.
+
+        Args:
+            path: Where it is.
+            compression: "none", "bz2" or "lz4", of each chunk.
+            chunk_size: Bytes of messages in a chunk before they are compressed.
+
+        Raises:
+            UsageError: If the compression is not known, or not installed.
+            OSError: If the file cannot be written.
+        """
+        if compression not in COMPRESSIONS:
+            raise UsageError(
+                f"'{compression}' is no compression of ROS 1 bags: {', '.join(COMPRESSIONS)} are."
+            )
+        self.first_free = 0
+        self.method = compression
+        self._pack = compressor(compression)
+        self._chunk_size = chunk_size
+        self._known: dict[Channel, int] = {}
+        self._records: dict[int, bytes] = {}  # of connections
+        self._defined: set[int] = set()
+        self._infos: list[bytes] = []
+        self.counts: dict[int, int] = {}
+        self._new_chunk()
+        self.position = 0
+        self._file = io.FileIO(path, "wb+")
+        self._put(ROS1_MAGIC + self._head(0))
+
+    def _new_chunk(self) -> None:
+        self._pieces: list[bytes] = []
+        self._length = 0
+        self._indexes: dict[int, array[int]] = {}
+        self._low, self._high = _LATEST, 0
+
+    @property
+    def size(self) -> int:
+        """Bytes written so far, those that wait in the chunk included."""
+        return self.position + self._length
+
+    def channel(self, channel: Channel, number: int | None = None) -> int:
+        """Make a connection known; the number by which `write` takes its messages."""
+        known = self._known.get(channel)
+        if known is not None and number in (None, known):
+            return known
+        fields = {
+            "topic": channel.topic.encode("utf-8", "surrogateescape"),
+            "type": channel.type.encode(),
+            "md5sum": (channel.extra("md5sum") or "*").encode(),
+            "message_definition": channel.definition,
+        }
+        for key in ("callerid", "latching"):
+            if channel.extra(key):
+                fields[key] = channel.extra(key).encode("utf-8", "surrogateescape")
+        if number is None:
+            number = max(len(self._records), self.first_free)
+            while number in self._records:
+                number += 1
+        self._known[channel] = number
+        self.add_connection(number, fields["topic"], packed_fields(fields))
+        return number
+
+    def add_connection(self, number: int, topic: bytes, header: bytes) -> None:
+        """Make a connection known by the header its publisher sent."""
+        head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
+        self._records[number] = record(head, header)
+
+    def write(
+        self,
+        channel: int,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append one message; the container has no place for the last two."""
+        if channel not in self._defined:
+            self._defined.add(channel)
+            self._keep(self._records[channel])
+        if not 0 <= log_time < _LATEST:
+            raise InputError(f"A log time of {log_time} ns does not fit into ROS 1's seconds.")
+        sec, nanosec = divmod(log_time, NANOSECONDS)
+        index = self._indexes.get(channel)
+        if index is None:
+            index = self._indexes[channel] = array("I")
+        index.extend((sec, nanosec, self._length))
+        self._keep(_message(channel, sec, nanosec, len(payload)))
+        self._keep(payload)
+        self._low, self._high = min(self._low, log_time), max(self._high, log_time)
+        if self._length >= self._chunk_size:
+            self.flush()
+
+    def _keep(self, piece: bytes) -> None:
+        self._pieces.append(piece)
+        self._length += len(piece)
+
+    def flush(self) -> None:
+        """Put the messages that wait into the file, as a chunk."""
+        if not self._length:
+            return
+        data = b"".join(self._pieces)
+        indexes, low, high = self._indexes, self._low, self._high
+        self._new_chunk()
+        head = {"op": CHUNK, "compression": self.method.encode(), "size": U32.pack(len(data))}
+        parts = [record(head, self._pack(data))]
+        counts = {}
+        for number, index in indexes.items():
+            counts[number] = len(index) // 3
+            described = {
+                "op": INDEX,
+                "ver": U32.pack(1),
+                "conn": U32.pack(number),
+                "count": U32.pack(counts[number]),
+            }
+            parts.append(record(described, index.tobytes()))
+        self._note_chunk(low if counts else 0, high, counts)
+        self._put(b"".join(parts))
+
+    def copy_chunk(
+        self, piece: CopiedPiece, start: Stamp, end: Stamp, counts: Mapping[int, int]
+    ) -> None:
+        """Append a chunk and its index as they stood in another bag.
+
+        Args:
+            piece: The chunk's record and those of its index.
+            start: Log time of its first message.
+            end: Of its last.
+            counts: How many messages each of its connections has.
+        """
+        self.flush()
+        self._note_chunk(start, end, counts)
+        piece.copy_to(self._file.fileno(), self.position)
+        self.position = self._file.seek(self.position + piece.length)
+
+    def _note_chunk(self, start: Stamp, end: Stamp, counts: Mapping[int, int]) -> None:
+        for number, count in counts.items():
+            self.counts[number] = self.counts.get(number, 0) + count
+        described = {
+            "op": CHUNK_INFO,
+            "ver": U32.pack(1),
+            "chunk_pos": U64.pack(self.position),
+            "start_time": struct.pack("<II", *divmod(start, NANOSECONDS)),
+            "end_time": struct.pack("<II", *divmod(end, NANOSECONDS)),
+            "count": U32.pack(len(counts)),
+        }
+        data = b"".join(struct.pack("<II", *pair) for pair in counts.items())
+        self._infos.append(record(described, data))
+
+    def finish(self) -> None:
+        """Write the rest of the messages and the index, and close the file."""
+        try:
+            self.flush()
+            place = self.position
+            self._put(b"".join([*self._records.values(), *self._infos]))
+            os.lseek(self._file.fileno(), len(ROS1_MAGIC), os.SEEK_SET)
+            self._put(self._head(place))
+        finally:
+            self._file.close()
+
+    def abandon(self) -> None:
+        """Close the file as it is; what is in it can be read up to its end."""
+        self._file.close()
+
+    def _head(self, place: int) -> bytes:
+        """The bag's own record, filled up to its size."""
+        fields = packed_fields(
+            {
+                "op": BAG,
+                "index_pos": U64.pack(place),
+                "conn_count": U32.pack(len(self._records)),
+                "chunk_count": U32.pack(len(self._infos)),
+            }
+        )
+        filling = b" " * (_HEADER_SIZE - 8 - len(fields))
+        return U32.pack(len(fields)) + fields + U32.pack(len(filling)) + filling
+
+    def _put(self, piece: bytes) -> None:
+        view = memoryview(piece)
+        while view:
+            view = view[self._file.write(view) or 0 :]
+        self.position += len(piece)
+
+
+def packed_fields(fields: Mapping[str, bytes]) -> bytes:
+    """Fields of a header: each behind its length, "name=value"."""
+    pairs = [name.encode() + b"=" + value for name, value in fields.items()]
+    return b"".join(U32.pack(len(pair)) + pair for pair in pairs)
+
+
+def record(fields: Mapping[str, bytes], data: bytes) -> bytes:
+    """A record of a header and data."""
+    head = packed_fields(fields)
+    return U32.pack(len(head)) + head + U32.pack(len(data)) + data
+
+
+def _message(number: int, sec: int, nanosec: int, length: int) -> bytes:
+    """A message's record up to its payload."""
+    # By hand, as there is one for each message: its three fields are 4, 9 and 13 bytes long.
+    return b"".join(
+        (
+            b"\x26\x00\x00\x00\x04\x00\x00\x00op=\x02\x09\x00\x00\x00conn=",
+            U32.pack(number),
+            b"\x0d\x00\x00\x00time=",
+            struct.pack("<III", sec, nanosec, length),
+        )
+    )

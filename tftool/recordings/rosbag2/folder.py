@@ -1,0 +1,226 @@
+"""What rosbag2 writes beside its files, and any recording opened by what is found.
+
+The metadata is advice, never a gate: files are read as they are, whatever it says.
+"""
+
+import re
+import shutil
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.base.errors import InputError
+from tftool.base.named_files import open_regular
+from tftool.recordings.container import Container
+from tftool.recordings.decompression import most_of, zstandard
+from tftool.recordings.find import BESIDE, METADATA, Found, Kind, kind_of_file, refusal
+from tftool.recordings.joined import Joined
+from tftool.recordings.mcap.read import Mcap
+from tftool.recordings.rosbag1.read import Rosbag1
+from tftool.recordings.rosbag2.read import Sqlite
+
+_LARGEST_METADATA: Final = 1 << 24
+_LARGEST_UNPACKED: Final = 1 << 34
+_STEP: Final = 1 << 20
+
+
+def open_found(found: Found) -> Container:
+    """Open what a word was found to name.
+
+    Raises:
+        InputError: If it cannot be read, or is no recording.
+        OSError: If a file cannot be opened.
+    """
+    if not found.kind.is_recording:
+        raise InputError(f"'{found.name}' is a {found.kind.value}, not a recording.")
+    if found.kind is Kind.ROSBAG2:
+        return _open_folder(found.paths[0])
+    if found.kind is Kind.SEVERAL:
+        return _joined(found.paths, [])
+    return _open_file(found.paths[0])
+
+
+def _open_file(path: Path) -> Container:
+    if path.is_dir():
+        return _open_folder(path)
+    kind = kind_of_file(path)
+    if kind is Kind.MCAP:
+        return Mcap(path)
+    if kind is Kind.SQLITE:
+        return Sqlite(path)
+    if kind is Kind.ROS1:
+        return Rosbag1(path)
+    if kind is Kind.ZSTD:
+        return _Unpacked(path)
+    raise InputError(f"'{path}' is a {kind.value}, not a recording.")
+
+
+def _open_folder(folder: Path) -> Container:
+    """The files of one rosbag2 recording."""
+    damage: list[str] = []
+    return _joined(files_of_folder(folder, damage), damage)
+
+
+def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
+    """The files of a rosbag2 recording, in order; what is odd about them is added to `damage`.
+
+    Raises:
+        InputError: If there is none.
+    """
+    there = sorted(
+        (path for path in folder.iterdir() if path.is_file() and _is_part(path)),
+        key=_natural,
+    )
+    listed = _listed(folder, damage)
+    # What is no recording, as an empty file, is told when it is opened.
+    parts = [folder / name for name in listed if (folder / name).is_file()]
+    missing = [name for name in listed if not (folder / name).is_file()]
+    others = [path for path in there if path not in parts]
+    if missing:
+        damage.append(
+            f"Its {METADATA} names {_few(missing)}, which {'is' if len(missing) == 1 else 'are'} "
+            "not there."
+        )
+        if not parts and others:
+            damage.append(f"Read instead: {_few([path.name for path in others])}.")
+    if not listed or missing or not set(parts) <= set(there):
+        # Renamed parts are read too, behind those that are named.
+        parts += others
+    if not parts:
+        raise InputError(
+            f"'{folder}' has the {METADATA} of a rosbag2 recording, but none of its files"
+            + (f": {_few(missing)} is missing." if missing else ".")
+        )
+    return parts
+
+
+def _joined(paths: Sequence[Path], damage: list[str]) -> Container:
+    """Some files as one recording; those that cannot be read are told, unless none can."""
+    parts: list[tuple[str, Container]] = []
+    refused: list[InputError] = []
+    for path in paths:
+        try:
+            parts.append((path.name, _open_file(path)))
+            continue
+        except InputError as error:
+            refused.append(error)
+        except OSError as error:
+            refused.append(refusal(path, error))
+        damage.append(f"{path.name} is left out: {refused[-1]}")
+    if not parts:
+        raise refused[0]
+    if len(parts) == 1 and len(paths) == 1:
+        parts[0][1].damage[:0] = damage
+        return parts[0][1]
+    return Joined(parts, damage)
+
+
+def _listed(folder: Path, damage: list[str]) -> list[str]:
+    """The files that the metadata names, without the folder's name that some have in front."""
+    path = folder / METADATA
+    if not path.exists():
+        damage.append(f"There is no {METADATA}: the files are read as they are.")
+        return []
+    import yaml
+
+    from tftool.base import yaml_guard
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        if path.stat().st_size > _LARGEST_METADATA:
+            raise ValueError("it is too large")
+        with open_regular(path) as file:
+            document: Any = yaml_guard.load(file.read().decode(), loader)
+        names = document["rosbag2_bagfile_information"]["relative_file_paths"]
+        return [Path(str(name)).name for name in names][:10_000]
+    except (OSError, yaml.YAMLError, ValueError, KeyError, TypeError, RecursionError) as error:
+        why = getattr(error, "strerror", None) or str(error) or type(error).__name__
+        first = why.splitlines()[0]
+        damage.append(f"Its {METADATA} cannot be read ({first}): the files are read as they are.")
+        return []
+
+
+def _is_part(path: Path) -> bool:
+    """Whether a file of a folder is one of a recording's."""
+    if path.name == METADATA or path.name.endswith(BESIDE):
+        return False
+    try:
+        return kind_of_file(path) in (Kind.MCAP, Kind.SQLITE, Kind.ZSTD)
+    except PermissionError:
+        return True  # it may be one: that it is left out is told
+    except InputError:
+        return False
+
+
+def _natural(path: Path) -> list[tuple[int, str]]:
+    """Sorts `run_2` before `run_10`."""
+    words = re.split(r"(\d+)", path.name)
+    return [(int(word), "") if word.isdigit() else (0, word) for word in words]
+
+
+def _few(names: Sequence[str]) -> str:
+    shown = ", ".join(f"'{name}'" for name in names[:3])
+    return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
+
+
+class _Unpacked:
+    """A file that is compressed as a whole, unpacked into a temporary one."""
+
+    def __init__(self, path: Path) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="tftool-")
+        try:
+            target = Path(self._folder.name) / path.stem
+            cut = unpack_file(path, target)
+            self._inner = _open_file(target)
+        except BaseException:
+            self._folder.cleanup()
+            raise
+        if cut:
+            self._inner.damage.insert(0, cut)
+        self.kind = f"{self._inner.kind}, zstd"
+        self.size = self._inner.size
+        self.start = self._inner.start
+        self.end = self._inner.end
+        self.streams = self._inner.streams
+        self.damage = self._inner.damage
+        self.batches = self._inner.batches
+        self.expected = self._inner.expected
+
+    @property
+    def counts(self) -> list[int]:
+        """How many messages each stream has."""
+        return self._inner.counts
+
+    def close(self) -> None:
+        """Close the file and let go of what was unpacked."""
+        self._inner.close()
+        self._folder.cleanup()
+
+
+def unpack_file(path: Path, target: Path) -> str:
+    """Unpack a file; what was wrong with it, as a sentence."""
+    free = shutil.disk_usage(target.parent).free
+    limit = min(_LARGEST_UNPACKED, free - (1 << 26))
+    plausible = most_of(path.stat().st_size)
+    done = 0
+    with path.open("rb") as packed, target.open("wb") as out:
+        stream = zstandard().ZstdDecompressor().stream_reader(packed, read_across_frames=True)
+        while True:
+            try:
+                piece = stream.read(_STEP)
+            except zstandard().ZstdError as error:
+                if not done:
+                    raise InputError(f"'{path}' is damaged zstd data ({error}).") from error
+                return f"Its zstd data is damaged behind byte {done} ({error})."
+            if not piece:
+                return ""
+            done += len(piece)
+            if done > plausible:
+                raise InputError(f"'{path}' unpacks to more than {plausible} bytes: no recording.")
+            if done > limit:
+                raise InputError(
+                    f"'{path}' unpacks to more than {limit} bytes, which is all there is room "
+                    "for: unpack it where there is more ('zstd -d')."
+                )
+            out.write(piece)

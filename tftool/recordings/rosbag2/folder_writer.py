@@ -1,0 +1,135 @@
+"""A folder as rosbag2 records it: files of one kind, and what its metadata.yaml says of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.base.stamps import Stamp
+from tftool.recordings.channel import Channel
+from tftool.recordings.find import METADATA
+from tftool.recordings.rosbag2.offered_qos import offers_text, restyled
+
+VERSION: Final = 9
+"""Of the metadata where nothing says otherwise."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileFacts:
+    """What the metadata tells of one file.
+
+    Attributes:
+        name: Its name in the folder.
+        start: Log time of its first message; 0 where there is none.
+        end: Of its last.
+        count: Its messages.
+    """
+
+    name: str
+    start: Stamp
+    end: Stamp
+    count: int
+
+
+def metadata_text(
+    storage: str,
+    files: Sequence[FileFacts],
+    topics: Mapping[Channel, int],
+    *,
+    compression: tuple[str, str] = ("", ""),
+    old: Mapping[str, Any] | None = None,
+) -> str:
+    """What metadata.yaml says.
+
+    Args:
+        storage: "mcap" or "sqlite3".
+        files: The files, in order.
+        topics: How many messages each topic has.
+        compression: Format and mode of what is compressed beyond the storage.
+        old: What the metadata of the recording it was made from said: its version and what
+            else does not follow from the files is kept.
+    """
+    import yaml
+
+    version = int((old or {}).get("version", VERSION))
+    filled = [one for one in files if one.count]
+    start = min((one.start for one in filled), default=0)
+    end = max((one.end for one in filled), default=0)
+    document: dict[str, Any] = {
+        **(old or {}),
+        "version": version,
+        "storage_identifier": storage,
+        "duration": {"nanoseconds": end - start},
+        "starting_time": {"nanoseconds_since_epoch": start},
+        "message_count": sum(one.count for one in files),
+        "topics_with_message_count": _listed(topics, version),
+        "compression_format": compression[0],
+        "compression_mode": compression[1],
+        "relative_file_paths": [one.name for one in files],
+    }
+    if version > 4:
+        document["files"] = [
+            {
+                "path": one.name,
+                "starting_time": {"nanoseconds_since_epoch": one.start},
+                "duration": {"nanoseconds": one.end - one.start},
+                "message_count": one.count,
+            }
+            for one in files
+        ]
+    if version > 5:
+        document.setdefault("custom_data", None)
+    if version > 7:
+        document.setdefault("ros_distro", "")
+    return yaml.safe_dump(
+        {"rosbag2_bagfile_information": document}, sort_keys=False, allow_unicode=True
+    )
+
+
+def _listed(topics: Mapping[Channel, int], version: int) -> list[dict[str, Any]]:
+    """Each topic once, with the messages of all its channels."""
+    listed: dict[tuple[str, str], dict[str, Any]] = {}
+    for channel, count in topics.items():
+        key = channel.topic, channel.type
+        if key in listed:
+            listed[key]["message_count"] += count
+            continue
+        metadata = {
+            "name": channel.topic,
+            "type": channel.type,
+            "serialization_format": channel.encoding,
+            "offered_qos_profiles": _offers(channel.extra("offered_qos_profiles"), version),
+        }
+        if version > 6:
+            metadata["type_description_hash"] = channel.extra("topic_type_hash")
+        listed[key] = {"topic_metadata": metadata, "message_count": count}
+    return list(listed.values())
+
+
+def write_metadata(folder: Path, text: str) -> None:
+    """Write a folder's metadata.
+
+    Raises:
+        OSError: If it cannot be.
+    """
+    (folder / METADATA).write_text(text, encoding="utf-8")
+
+
+def _offers(text: str, version: int) -> Any:
+    """Offers of a topic as a version of the metadata has them: a text up to 8, then a list."""
+    text = restyled(text, version)
+    if version < VERSION:
+        return text
+    import yaml
+
+    from tftool.base import yaml_guard
+
+    try:
+        loaded = yaml_guard.load(text, yaml.SafeLoader) if text.strip() else []
+    except (yaml.YAMLError, ValueError, RecursionError):
+        return []
+    if not isinstance(loaded, list):
+        return []
+    # Readers want every policy, and not every recorder writes them all.
+    (defaults,) = yaml.safe_load(offers_text(static=False))
+    return [{**defaults, **one} for one in loaded if isinstance(one, dict)]

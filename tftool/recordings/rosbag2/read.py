@@ -1,0 +1,295 @@
+"""rosbag2's sqlite files, read without writing a byte beside them."""
+
+import shutil
+import sqlite3
+import tempfile
+from collections.abc import Collection, Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Final
+from urllib.parse import quote
+
+import numpy as np
+
+from tftool.base.errors import InputError, UsageError
+from tftool.messages.native_scan import SCAN
+from tftool.recordings.columns import Batch
+from tftool.recordings.container import MOST_STREAMS, MessageStream, offers_of
+from tftool.recordings.contract import Progress
+from tftool.recordings.rosbag2.sqlite_pages import read_pages
+
+_ROWS: Final = 2048  # fetched at a time
+_ROOM: Final = bytes(8)
+_MOST_BYTES: Final = 1 << 26  # of them, but for the last one
+_MOST_COPIED: Final = 1 << 30
+_LARGEST_VALUE: Final = 1 << 28  # bytes of one value
+_MOST_DEFINED: Final = 1 << 26  # characters of all definitions
+_MOST_GAPS: Final = 40
+_LEAST_HEAD: Final = 4096
+
+# Names, kinds, and which is the primary key.
+_COLUMNS: Final = [
+    ("id", "INTEGER", 1),
+    ("topic_id", "INTEGER", 0),
+    ("timestamp", "INTEGER", 0),
+    ("data", "BLOB", 0),
+]
+
+_NAMES: Final = {name for name, _, _ in _COLUMNS}
+_DEFINITION: Final = "encoded_message_definition"
+
+# The second where what sqlite says of a damaged file quotes bytes that are no text.
+_FAULTS: Final = (sqlite3.Error, UnicodeDecodeError)
+
+
+class Sqlite:
+    """One `.db3` file; see `Container`."""
+
+    kind = "rosbag2 (sqlite3)"
+
+    def __init__(self, path: Path) -> None:
+        """Open it and find out what is in it.
+
+        Raises:
+            InputError: If it is damaged, or no recording.
+            OSError: If it cannot be opened.
+        """
+        self._path = path
+        self.size = path.stat().st_size
+        self.damage: list[str] = []
+        self._copy: tempfile.TemporaryDirectory[str] | None = None
+        self._base = self._open(path)
+        self._ids: list[int] = []
+        self.streams: list[MessageStream] = []
+        try:
+            self._read_topics()
+            self.start, self.end = self._span()
+        except BaseException as error:
+            self.close()
+            if not isinstance(error, _FAULTS):
+                raise
+            raise InputError(f"'{path}' cannot be read as a rosbag2 recording: {error}.") from error
+
+    def _open(self, path: Path) -> sqlite3.Connection:
+        log = path.with_name(path.name + "-wal")
+        if log.exists() and log.stat().st_size:
+            # What was recorded last stands only in there. To read it, sqlite writes.
+            if path.stat().st_size + log.stat().st_size <= _MOST_COPIED:
+                self._copy = tempfile.TemporaryDirectory(prefix="tftool-")
+                copied = Path(self._copy.name) / "recording.db3"
+                shutil.copyfile(path, copied)
+                shutil.copyfile(log, copied.with_name("recording.db3-wal"))
+                self.damage.append(
+                    "The recording was not closed: what stands in its write-ahead log is read too."
+                )
+                return _connected(f"file:{quote(str(copied))}?mode=rw")
+            self.damage.append(
+                "The recording was not closed, and its end, in a write-ahead log, is left out: "
+                f"'sqlite3 {path.name} .recover' on a copy brings it in."
+            )
+        # Immutable: no locks, no journal, nothing is made beside it.
+        return _connected(f"file:{quote(str(path))}?mode=ro&immutable=1")
+
+    def close(self) -> None:
+        """Close the file."""
+        self._base.close()
+        if self._copy is not None:
+            self._copy.cleanup()
+
+    def _read_topics(self) -> None:
+        names = self._columns("topics")
+        if not ({"id", "name", "type"} <= names and self._columns("messages") >= _NAMES):
+            raise InputError(f"'{self._path}' is a database, but holds no recording of rosbag2.")
+        offers = "offered_qos_profiles" if "offered_qos_profiles" in names else "''"
+        form = "serialization_format" if "serialization_format" in names else "'cdr'"
+        definitions = self._definitions()
+        asked = f"select id, name, type, {form}, {offers} from topics order by id"
+        for number, name, kind, encoding, text in self._base.execute(asked):
+            if len(self.streams) >= MOST_STREAMS:
+                self.damage.append(f"Only the first {MOST_STREAMS} topics are read.")
+                break
+            if not isinstance(number, int):
+                self._tell(f"Topic '{name}' is left out: its id is no whole number.")
+                continue
+            self._ids.append(number)
+            self.streams.append(
+                MessageStream(
+                    str(name),
+                    str(kind),
+                    str(encoding),
+                    definitions.get(str(kind), ""),
+                    "",
+                    offers_of(str(text)),
+                )
+            )
+
+    def _columns(self, table: str) -> set[str]:
+        """The columns that stand in a table; none of a view, which may never come to an end."""
+        asked = "select count(*) from sqlite_master where lower(name) = ? and type = 'table'"
+        if self._base.execute(asked, (table,)).fetchone() != (1,):
+            return set()
+        return {row[1] for row in self._base.execute(f"pragma table_info({table})")}
+
+    def _definitions(self) -> dict[str, str]:
+        """The definition of each type, where they are recorded."""
+        found: dict[str, str] = {}
+        if not self._columns("message_definitions") >= {"topic_type", _DEFINITION}:
+            return found
+        left = _MOST_DEFINED
+        asked = f"select topic_type, {_DEFINITION} from message_definitions"
+        for kind, text in self._base.execute(asked):
+            left -= len(str(text))
+            if left < 0:
+                self.damage.append("The definitions of its types are too long: some are left out.")
+                break
+            found[str(kind)] = str(text)
+        return found
+
+    def _span(self) -> tuple[int, int]:
+        # At once where there is an index, as a rule; all is looked at where that gives a text.
+        for where in ("", " where typeof(timestamp) = 'integer'"):
+            ends = (f"(select {end}(timestamp) from messages{where})" for end in ("min", "max"))
+            low, high = self._base.execute(f"select {', '.join(ends)}").fetchone()
+            if isinstance(low, int) and isinstance(high, int):
+                return low, high
+        return 0, 0
+
+    @property
+    def topic_ids(self) -> list[int]:
+        """The number that its own rows have for each stream."""
+        return list(self._ids)
+
+    @cached_property
+    def counts(self) -> list[int]:
+        """How many messages each stream has."""
+        found: dict[int, int] = {}
+        try:
+            found.update(
+                self._base.execute("select topic_id, count(*) from messages group by topic_id")
+            )
+        except sqlite3.ProgrammingError as error:
+            raise UsageError(
+                "The recording is closed: read what you need of it while it is open, inside its "
+                "with block."
+            ) from error
+        except _FAULTS as error:
+            self._note(error)
+        return [found.get(number, 0) for number in self._ids]
+
+    def batches(
+        self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
+    ) -> Iterator[Batch]:
+        """The messages of some streams; see `Container`."""
+        if not wanted:
+            return
+        streams = {self._ids[number]: number for number in wanted}
+        # Numbers of its own rows, no text of a stranger's.
+        topics = ",".join(map(str, streams))
+        # Messages that are compressed each by itself take more than their beginning.
+        data = "data" if head is None else f"substr(data, 1, {max(head, _LEAST_HEAD)})"
+        # Where it is one topic its number is not asked for: less is made for every row.
+        which = "" if len(streams) == 1 else "topic_id, "
+        asked = (
+            f"select id, {which}timestamp, {data} from messages "
+            f"where id > ? and topic_id in ({topics}) order by id"
+        )
+        last, gap, gaps = -(2**63), 1, 0
+        top = self._last_row() if progress is not None else 0
+        if SCAN is not None and self._copy is None:
+            for batch, last in read_pages(self._path, self._table(), streams):
+                if len(batch):
+                    yield batch
+                if progress is not None:
+                    progress(self.size * last // max(top, 1), self.size)
+        while True:
+            rows: list[Any] = []
+            try:
+                cursor = self._base.execute(asked, (last,))
+                while rows := _some(cursor):
+                    # The columns of a table may hold anything.
+                    sound = [row for row in rows if type(row[0]) is type(row[-2]) is int]
+                    if len(sound) < len(rows):
+                        self._note("an id or a timestamp is no whole number")
+                    if not sound:
+                        continue
+                    yield _batch(sound, streams)
+                    last, gap = sound[-1][0], 1
+                    if progress is not None:
+                        progress(self.size * last // max(top, 1), self.size)
+                return
+            except _FAULTS as error:
+                # Behind a damaged page others may be sound: jump over it, farther each time.
+                self._note(error)
+                gaps += 1
+                if gaps > _MOST_GAPS:
+                    return
+                last, gap = min(max(last, 0) + gap, 2**63 - 1), gap * 2
+
+    def _table(self) -> int:
+        """The page at which the tree of the messages begins; 0 where the table is another one."""
+        try:
+            told = self._base.execute("pragma table_info(messages)")
+            columns = [(name, kind, key) for _, name, kind, _, _, key in told]
+            asked = "select rootpage, sql from sqlite_master where name = 'messages'"
+            ((root, text),) = self._base.execute(asked).fetchall()
+        except (*_FAULTS, ValueError):
+            return 0
+        # In a table of either kind the primary key is not the row's own number.
+        other = any(words in str(text).lower() for words in ("without rowid", "desc"))
+        return int(root) if columns == _COLUMNS and not other else 0
+
+    def expected(self, wanted: Collection[int]) -> int:
+        """About how many messages some streams have: to count them takes as long as to read."""
+        return self._last_row()
+
+    def _last_row(self) -> int:
+        try:
+            (last,) = self._base.execute("select max(id) from messages").fetchone()
+        except _FAULTS:
+            return 0
+        return last if isinstance(last, int) else 0
+
+    def _note(self, reason: object) -> None:
+        self._tell(f"A part of its messages cannot be read ({reason}).")
+
+    def _tell(self, damage: str) -> None:
+        if damage not in self.damage:
+            self.damage.append(damage)
+
+
+def _connected(uri: str) -> sqlite3.Connection:
+    try:
+        base = sqlite3.connect(uri, uri=True, check_same_thread=False)
+    except _FAULTS as error:
+        raise InputError(f"The database cannot be opened: {error}.") from error
+    base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LARGEST_VALUE)
+    # Texts may be anything.
+    base.text_factory = lambda raw: raw.decode("utf-8", "backslashreplace")
+    return base
+
+
+def _some(cursor: sqlite3.Cursor) -> list[Any]:
+    """The next rows, as many as are held at once; their data comes last."""
+    rows, held = [], 0
+    for row in cursor:
+        rows.append(row)
+        held += len(row[-1]) if isinstance(row[-1], bytes) else 0
+        if len(rows) >= _ROWS or held >= _MOST_BYTES:
+            break
+    return rows
+
+
+def _batch(rows: list[Any], streams: dict[int, int]) -> Batch:
+    *owners, times, blobs = zip(*rows, strict=True)
+    if set(map(type, blobs)) != {bytes}:
+        blobs = tuple(bytes(blob) if isinstance(blob, bytes) else b"" for blob in blobs)
+    lengths = np.fromiter(map(len, blobs), dtype=np.int64, count=len(rows))
+    # With room before the first for a row's beginning.
+    buffer = np.frombuffer(b"".join((_ROOM, *blobs)), dtype=np.uint8)
+    starts = np.cumsum(lengths) - lengths + len(_ROOM)
+    if len(streams) == 1:
+        senders = np.full(len(rows), next(iter(streams.values())), dtype=np.int32)
+    else:
+        topics = map(streams.__getitem__, owners[1])
+        senders = np.fromiter(topics, dtype=np.int32, count=len(rows))
+    return Batch(buffer, starts, lengths, np.array(times, dtype=np.int64), senders)

@@ -1,0 +1,157 @@
+"""rosbag2's sqlite files written, as its schema 4 has them."""
+
+import sqlite3
+from pathlib import Path
+from typing import Final
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import Stamp
+from tftool.recordings.channel import Channel
+
+_ROWS: Final = 2048  # inserted at a time
+_SCHEMA: Final = """
+create table schema(schema_version integer primary key, ros_distro text not null);
+create table metadata(id integer primary key, metadata_version integer not null,
+  metadata text not null);
+create table topics(id integer primary key, name text not null, type text not null,
+  serialization_format text not null, offered_qos_profiles text not null,
+  type_description_hash text not null);
+create table message_definitions(id integer primary key, topic_type text not null,
+  encoding text not null, encoded_message_definition text not null,
+  type_description_hash text not null);
+create table messages(id integer primary key, topic_id integer not null,
+  timestamp integer not null, data blob not null);
+insert into schema values (4, '');
+"""
+
+
+class SqliteWriter:
+    """Writes a `.db3` file; see `ContainerWriter`. A stream of its is a topic.
+
+    Attributes:
+        counts: Messages by topic.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Begin the file, in the place of what is there.
+
+        Raises:
+            OSError: If the file cannot be written.
+        """
+        path.unlink(missing_ok=True)
+        self._path = path
+        self._rows: list[tuple[int, int, bytes]] = []
+        self._bytes = 0
+        self._topics: dict[tuple[str, str], int] = {}
+        self._types: set[str] = set()
+        self.counts: dict[int, int] = {}
+        path.open("xb").close()
+        # No journal: the file counts for nothing before it is whole and has its name.
+        self._base = sqlite3.connect(path, isolation_level=None)
+        with translated(path):
+            self._base.execute("pragma journal_mode = off")
+            self._base.execute("pragma synchronous = off")
+            self._base.execute("begin")
+            for statement in _SCHEMA.strip().split(";\n"):
+                self._base.execute(statement.removesuffix(";"))
+
+    @property
+    def size(self) -> int:
+        """Bytes of messages so far."""
+        return self._bytes
+
+    def channel(self, channel: Channel, number: int | None = None) -> int:
+        """Make a topic known; the number by which `write` takes its messages."""
+        key = channel.topic, channel.type
+        known = self._topics.get(key)
+        offers = channel.extra("offered_qos_profiles")
+        if known is not None:
+            with translated(self._path):
+                self._base.execute(
+                    "update topics set offered_qos_profiles = offered_qos_profiles || ? "
+                    "where id = ? and instr(offered_qos_profiles, ?) = 0",
+                    (offers, known, offers),
+                )
+            return known
+        number = self._topics[key] = len(self._topics) + 1
+        kind_hash = channel.extra("topic_type_hash")
+        with translated(self._path):
+            self._base.execute(
+                # Of a damaged recording a text may be any bytes: those are kept.
+                f"insert into topics values (?{', cast(? as text)' * 5})",
+                (
+                    number,
+                    *(
+                        text.encode("utf-8", "surrogateescape")
+                        for text in (
+                            channel.topic,
+                            channel.type,
+                            channel.encoding,
+                            offers,
+                            kind_hash,
+                        )
+                    ),
+                ),
+            )
+            if channel.definition and channel.type not in self._types:
+                self._types.add(channel.type)
+                text = channel.definition.decode("utf-8", "backslashreplace")
+                self._base.execute(
+                    "insert into message_definitions"
+                    "(topic_type, encoding, encoded_message_definition, type_description_hash)"
+                    " values (?, ?, ?, ?)",
+                    (channel.type, channel.schema_encoding or "ros2msg", text, kind_hash),
+                )
+        return number
+
+    def write(
+        self,
+        channel: int,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append one message; the container has no place for the last two."""
+        self._rows.append((channel, log_time, payload))
+        self._bytes += len(payload)
+        self.counts[channel] = self.counts.get(channel, 0) + 1
+        if len(self._rows) >= _ROWS:
+            self.flush()
+
+    def flush(self) -> None:
+        """Hand the messages that wait to the database."""
+        rows, self._rows = self._rows, []
+        with translated(self._path):
+            self._base.executemany(
+                "insert into messages(topic_id, timestamp, data) values (?, ?, ?)", rows
+            )
+
+    def finish(self) -> None:
+        """Write the rest of the messages and the index, and close the file."""
+        try:
+            self.flush()
+            with translated(self._path):
+                self._base.execute("create index timestamp_idx on messages (timestamp asc)")
+                self._base.execute("commit")
+        finally:
+            self._base.close()
+
+    def abandon(self) -> None:
+        """Close the file as it is."""
+        self._base.close()
+
+
+class translated:  # noqa: N801 -- used as a function in a `with`
+    """sqlite's errors as what they mean to a file that is written."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, sqlite3.Error):
+            what = "the disk is full" if "full" in str(error) else str(error)
+            raise InputError(f"'{self._path}' cannot be written: {what}.") from error

@@ -1,0 +1,237 @@
+"""Where a recording is written: beside its place, under another name, until it is whole.
+
+A file or folder comes to its final name by one rename, when all of it is on the disk. Until
+then the name is what it was before: nothing, or the recording that stood there.
+"""
+
+import errno
+import os
+import shutil
+import tempfile
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Final
+
+from tftool.base.errors import InputError, UsageError
+
+PART: Final = ".part"
+"""What is added to a name while it is written."""
+
+
+def refuse_stdout(path: Path) -> None:
+    """Refuse `-`, which people write for stdout, as the name of a file.
+
+    Raises:
+        UsageError: If it is that.
+    """
+    if str(path) == "-":
+        raise UsageError("'-' stands for stdout, to which this is not written: name a file.")
+
+
+def refuse_existing(path: Path, *, force: bool) -> None:
+    """Refuse to write where something is, a broken symbolic link included.
+
+    Raises:
+        UsageError: If something has that name and `force` is not given, or it is `-`.
+    """
+    refuse_stdout(path)
+    if not force and os.path.lexists(path):
+        raise UsageError(f"'{path}' exists: --force replaces it.")
+
+
+class Target:
+    """A file or folder that is written whole or not at all. Works in a `with`.
+
+    Attributes:
+        path: Its name in the end.
+        part: Where it is written until then.
+    """
+
+    def __init__(self, path: Path, *, folder: bool = False, force: bool = False) -> None:
+        """Make the part, after a look at what is in the way.
+
+        Args:
+            path: Its name in the end.
+            folder: Whether it is a folder.
+            force: Whether it may replace what has that name.
+
+        Raises:
+            UsageError: If something has that name and `force` is not given.
+            InputError: If it cannot be written there.
+        """
+        self.path = path
+        self.part = path.with_name(path.name + PART)
+        self._folder = folder
+        if not path.name:
+            raise UsageError(f"'{path}' is no name of a file to write.")
+        refuse_existing(path, force=force)
+        if os.path.lexists(path):
+            if path.exists() and not path.is_file() and not path.is_dir():
+                raise UsageError(f"'{path}' is a device or a pipe: name a file.")
+            if path.is_dir() and not _is_recording_folder(path):
+                raise UsageError(
+                    f"'{path}' is a folder that holds more than a recording: not replaced."
+                )
+        try:
+            self._clear()
+            if folder:
+                self.part.mkdir()
+            else:
+                self.part.open("xb").close()
+        except OSError as error:
+            raise failed(path, error) from error
+
+    def __enter__(self) -> "Target":
+        return self
+
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
+        if kind is None:
+            self.commit()
+        else:
+            self.discard()
+
+    def commit(self) -> None:
+        """Bring it to its name, when all of it is on the disk.
+
+        Raises:
+            InputError: If that fails; the part is gone then.
+        """
+        try:
+            files = [one for one in self.part.iterdir() if one.is_file()] if self._folder else []
+            for one in [*files, self.part]:
+                synced(one)
+            if os.path.lexists(self.path):
+                self._replace()
+            else:
+                self.part.rename(self.path)
+            synced(self.path.parent)
+        except OSError as error:
+            self.discard()
+            raise failed(self.path, error) from error
+
+    def _replace(self) -> None:
+        if not self._folder and not self.path.is_dir():
+            self.part.replace(self.path)
+            return
+        # A folder cannot be replaced in one step: the old one is kept until the new has its name.
+        old = Path(tempfile.mkdtemp(prefix=f".{self.path.name}.", dir=self.path.parent))
+        self.path.rename(old / self.path.name)
+        try:
+            self.part.rename(self.path)
+        except BaseException:
+            (old / self.path.name).rename(self.path)
+            old.rmdir()
+            raise
+        remove(old)
+
+    def discard(self) -> None:
+        """Remove the part; the name stays what it was."""
+        with suppress(OSError):
+            self._clear()
+
+    def _clear(self) -> None:
+        remove(self.part)
+
+
+def commit_together(targets: Sequence[Target]) -> None:
+    """Bring files that belong together to their names: all of them, or none.
+
+    The last is the one by which the others are found. It comes to its name last, and what it
+    replaces goes first: whenever a process ends, it never stands beside what is not its own.
+    What is replaced waits under a hidden name until all is done.
+
+    Raises:
+        InputError: If that fails; the names are what they were before.
+    """
+    held: list[tuple[Path, Path]] = []
+    done: list[Path] = []
+    path = targets[-1].path
+    try:
+        for target in targets:
+            synced(target.part)
+        for target in reversed(targets):
+            if os.path.lexists(target.path):
+                folder = Path(tempfile.mkdtemp(prefix=f".{target.path.name}.", dir=path.parent))
+                held.append((folder / target.path.name, target.path))
+                target.path.rename(held[-1][0])
+        for target in targets:
+            path = target.path
+            target.part.rename(path)
+            done.append(path)
+        synced(path.parent)
+    except BaseException as error:
+        for one in reversed(done):
+            remove(one)
+        for old, name in reversed(held):
+            if os.path.lexists(old):
+                old.rename(name)
+            remove(old.parent)
+        if isinstance(error, OSError):
+            raise failed(path, error) from error
+        raise
+    for old, _ in held:
+        remove(old.parent)
+
+
+def remove(path: Path) -> None:
+    """Remove a file or a folder, if it is there."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def synced(path: Path) -> None:
+    """Wait until a file or a folder is on the disk."""
+    number = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(number)
+    except OSError as error:
+        # Some file systems do not sync folders, and devices cannot be synced.
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):
+            raise
+    finally:
+        os.close(number)
+
+
+def failed(path: Path, error: OSError) -> InputError:
+    """What went wrong with a file that is written, as a sentence."""
+    if error.errno == errno.ENOSPC:
+        return InputError(f"'{path}' cannot be written: the disk is full.")
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return InputError(f"'{path}' may not be written: {(error.strerror or str(error)).lower()}.")
+    if error.errno == errno.ENOENT and not path.parent.exists():
+        return InputError(f"'{path}' cannot be written: there is no folder '{path.parent}'.")
+    return InputError(f"'{path}' cannot be written: {error.strerror or error}.")
+
+
+def check_room(path: Path, size: int) -> None:
+    """Refuse what the disk has no room for.
+
+    Raises:
+        InputError: If fewer than `size` bytes are free.
+    """
+    try:
+        free = shutil.disk_usage(path.parent).free
+    except OSError as error:
+        raise failed(path, error) from error
+    if free < size:
+        raise InputError(
+            f"'{path}' needs up to {_megabytes(size)}, and {_megabytes(free)} are free on its disk."
+        )
+
+
+def _megabytes(size: int) -> str:
+    return f"{size / 1e6:.1f} MB"
+
+
+def _is_recording_folder(path: Path) -> bool:
+    """Whether nothing is in a folder but a recording."""
+    return all(
+        one.is_file() and (one.name == "metadata.yaml" or one.suffix in _SUFFIXES)
+        for one in path.iterdir()
+    )
+
+
+_SUFFIXES: Final = (".mcap", ".db3", ".bag", ".zstd")

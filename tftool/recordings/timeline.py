@@ -1,0 +1,193 @@
+"""In which order, and when, the messages of a recording are to be sent again."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from tftool.base.stamps import SIMULATED_BELOW, Stamp
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.recordings.contract import (
+    Edge,
+    Indexes,
+    Source,
+    Stamps,
+    Transforms,
+)
+
+_NOTHING: Final = np.zeros(0, dtype=np.int64)
+
+
+def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
+    """Log times on the clock that `/clock` read when it was received, interpolated.
+
+    Before its first and after its last message it is taken to run at rate 1.
+    """
+    base_log, base = int(received[0]), int(read[0])
+    order = np.argsort(received, kind="stable")
+    at = (received[order] - base_log).astype(np.float64)
+    shown = (read[order] - base).astype(np.float64)
+    asked = (logs - base_log).astype(np.float64)
+    mapped = np.interp(asked, at, shown)
+    mapped += np.minimum(asked - at[0], 0.0) + np.maximum(asked - at[-1], 0.0)
+    return np.rint(mapped).astype(np.int64) + base
+
+
+class PlayClock:
+    """Log times on the clock of the stamps, which is what `/clock` has to say while it plays.
+
+    What the recording's own `/clock` read counts, where it has one. Where stamps are a
+    simulation's and log times are not, the median of their differences does; else log times
+    are on the clock of the stamps already.
+    """
+
+    def __init__(self, transforms: Transforms, read: Stamps, received: Stamps) -> None:
+        """Compare both clocks.
+
+        Args:
+            transforms: All of the recording.
+            read: What `/clock` read, nanoseconds.
+            received: When it was received, nanoseconds.
+        """
+        self._read, self._received = read, received
+        self._offset = 0
+        later = [
+            transforms.log_times_of(edge)[chosen] - edge.stamps[chosen]
+            for edge in transforms.edges
+            if not edge.static
+            for chosen in [(edge.stamps > 0) & (edge.stamps < SIMULATED_BELOW)]
+        ]
+        moving = sum(len(edge) for edge in transforms.edges if not edge.static)
+        simulated = np.concatenate(later) if later else _NOTHING
+        logs = transforms.log_times
+        is_wall = len(logs) > 0 and int(np.median(logs)) >= SIMULATED_BELOW
+        self._is_other = is_wall and len(simulated) * 2 > moving
+        if self._is_other:
+            self._offset = int(np.median(simulated))
+
+    def of(self, log_times: Stamps) -> Stamps:
+        """The moments of log times, nanoseconds, shape (n,)."""
+        if not self._is_other:
+            return log_times
+        if len(self._read):
+            return through_clock(log_times, self._read, self._received)
+        return log_times - self._offset
+
+
+@dataclass(frozen=True, slots=True)
+class Due:
+    """What is to be sent at one moment: the transforms of one message.
+
+    Attributes:
+        moment: When, on the clock of the stamps.
+        node: Who sent them; empty where that is not recorded.
+        topic: Which they were recorded on.
+        static: Whether they hold at all times.
+        transforms: As recorded, names without a leading slash.
+    """
+
+    moment: Stamp
+    node: str
+    topic: str
+    static: bool
+    transforms: tuple[TransformStamped, ...]
+
+
+class Timeline:
+    """The transforms of a recording in the order in which they were received.
+
+    Attributes:
+        clock: Which moment a log time is.
+        start: The moment of the first message, nanoseconds.
+        end: Of the last.
+    """
+
+    def __init__(self, source: Source, transforms: Transforms) -> None:
+        """Put the messages in order.
+
+        Args:
+            source: The recording.
+            transforms: All of its transforms.
+        """
+        self.clock = PlayClock(transforms, *source.clock())
+        self._transforms = transforms
+        self._moments_read = self.clock.of(transforms.log_times)  # by number as it was read
+        order = np.argsort(self._moments_read, kind="stable")
+        self._order = order
+        self.moments: Stamps = self._moments_read[order]
+        rank = np.empty(len(order), dtype=np.int64)
+        rank[order] = np.arange(len(order))
+        edges = transforms.edges
+        ranks = [rank[edge.messages] for edge in edges]
+        by_message = np.concatenate(ranks) if ranks else _NOTHING
+        numbers = np.repeat(np.arange(len(edges), dtype=np.int32), [len(edge) for edge in edges])
+        rows = [np.arange(len(edge), dtype=np.int32) for edge in edges]
+        sequence = np.argsort(by_message, kind="stable")
+        self._edges: Indexes = numbers[sequence]
+        self._rows: Indexes = np.concatenate(rows)[sequence] if rows else numbers
+        self._firsts = np.searchsorted(by_message[sequence], np.arange(len(order) + 1))
+        times = self.clock.of(np.array([source.start, source.end], dtype=np.int64))
+        low, high = (int(one) for one in times)
+        if len(self.moments):
+            low, high = min(low, int(self.moments[0])), max(high, int(self.moments[-1]))
+        self.start, self.end = low, high
+
+    def __len__(self) -> int:
+        return len(self.moments)
+
+    def place(self, moment: Stamp, *, after: bool = False) -> int:
+        """The number of the first message at or after a moment, or only after it."""
+        return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
+
+    def message(self, place: int) -> list[Due]:
+        """What a message has to send: its transforms, moving and static ones apart."""
+        moment = int(self.moments[place])
+        sender = self._transforms.senders[self._order[place]]
+        publisher = self._transforms.publishers[int(sender)]
+        kinds: dict[bool, list[TransformStamped]] = {}
+        for position in range(int(self._firsts[place]), int(self._firsts[place + 1])):
+            edge = self._transforms.edges[int(self._edges[position])]
+            kinds.setdefault(edge.static, []).append(_sample(edge, int(self._rows[position])))
+        return [
+            Due(moment, publisher.node, publisher.topic, static, tuple(found))
+            for static, found in kinds.items()
+        ]
+
+    def known_at(self, moment: Stamp) -> list[Due]:
+        """What was known of every child at a moment: the last that had been received by then.
+
+        A static that came later counts from the beginning on, as what it says holds at all
+        times.
+        """
+        found: dict[tuple[str, bool], tuple[int, int, Edge, int]] = {}
+        for edge in self._transforms.edges:
+            moments = self._moments_read[edge.messages]
+            if not len(moments):
+                continue
+            there = moments <= moment
+            if there.any():
+                candidates = np.flatnonzero(there)
+                best = int(candidates[len(candidates) - 1 - np.argmax(moments[there][::-1])])
+                key = (1, int(moments[best]), edge, best)
+            elif edge.static:
+                best = int(np.argmin(moments))
+                key = (0, -int(moments[best]), edge, best)
+            else:
+                continue
+            before = found.get((edge.child, edge.static))
+            if before is None or key[:2] >= before[:2]:
+                found[edge.child, edge.static] = key
+        by_sender: dict[tuple[str, str, bool], list[TransformStamped]] = {}
+        for (_, static), (_, _, edge, row) in found.items():
+            sender = int(self._transforms.senders[edge.messages[row]])
+            publisher = self._transforms.publishers[sender]
+            sent = publisher.node, publisher.topic, static
+            by_sender.setdefault(sent, []).append(_sample(edge, row))
+        return [Due(moment, *sent, tuple(samples)) for sent, samples in by_sender.items()]
+
+
+def _sample(edge: Edge, row: int) -> TransformStamped:
+    x, y, z = edge.translations[row].tolist()
+    pose = Transform(Vector3(x, y, z), Quaternion(*edge.rotations[row].tolist()))
+    return TransformStamped(int(edge.stamps[row]), edge.parent, edge.child, pose)

@@ -1,0 +1,386 @@
+"""A robot from its description: joint positions to frames, as robot_state_publisher gives them."""
+
+import math
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import UsageError
+from tftool.base.near_names import did_you_mean
+from tftool.base.stamps import Stamp
+from tftool.buffer.buffer import NO_LIMIT, Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry import rigid_arrays as batch
+from tftool.geometry.conversions import quaternion_from_axis_angle
+from tftool.geometry.rigid import Transform
+from tftool.robots.description import RobotDescription, RobotJoint, RobotLink
+from tftool.robots.joint_states import JointStates
+from tftool.robots.urdf import load_description
+
+MOST_NAMED = 12
+"""How many joints a refusal names."""
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+
+Records: TypeAlias = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointColumns:
+    """The poses of one joint's child in its parent, many at once.
+
+    Attributes:
+        joint: The joint.
+        translations: Metres, shape (n, 3).
+        rotations: Unit quaternions x y z w, shape (n, 4).
+    """
+
+    joint: RobotJoint
+    translations: Floats
+    rotations: Floats
+
+
+class Robot:
+    """A robot description that answers where its links are.
+
+    A joint that was given no position is at zero where its limits allow that, else in the
+    middle of them, as joint_state_publisher has it. A joint that mimics another follows
+    it, however long the chain, unless a position of its own is given. A planar joint
+    stays at its origin; a floating joint gives no frame, as robot_state_publisher skips it.
+    """
+
+    def __init__(self, description: RobotDescription) -> None:
+        self.description = description
+        self._above = {joint.child: joint for joint in description.joints.values()}
+
+    def __repr__(self) -> str:
+        return f"<Robot {self.name!r}: {len(self.links)} links, {len(self.joints)} joints>"
+
+    @property
+    def name(self) -> str:
+        """The robot's name."""
+        return self.description.name
+
+    @property
+    def root(self) -> str:
+        """The link that is no joint's child."""
+        return self.description.root
+
+    @property
+    def links(self) -> Mapping[str, RobotLink]:
+        """Every link by its name."""
+        return self.description.links
+
+    @property
+    def joints(self) -> Mapping[str, RobotJoint]:
+        """Every joint by its name."""
+        return self.description.joints
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is odd about the description, as sentences."""
+        return self.description.notes
+
+    def positions(self, given: Mapping[str, float] | None = None) -> dict[str, float]:
+        """The position of every joint that moves, in radians or metres.
+
+        Args:
+            given: Positions by joint; they are taken as they are, beyond limits too.
+
+        Raises:
+            UsageError: If a joint is unknown or does not move, or a position is not finite.
+        """
+        given = given or {}
+        for name, position in given.items():
+            self._check_joint(name)
+            if not math.isfinite(position):
+                raise UsageError(f"the position of joint '{name}' is {position}; give a number")
+        positions: dict[str, float] = {}
+        for name, joint in self.joints.items():
+            if joint.moves:
+                leader, factor, offset = self._leader(joint, frozenset(given))
+                known = given[leader.name] if leader.name in given else _rest(leader)
+                positions[name] = factor * known + offset
+        return positions
+
+    def transforms(
+        self, given: Mapping[str, float] | None = None, stamp: Stamp = 0
+    ) -> tuple[TransformStamped, ...]:
+        """The pose of every link in its parent, in the order of the description's joints.
+
+        Args:
+            given: Positions by joint, see `positions`.
+            stamp: What to stamp them with, nanoseconds.
+
+        Raises:
+            UsageError: See `positions`.
+        """
+        positions = self.positions(given)
+        return tuple(
+            TransformStamped(
+                stamp, joint.parent, joint.child, _pose(joint, positions.get(name, 0.0))
+            )
+            for name, joint in self.joints.items()
+            if joint.type != "floating"
+        )
+
+    def joint_above(self, link: str) -> RobotJoint:
+        """The joint that a link hangs from.
+
+        Raises:
+            KeyError: If it is the root, or no link.
+        """
+        return self._above[link]
+
+    def takes(self, name: str) -> bool:
+        """Whether a name is that of a joint that moves."""
+        joint = self.joints.get(name)
+        return joint is not None and joint.moves
+
+    def moved(self, given: Mapping[str, float], stamp: Stamp = 0) -> tuple[TransformStamped, ...]:
+        """The poses of the links that one joint state moves.
+
+        As in robot_state_publisher, names that are no moving joint here are passed over, and
+        so is a position that is not finite; a joint that mimics another follows it unless it
+        has a position of its own.
+
+        Args:
+            given: Positions by joint.
+            stamp: What to stamp them with, nanoseconds.
+        """
+        known = {
+            name: position
+            for name, position in given.items()
+            if self.takes(name) and math.isfinite(position)
+        }
+        chosen = frozenset(known)
+        poses = []
+        for joint in self.joints.values():
+            if joint.moves:
+                leader, factor, offset = self._leader(joint, chosen)
+                if leader.name in known:
+                    pose = _pose(joint, factor * known[leader.name] + offset)
+                    poses.append(TransformStamped(stamp, joint.parent, joint.child, pose))
+        return tuple(poses)
+
+    def batch(self, names: Sequence[str], positions: npt.ArrayLike) -> tuple[JointColumns, ...]:
+        """The poses of the joints that moved, for many joint states at once.
+
+        Joints that follow a given one by `mimic` are included; others are not, as in
+        robot_state_publisher.
+
+        Args:
+            names: The joints, in the order of the columns.
+            positions: Radians or metres, shape (n, len(names)).
+
+        Raises:
+            UsageError: If a joint is unknown or does not move.
+            ValueError: If the shape does not fit.
+        """
+        columns = np.asarray(positions, dtype=np.float64)
+        if columns.ndim != 2 or columns.shape[1] != len(names):
+            raise ValueError(
+                f"positions has shape {columns.shape}; {len(names)} joints need (n, {len(names)})"
+            )
+        for name in names:
+            self._check_joint(name)
+        return tuple(
+            JointColumns(joint, poses[:, :3], poses[:, 3:])
+            for joint, values in self._moved(names, columns)
+            for poses in (_poses(joint, values, np.empty((len(values), 7))),)
+        )
+
+    def motion(
+        self, states: JointStates, wanted: Callable[[RobotJoint], bool] | None = None
+    ) -> Iterator[tuple[RobotJoint, Records]]:
+        """The poses of the joints that joint states move, as a buffer keeps samples.
+
+        As in robot_state_publisher, names that are no moving joint here are passed over, and
+        a joint that mimics another follows it unless it has a position of its own. A position
+        that is not finite gives no sample: a gap.
+
+        Args:
+            states: Positions over time.
+            wanted: Which joints are asked for; all if None.
+
+        Returns:
+            For each joint its samples, one a row, shape (n, 8), as `Buffer.set_records` takes
+            them.
+        """
+        places = [
+            place
+            for place, name in enumerate(states.names)
+            if name in self.joints and self.joints[name].moves
+        ]
+        names = [states.names[place] for place in places]
+        for joint, values in self._moved(names, states.positions[:, places]):
+            if wanted is not None and not wanted(joint):
+                continue
+            stamps = states.stamps
+            known = np.isfinite(values)
+            if not known.all():
+                stamps, values = stamps[known], values[known]
+            records = np.empty((len(values), 8), dtype=np.int64)
+            records[:, 0] = stamps
+            _poses(joint, values, records.view(np.float64)[:, 1:])
+            yield joint, records
+
+    def _moved(self, names: Sequence[str], columns: Floats) -> Iterator[tuple[RobotJoint, Floats]]:
+        """Every joint that some given ones move, with its positions, shape (n,)."""
+        given = {name: columns[:, place] for place, name in enumerate(names)}
+        chosen = frozenset(given)
+        for joint in self.joints.values():
+            if joint.moves:
+                leader, factor, offset = self._leader(joint, chosen)
+                if leader is joint and joint.name in given:
+                    yield joint, given[joint.name]
+                elif leader.name in given:
+                    yield joint, factor * given[leader.name] + offset
+
+    def buffer(
+        self, given: Mapping[str, float] | JointStates | Iterable[JointStates] | None = None
+    ) -> Buffer:
+        """A buffer with every frame there is.
+
+        Args:
+            given: Positions by joint (see `positions`), or none: then every frame holds at all
+                times. Or joint states: then what moves has samples at their stamps, and a
+                joint they do not say, or that does not follow one they say, has none.
+
+        Raises:
+            UsageError: See `positions`.
+        """
+        buffer = Buffer(NO_LIMIT)
+        if given is None or isinstance(given, Mapping):
+            positions = self.positions(given)
+            for joint in self.joints.values():
+                if joint.type != "floating":
+                    set_still(buffer, joint, positions.get(joint.name, 0.0))
+            return buffer
+        for joint in self.joints.values():
+            if not joint.moves and joint.type != "floating":
+                set_still(buffer, joint)
+        for states in [given] if isinstance(given, JointStates) else given:
+            for joint, records in self.motion(states):
+                buffer.set_records(joint.parent, joint.child, records, joint.name)
+        return buffer
+
+    def leader(self, name: str, given: Collection[str] = ()) -> str:
+        """The joint whose position decides a joint's: its own name, unless it mimics another.
+
+        Args:
+            name: The joint.
+            given: Joints that have a position of their own, which wins.
+        """
+        return self._leader(self.joints[name], frozenset(given))[0].name
+
+    def drive(self, name: str) -> tuple[str, float, float]:
+        """What decides a joint's position, where no other is given.
+
+        Args:
+            name: The joint.
+
+        Returns:
+            The joint that decides; its position times the second plus the third is this one's.
+        """
+        leader, factor, offset = self._leader(self.joints[name], frozenset())
+        return leader.name, factor, offset
+
+    def _check_joint(self, name: str) -> None:
+        joint = self.joints.get(name)
+        if joint is None:
+            moving = [one.name for one in self.joints.values() if one.moves]
+            hint = did_you_mean(name, self.joints)
+            if moving and not hint:
+                more = ", ..." if len(moving) > MOST_NAMED else ""
+                hint = f"; those that move are {', '.join(moving[:MOST_NAMED])}{more}"
+            raise UsageError(f"robot '{self.name}' has no joint '{name[:100]}'{hint}")
+        if not joint.moves:
+            raise UsageError(f"joint '{name}' is {joint.type}: it takes no position")
+
+    def _leader(self, joint: RobotJoint, given: frozenset[str]) -> tuple[RobotJoint, float, float]:
+        """The joint whose position decides, and the factor and offset that lead to this one's."""
+        factor, offset = 1.0, 0.0
+        leader, seen = joint, {joint.name}
+        while leader.name not in given and leader.mimic is not None:
+            after = self.joints.get(leader.mimic.joint)
+            if after is None or not after.moves:
+                break  # a mimic of nothing is a joint of its own
+            if after.name in seen:
+                return joint, 1.0, 0.0  # so is one that mimics itself
+            offset += factor * leader.mimic.offset
+            factor *= leader.mimic.multiplier
+            seen.add(after.name)
+            leader = after
+        return leader, factor, offset
+
+
+def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> Robot:
+    """Read a robot description: URDF, or xacro with the extra of that name.
+
+    Args:
+        path: The file.
+        arguments: Values of xacro arguments. A xacro file can evaluate Python expressions:
+            do not expand files from strangers.
+
+    Raises:
+        InputError: If it cannot be read.
+        DescriptionError: If it has mistakes; all of them, with line and column.
+        UsageError: If it contains xacro and the extra `xacro` is not installed.
+    """
+    return Robot(load_description(path, arguments))
+
+
+def set_still(buffer: Buffer, joint: RobotJoint, position: float = 0.0, prefix: str = "") -> None:
+    """Put a joint's child into a buffer where it is at all times, under the joint's name."""
+    parent, child = prefix + joint.parent, prefix + joint.child
+    pose = TransformStamped(0, parent, child, _pose(joint, position))
+    buffer.set_transform_static(pose, joint_in_words(joint, position))
+
+
+def joint_in_words(joint: RobotJoint, position: float) -> str:
+    """A joint and where it is: "elbow (revolute, 0.5 rad)"."""
+    if not joint.moves:
+        return f"{joint.name} ({joint.type})"
+    return f"{joint.name} ({joint.type}, {position:.4g} {joint.unit})"
+
+
+def _rest(joint: RobotJoint) -> float:
+    limits = joint.limits
+    if limits is None or limits[0] <= 0.0 <= limits[1]:
+        return 0.0
+    return (limits[0] + limits[1]) / 2.0
+
+
+def _pose(joint: RobotJoint, position: float) -> Transform:
+    """The child's pose in the parent."""
+    if joint.type in ("revolute", "continuous"):
+        return joint.origin @ Transform(rotation=quaternion_from_axis_angle(joint.axis, position))
+    if joint.type == "prismatic":
+        x, y, z = joint.axis
+        return joint.origin @ Transform((x * position, y * position, z * position))
+    return joint.origin
+
+
+def _poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
+    """The same for many positions, shape (n,), written into `poses`, shape (n, 7)."""
+    poses[:, :3] = joint.origin.translation
+    turn = np.array(joint.origin.rotation)
+    if joint.type == "prismatic":
+        along = batch.rotate(turn[np.newaxis], np.array([joint.axis]))[0]
+        for place in range(3):
+            poses[:, place] += positions * along[place]
+        poses[:, 3:] = turn
+        return poses
+    # Of turn · (axis · sin, cos) both products are the same for all positions.
+    quarter = batch.multiply(turn, np.array([*joint.axis, 0.0]))
+    half = 0.5 * positions
+    sine, cosine = np.sin(half), np.cos(half)
+    for place in range(4):
+        np.multiply(sine, quarter[place], out=poses[:, 3 + place])
+        poses[:, 3 + place] += cosine * turn[place]
+    return poses

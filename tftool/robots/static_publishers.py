@@ -1,0 +1,193 @@
+"""Files that publish static transforms, read without running them: launch files and scripts.
+
+A launch file in Python is looked at as text: what it computes is not known, and is told.
+"""
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+from xml.parsers import expat
+
+import yaml
+
+from tftool.base import yaml_guard
+from tftool.base.errors import InputError, UsageError
+from tftool.base.named_files import read_named
+from tftool.base.stamps import Stamp
+from tftool.buffer.buffer import NO_LIMIT, Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.notation.static_arguments import StaticArguments, of_line
+
+PUBLISHER: Final = "static_transform_publisher"
+
+LARGEST: Final = 16 * 1024 * 1024
+"""Bytes a file may have."""
+
+_EXECUTABLES: Final = ("exec", "executable", "node_executable", "type")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StaticFrames:
+    """The frames of a file that publishes static transforms.
+
+    Attributes:
+        name: The file, as it was given.
+        links: What it publishes, in its order.
+        notes: What of it could not be read, as sentences.
+        start: They hold at all times: 0.
+        end: Likewise.
+    """
+
+    name: str
+    links: tuple[StaticArguments, ...]
+    notes: tuple[str, ...] = ()
+    start: Stamp = 0
+    end: Stamp = 0
+
+    @property
+    def buffer(self) -> Buffer:
+        """All of them; of one child the last counts, as in tf2."""
+        found = Buffer(NO_LIMIT)
+        for one in self.links:
+            sample = TransformStamped(0, one.parent, one.child, one.transform)
+            found.set_transform_static(sample, self.name)
+        return found
+
+    def close(self) -> None:
+        """Nothing is left open."""
+
+
+def load_statics(path: Path, name: str | None = None) -> StaticFrames:
+    """Read the static transforms that a launch file or a script publishes.
+
+    Raises:
+        InputError: If it cannot be read, or publishes none.
+    """
+    name = name or str(path)
+    try:
+        if path.stat().st_size > LARGEST:
+            raise InputError(f"'{name}' is larger than {LARGEST} bytes: it is no launch file.")
+        text = read_named(path).decode("utf-8-sig", "replace")
+    except OSError as error:
+        raise InputError(f"'{name}' cannot be read: {error.strerror or error}.") from error
+    start = text.lstrip()
+    links: list[StaticArguments] = []
+    notes: list[str] = []
+    for line, words in _publishers(start if start.startswith("<") else text, name):
+        try:
+            if words is None:
+                raise UsageError("its words are computed when it runs")
+            said = of_line(words)
+            if said is not None:
+                links.append(said)
+        except UsageError as error:
+            notes.append(f"{name}:{line}: a {PUBLISHER} was passed over: {error}")
+    if not links:
+        why = f" {notes[0]}" if notes else f" No {PUBLISHER} is in it."
+        raise InputError(f"'{name}' publishes no static transform that can be read.{why}")
+    return StaticFrames(name, tuple(links), tuple(notes))
+
+
+Publisher = tuple[int, str | None]
+"""The line a publisher stands in, and its words; None where they are computed."""
+
+
+def _publishers(text: str, name: str) -> Iterator[Publisher]:
+    if text.startswith("<"):
+        return _of_xml(text, name)
+    if re.search(r"^\s*launch\s*:", text, re.MULTILINE):
+        return _of_yaml(text, name)
+    if "generate_launch_description" in text or "LaunchDescription" in text:
+        return _of_python(text, name)
+    return _of_shell(text)
+
+
+def _of_shell(text: str) -> Iterator[Publisher]:
+    number = 1
+    for line in text.replace("\\\r\n", "\\\n").split("\n"):
+        # What goes on in the next line was joined below.
+        if PUBLISHER in line and not line.lstrip().startswith("#"):
+            yield number, _joined_line(text, number)
+        number += 1
+
+
+def _joined_line(text: str, number: int) -> str:
+    lines = text.split("\n")[number - 1 :]
+    found = []
+    for line in lines:
+        stripped = line.rstrip()
+        found.append(stripped.removesuffix("\\"))
+        if not stripped.endswith("\\"):
+            break
+    return " ".join(found)
+
+
+def _of_xml(text: str, name: str) -> Iterator[Publisher]:
+    found: list[Publisher] = []
+    parser = expat.ParserCreate("utf-8")
+
+    def begin(tag: str, attributes: dict[str, str]) -> None:
+        if tag == "node" and PUBLISHER in {attributes.get(one) for one in _EXECUTABLES}:
+            words = attributes.get("args", "")
+            computed = "$(" in words
+            found.append((parser.CurrentLineNumber, None if computed else f"{PUBLISHER} {words}"))
+
+    def refuse(*_: Any) -> None:
+        raise InputError(f"'{name}': a <!DOCTYPE is not allowed: take it out.")
+
+    parser.StartElementHandler = begin
+    parser.StartDoctypeDeclHandler = refuse
+    try:
+        parser.Parse(text.encode("utf-8", "replace"), True)
+    except expat.ExpatError as error:
+        raise InputError(
+            f"'{name}' is no XML: {expat.ErrorString(error.code)} in line {error.lineno}."
+        ) from error
+    return iter(found)
+
+
+def _of_yaml(text: str, name: str) -> Iterator[Publisher]:
+    try:
+        root = yaml_guard.compose(text)
+    except yaml.YAMLError as error:
+        raise InputError(f"'{name}' is no YAML: {' '.join(str(error).split())}") from error
+    waiting = [root]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, yaml.SequenceNode):
+            waiting += reversed(node.value)
+        if not isinstance(node, yaml.MappingNode):
+            continue
+        values = {str(key.value): value for key, value in node.value}
+        waiting += reversed(list(values.values()))
+        executables = [values[one] for one in _EXECUTABLES if one in values]
+        if any(one.value == PUBLISHER for one in executables):
+            given = values.get("args")
+            words = given.value if isinstance(given, yaml.ScalarNode) else ""
+            computed = "$(" in words
+            yield node.start_mark.line + 1, None if computed else f"{PUBLISHER} {words}"
+
+
+def _of_python(text: str, name: str) -> Iterator[Publisher]:
+    import shlex
+
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise InputError(f"'{name}' is no Python: {error}.") from error
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Call):
+            continue
+        given = {one.arg: one.value for one in node.keywords}
+        named = [given[one] for one in _EXECUTABLES if one in given]
+        if not any(isinstance(one, ast.Constant) and one.value == PUBLISHER for one in named):
+            continue
+        try:
+            words = [str(one) for one in ast.literal_eval(given["arguments"])]
+        except (KeyError, ValueError, TypeError, RecursionError):
+            yield node.lineno, None
+        else:
+            yield node.lineno, f"{PUBLISHER} {shlex.join(words)}"

@@ -1,0 +1,651 @@
+"""Robot descriptions: URDF text to links and joints, or every mistake in it with its place.
+
+Read as `urdfdom`, ROS's own reader, reads it: namespaces and unknown elements are
+ignored, an origin is zero and an axis x unless given, rpy are turns about fixed axes.
+Refused beyond that: a document type (it could expand without bound), numbers that are
+not finite, an axis of no length on a joint that moves.
+"""
+
+import contextlib
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NoReturn, TypeVar
+from xml.parsers import expat
+
+from tftool.base.errors import DescriptionError, InputError, Mistake, UsageError
+from tftool.base.named_files import read_named
+from tftool.base.near_names import did_you_mean, near_names
+from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.geometry.rigid import Transform, Vector3
+from tftool.robots.description import (
+    JOINT_TYPES,
+    LIMITED_TYPES,
+    BoxShape,
+    CapsuleShape,
+    CylinderShape,
+    JointLimit,
+    JointMimic,
+    LinkShape,
+    MeshShape,
+    RobotDescription,
+    RobotJoint,
+    RobotLink,
+    ShapeGeometry,
+    SphereShape,
+    Surface,
+)
+
+T = TypeVar("T")
+
+LARGEST = 64 * 1024 * 1024
+"""Bytes a description may have."""
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_NO_PACKAGE = re.compile(r"Package not found: (\S+)")
+_DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
+
+
+def load_description(
+    path: str | Path, arguments: Mapping[str, str] | None = None, *, plain: bool = False
+) -> RobotDescription:
+    """Read a URDF file; a file that contains xacro is expanded first.
+
+    Args:
+        path: The file.
+        arguments: Values of xacro arguments, as `name:=value` gives them. A xacro file can
+            evaluate Python expressions: do not expand files from strangers.
+        plain: Whether to refuse a file that contains xacro.
+
+    Raises:
+        InputError: If it cannot be read.
+        DescriptionError: If it has mistakes; all of them, with line and column.
+        UsageError: If it contains xacro and the extra `xacro` is not installed, or if
+            arguments are given to a file without xacro.
+    """
+    text = _text_of(Path(path))
+    if is_xacro(text):
+        if plain:
+            raise InputError(
+                f"'{path}' contains xacro, which a scenario does not run: expand it first "
+                "(xacro FILE -o robot.urdf)"
+            )
+        return parse_description(_expanded(Path(path), arguments or {}), f"{path} (expanded)")
+    if arguments:
+        given = ", ".join(f"{name}:={value}" for name, value in arguments.items())
+        raise UsageError(f"'{path}' contains no xacro, so it takes no arguments: leave out {given}")
+    return parse_description(text, str(path))
+
+
+def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -> str:
+    """The text of a description with its xacro expanded; a plain one as it is.
+
+    Raises:
+        InputError: If it cannot be read or expanded.
+        UsageError: If the extra `xacro` is not installed.
+    """
+    text = _text_of(Path(path))
+    return _expanded(Path(path), arguments or {}) if is_xacro(text) else text
+
+
+def is_xacro(text: str) -> bool:
+    """Whether a description must be expanded before it can be read.
+
+    An expanded file may still declare xacro's namespace; what is not expanded yet has
+    elements of it, or an attribute with `${…}` or `$(…)`.
+    """
+    parser = expat.ParserCreate("utf-8")
+    found = False
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal found
+        found |= tag.startswith("xacro:") or any(
+            "${" in value or "$(" in value for value in attributes.values()
+        )
+
+    parser.StartElementHandler = start
+    try:
+        parser.StartDoctypeDeclHandler = _refuse_doctype
+        parser.Parse(_without_declaration(text).encode("utf-8", "surrogatepass"), True)
+    except (expat.ExpatError, _Doctype):
+        return False  # the reader reports it with its place
+    return found
+
+
+def _without_declaration(text: str) -> str:
+    """A text with blanks for its XML declaration, which says nothing once it is text.
+
+    One behind an empty line or with a misspelt word in it is read by everybody else.
+    """
+    found = _DECLARATION.match(text)
+    if found is None:
+        return text
+    return re.sub(r"[^\s]", " ", found.group()) + text[found.end() :]
+
+
+def parse_description(text: str, name: str = "robot_description") -> RobotDescription:
+    """Read the text of a URDF.
+
+    Args:
+        text: The whole text.
+        name: What to call it in messages, usually its path.
+
+    Raises:
+        DescriptionError: If it has mistakes; all of them, with line and column.
+    """
+    return _Reader(text, name).read()
+
+
+def _text_of(path: Path) -> str:
+    try:
+        size = path.stat().st_size
+        if size > LARGEST:
+            raise InputError(f"'{path}' has {size:,} bytes; a description may have {LARGEST:,}")
+        raw = read_named(path)
+    except OSError as error:
+        raise InputError(f"cannot read '{path}': {error.strerror or error}") from error
+    declared = re.match(rb"""\s*<\?xml[^>]*encoding=["']([\w.-]+)["']""", raw)
+    encoding = declared.group(1).decode("ascii") if declared else "utf-8-sig"
+    try:
+        # An encoding such as "hex" is one of Python's and none of XML's.
+        return raw.decode("utf-8-sig" if encoding.lower() in ("utf-8", "utf8") else encoding)
+    except LookupError as error:
+        raise InputError(
+            f"'{path}' declares the encoding '{encoding}', which is unknown"
+        ) from error
+    except ValueError as error:
+        raise InputError(f"'{path}' is not text in {encoding}: {error}") from error
+
+
+def _expanded(path: Path, arguments: Mapping[str, str]) -> str:
+    try:
+        from xacrodoc import XacroDoc, xacrodoc
+    except ImportError:
+        raise UsageError(
+            f"'{path}' contains xacro, which needs an extra: pip install 'tftool-tf2[xacro]'"
+        ) from None
+    try:
+        # What a file includes lies beside it, wherever it is read from.
+        xacrodoc.xacro.init_stacks(str(path.resolve()))
+        # Names of meshes stay as written: what finds them comes later, or never.
+        expanded = XacroDoc.from_file(str(path), subargs=dict(arguments), resolve_packages=False)
+        return str(expanded.dom.toprettyxml(indent="  "))
+    except Exception as error:  # xacro raises whatever an expression in the file raises.
+        said = " ".join(str(error).split()) or type(error).__name__
+        if missing := _NO_PACKAGE.search(said):
+            raise InputError(
+                f"'{path}' cannot be expanded by xacro: there is no package '{missing[1]}': put "
+                "the folder it lies in into the environment variable ROS_PACKAGE_PATH, or source "
+                "its workspace"
+            ) from error
+        raise InputError(f"'{path}' cannot be expanded by xacro: {said}") from error
+
+
+@dataclass(slots=True)
+class _Element:
+    """One XML element and where it starts (line and column from 0)."""
+
+    tag: str
+    attributes: dict[str, str]
+    line: int
+    column: int
+    children: list["_Element"] = field(default_factory=list)
+
+    def all(self, tag: str) -> Iterator["_Element"]:
+        return (child for child in self.children if child.tag == tag)
+
+    def first(self, tag: str) -> "_Element | None":
+        return next(self.all(tag), None)
+
+
+class _Unreadable(Exception):
+    """A part could not be read; the mistake is noted already."""
+
+
+class _Reader:
+    """One pass over a text: collects mistakes and builds the description."""
+
+    def __init__(self, text: str, name: str) -> None:
+        self.text = text
+        self.name = name
+        self.lines = text.split("\n")
+        self.mistakes: list[Mistake] = []
+        self.notes: list[str] = []
+
+    def read(self) -> RobotDescription:
+        robot = self._parsed()
+        if robot.tag != "robot":
+            self._give_up(robot, f"the document is <{robot.tag}>; a description is <robot>")
+        name = robot.attributes.get("name", "")
+        if "name" not in robot.attributes:
+            self._note(robot, "the robot has no name")
+        materials = self._materials(robot)
+        links: dict[str, RobotLink] = {}
+        for element in robot.all("link"):
+            self._add(element, "link", links, self._link(element, materials))
+        joints: dict[str, RobotJoint] = {}
+        places: dict[str, _Element] = {}
+        for element in robot.all("joint"):
+            joint = self._joint(element)
+            if joint is not None and self._add(element, "joint", joints, joint):
+                places[joint.name] = element
+        if not links:
+            self._note(robot, "there is no link")
+        root = self._tree(robot, links, joints, places)
+        self._mimics(joints)
+        if self.mistakes:
+            ordered = sorted(self.mistakes, key=lambda one: (one.line, one.column))
+            raise DescriptionError(self.name, ordered)
+        return RobotDescription(name, root, links, joints, tuple(self.notes), self.text)
+
+    # XML
+
+    def _parsed(self) -> _Element:
+        parser = expat.ParserCreate("utf-8")
+        roots: list[_Element] = []
+        stack: list[_Element] = []
+
+        def start(tag: str, attributes: dict[str, str]) -> None:
+            line, column = parser.CurrentLineNumber - 1, parser.CurrentColumnNumber
+            element = _Element(tag, attributes, line, column)
+            (stack[-1].children if stack else roots).append(element)
+            stack.append(element)
+
+        def end(_tag: str) -> None:
+            stack.pop()
+
+        parser.StartElementHandler = start
+        parser.EndElementHandler = end
+        parser.StartDoctypeDeclHandler = _refuse_doctype
+        try:
+            # utf-8 is named above, so a declaration of another encoding has no say any more.
+            plain = _without_declaration(self.text)
+            parser.Parse(plain.encode("utf-8", "surrogatepass"), True)
+        except _Doctype:
+            line, column = parser.CurrentLineNumber - 1, parser.CurrentColumnNumber
+            self._refuse(line, column, "a <!DOCTYPE is not allowed: take it out")
+        except expat.ExpatError as error:
+            said = expat.ErrorString(error.code) or "it cannot be read"
+            self._refuse(error.lineno - 1, error.offset, f"this is not XML: {said}")
+        return roots[0]
+
+    def _note(self, element: _Element, text: str, attribute: str = "") -> None:
+        line, column, width = element.line, element.column, len(element.tag) + 1
+        if attribute:
+            line, column, width = self._attribute(element, attribute)
+        self.mistakes.append(Mistake.at(self.name, self.lines, line, column, text, width=width))
+
+    @contextlib.contextmanager
+    def _left_out(self) -> Iterator[None]:
+        """Turn mistakes into notes: those that leave every frame where it is.
+
+        urdfdom reads on behind what is wrong with a link's looks or weight, so that robots run
+        with such files.
+        """
+        before, self.mistakes = self.mistakes, []
+        try:
+            with contextlib.suppress(_Unreadable):
+                yield
+        finally:
+            self.notes += [
+                f"{one.file}:{one.line}:{one.column}: {one.text}; left out" for one in self.mistakes
+            ]
+            self.mistakes = before
+
+    def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
+        """Where an attribute's assignment stands; the element itself if it is not found."""
+        wanted = re.compile(rf"(?<![\w:]){re.escape(attribute)}\s*=\s*(\"[^\"]*\"|'[^']*')")
+        column = element.column
+        for line in range(element.line, min(element.line + 20, len(self.lines))):
+            found = wanted.search(self.lines[line], column)
+            if found:
+                return line, found.start(), found.end() - found.start()
+            if ">" in self.lines[line][column:]:
+                break
+            column = 0
+        return element.line, element.column, len(element.tag) + 1
+
+    def _refuse(self, line: int, column: int, text: str) -> NoReturn:
+        self.mistakes.append(Mistake.at(self.name, self.lines, line, column, text))
+        raise DescriptionError(self.name, self.mistakes) from None
+
+    def _give_up(self, element: _Element, text: str) -> NoReturn:
+        self._note(element, text)
+        raise DescriptionError(self.name, self.mistakes)
+
+    # Values
+
+    def _word(self, element: _Element, attribute: str) -> str:
+        word = element.attributes.get(attribute)
+        if not word:
+            self._note(element, f"<{element.tag}> has no {attribute}")
+            raise _Unreadable
+        return word
+
+    def _numbers(
+        self, element: _Element, attribute: str, count: int, default: str | None = None
+    ) -> tuple[float, ...]:
+        text = element.attributes.get(attribute, default)
+        if text is None:
+            self._note(element, f"<{element.tag}> has no {attribute}")
+            raise _Unreadable
+        words = text.split()
+        numbers = []
+        for word in words:
+            if not _NUMBER.fullmatch(word) or not math.isfinite(float(word)):
+                self._note(element, f"'{word[:40]}' is not a finite number", attribute)
+                raise _Unreadable
+            numbers.append(float(word))
+        if len(numbers) != count:
+            wanted = "one number" if count == 1 else f"{count} numbers"
+            self._note(element, f"{attribute} is {wanted}, not {len(numbers)}", attribute)
+            raise _Unreadable
+        return tuple(numbers)
+
+    def _number(self, element: _Element, attribute: str, default: str | None = None) -> float:
+        return self._numbers(element, attribute, 1, default)[0]
+
+    def _origin(self, element: _Element) -> Transform:
+        origin = element.first("origin")
+        if origin is None:
+            return Transform()
+        xyz = self._numbers(origin, "xyz", 3, "0 0 0")
+        roll, pitch, yaw = self._numbers(origin, "rpy", 3, "0 0 0")
+        if max(map(abs, (roll, pitch, yaw))) > math.tau:
+            self.notes.append(
+                f"line {origin.line + 1}: rpy {roll:g} {pitch:g} {yaw:g} is more than a whole "
+                "turn: URDF takes radians, and 90 degrees are 1.5708"
+            )
+        return Transform(xyz, quaternion_from_rpy(roll, pitch, yaw))
+
+    def _add(self, element: _Element, what: str, held: dict[str, T], new: T | None) -> bool:
+        if new is None:
+            return False
+        name = element.attributes["name"]
+        if name in held:
+            self._note(element, f"there is a {what} named '{name}' already", "name")
+            return False
+        held[name] = new
+        return True
+
+    # Links
+
+    def _materials(self, robot: _Element) -> dict[str, Surface]:
+        found: dict[str, Surface] = {}
+        for element in robot.all("material"):
+            if element.attributes.get("name", "") in found:
+                name = element.attributes.get("name", "")
+                self._note(element, f"there is a material named '{name}' already", "name")
+                continue
+            with self._left_out():
+                material = self._material(element)
+                found[material.name] = material
+        return found
+
+    def _material(self, element: _Element) -> Surface:
+        color = element.first("color")
+        rgba = self._numbers(color, "rgba", 4) if color is not None else None
+        texture = element.first("texture")
+        return Surface(
+            element.attributes.get("name", ""),
+            (rgba[0], rgba[1], rgba[2], rgba[3]) if rgba else None,
+            texture.attributes.get("filename", "") if texture is not None else "",
+        )
+
+    def _link(self, element: _Element, materials: Mapping[str, Surface]) -> RobotLink | None:
+        try:
+            name = self._word(element, "name")
+        except _Unreadable:
+            return None
+        visuals = self._shapes(element, "visual", materials)
+        collisions = self._shapes(element, "collision", {})
+        mass = None
+        inertial = element.first("inertial")
+        if inertial is not None:
+            with self._left_out():
+                mass = self._mass(inertial)
+        return RobotLink(name, visuals, collisions, mass)
+
+    def _mass(self, inertial: _Element) -> float:
+        self._origin(inertial)
+        mass, inertia = inertial.first("mass"), inertial.first("inertia")
+        for part, tag in ((mass, "mass"), (inertia, "inertia")):
+            if part is None:
+                self._note(inertial, f"<inertial> has no <{tag}>")
+                raise _Unreadable
+        assert mass is not None
+        assert inertia is not None
+        for moment in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"):
+            self._number(inertia, moment)
+        return self._number(mass, "value")
+
+    def _shapes(
+        self, link: _Element, tag: str, materials: Mapping[str, Surface]
+    ) -> tuple[LinkShape, ...]:
+        shapes = []
+        for element in link.all(tag):
+            with self._left_out():
+                shapes.append(self._shape(element, materials))
+        return tuple(shapes)
+
+    def _shape(self, element: _Element, materials: Mapping[str, Surface]) -> LinkShape:
+        origin = self._origin(element)
+        geometry = element.first("geometry")
+        if geometry is None:
+            self._note(element, f"<{element.tag}> has no <geometry>")
+            raise _Unreadable
+        named = element.first("material")
+        material = None
+        if named is not None:
+            with self._left_out():
+                material = self._material(named)
+            if material is not None and material.color is None and not material.texture:
+                material = materials.get(material.name, material)
+        name = element.attributes.get("name", "")
+        return LinkShape(name, origin, self._geometry(geometry), material)
+
+    def _geometry(self, geometry: _Element) -> ShapeGeometry:
+        for element in geometry.children:
+            match element.tag:
+                case "box":
+                    return BoxShape(Vector3(*self._numbers(element, "size", 3)))
+                case "cylinder":
+                    return CylinderShape(
+                        self._number(element, "radius"), self._number(element, "length")
+                    )
+                case "capsule":
+                    return CapsuleShape(
+                        self._number(element, "radius"), self._number(element, "length")
+                    )
+                case "sphere":
+                    return SphereShape(self._number(element, "radius"))
+                case "mesh":
+                    scale = self._numbers(element, "scale", 3, "1 1 1")
+                    return MeshShape(self._word(element, "filename"), Vector3(*scale))
+        kinds = "a box, cylinder, sphere, capsule or mesh"
+        there = f"<{geometry.children[0].tag}>" if geometry.children else "nothing"
+        self._note(geometry, f"<geometry> holds {kinds}, not {there}")
+        raise _Unreadable
+
+    # Joints
+
+    def _joint(self, element: _Element) -> RobotJoint | None:
+        try:
+            name = self._word(element, "name")
+            kind = self._word(element, "type")
+            if kind not in JOINT_TYPES:
+                near = near_names(kind, JOINT_TYPES)
+                hint = (
+                    f"did you mean '{near[0]}'?" if near else f"it is one of {_list(JOINT_TYPES)}"
+                )
+                self._note(element, f"'{kind[:40]}' is not a type of joint; {hint}", "type")
+                raise _Unreadable
+            ends = []
+            for tag in ("parent", "child"):
+                end = element.first(tag)
+                if end is None:
+                    self._note(element, f"joint '{name}' has no <{tag} link=…>")
+                    raise _Unreadable
+                ends.append(self._word(end, "link"))
+            return RobotJoint(
+                name,
+                kind,
+                ends[0],
+                ends[1],
+                self._origin(element),
+                self._axis(element, kind),
+                self._limit(element, name, kind),
+                self._mimic(element),
+            )
+        except _Unreadable:
+            return None
+
+    def _axis(self, joint: _Element, kind: str) -> Vector3:
+        element = joint.first("axis")
+        if element is None or kind in ("fixed", "floating"):
+            return Vector3(1.0, 0.0, 0.0)
+        x, y, z = self._numbers(element, "xyz", 3, "1 0 0")
+        length = math.hypot(x, y, z)
+        if length == 0.0:
+            self._note(element, "the axis of a joint that moves must have a length", "xyz")
+            raise _Unreadable
+        return Vector3(x / length, y / length, z / length)
+
+    def _limit(self, joint: _Element, name: str, kind: str) -> JointLimit | None:
+        element = joint.first("limit")
+        if element is None:
+            if kind in LIMITED_TYPES:
+                self._note(joint, f"{kind} joint '{name}' needs a <limit effort=… velocity=…>")
+            return None
+        lower, upper = self._number(element, "lower", "0"), self._number(element, "upper", "0")
+        if kind in LIMITED_TYPES and lower > upper:
+            self.notes.append(
+                f"joint '{name}' can be nowhere: its lower limit, {lower:g}, is above its upper "
+                f"one, {upper:g}"
+            )
+        return JointLimit(
+            lower,
+            upper,
+            self._number(element, "effort"),
+            self._number(element, "velocity"),
+        )
+
+    def _mimic(self, joint: _Element) -> JointMimic | None:
+        element = joint.first("mimic")
+        if element is None:
+            return None
+        return JointMimic(
+            self._word(element, "joint"),
+            self._number(element, "multiplier", "1"),
+            self._number(element, "offset", "0"),
+        )
+
+    # The tree
+
+    def _tree(
+        self,
+        robot: _Element,
+        links: Mapping[str, RobotLink],
+        joints: Mapping[str, RobotJoint],
+        places: Mapping[str, _Element],
+    ) -> str:
+        joint_above: dict[str, RobotJoint] = {}
+        for joint in joints.values():
+            place = places[joint.name]
+            for tag, link in (("parent", joint.parent), ("child", joint.child)):
+                if link not in links:
+                    self._unknown_link(place, joint, tag, link, links)
+            if joint.child in joint_above:
+                other = joint_above[joint.child].name
+                self._note(
+                    _end(place, "child"),
+                    f"link '{joint.child}' has two parents: "
+                    f"it is the child of joint '{other}' already",
+                    "link",
+                )
+            else:
+                joint_above[joint.child] = joint
+        for loop in _loops(joint_above):
+            way = " → ".join([*(joint.parent for joint in loop), loop[0].parent])
+            self._note(places[loop[0].name], f"the links run in a loop: {way}")
+        roots = [name for name in links if name not in joint_above]
+        # A joint that could not be read would have joined two of them.
+        every_joint_read = len(joints) == sum(1 for _ in robot.all("joint"))
+        if len(roots) > 1 and every_joint_read:
+            shown = _list([f"'{root}'" for root in roots[:10]])
+            more = f" and {len(roots) - 10} more" if len(roots) > 10 else ""
+            self._note(
+                robot,
+                f"{len(roots)} links have no parent, and a robot has one root: {shown}{more}; "
+                "join them by fixed joints",
+            )
+        elif not roots and links and not self.mistakes:
+            self._note(robot, "every link has a parent, so there is no root")
+        return roots[0] if roots else ""
+
+    def _unknown_link(
+        self, place: _Element, joint: RobotJoint, tag: str, link: str, links: Iterable[str]
+    ) -> None:
+        hint = did_you_mean(link, links)
+        self._note(
+            _end(place, tag),
+            f"joint '{joint.name}' names the {tag} '{link[:100]}', which is no link here{hint}",
+            "link",
+        )
+
+    def _mimics(self, joints: Mapping[str, RobotJoint]) -> None:
+        for joint in joints.values():
+            seen = [joint.name]
+            leader = joint
+            while leader.mimic is not None:
+                name = leader.mimic.joint
+                if name not in joints:
+                    if leader is joint:
+                        self.notes.append(
+                            f"joint '{joint.name}' mimics '{name}', which is no joint here: "
+                            "it is treated as a joint of its own"
+                        )
+                    break
+                if name in seen:
+                    if name == joint.name:
+                        self.notes.append(
+                            f"joint '{joint.name}' mimics itself by way of {_list(seen)}: "
+                            "it is treated as a joint of its own"
+                        )
+                    break
+                seen.append(name)
+                leader = joints[name]
+
+
+class _Doctype(Exception):
+    """A document type begins here; it could expand without bound."""
+
+
+def _refuse_doctype(*_declared: object) -> None:
+    raise _Doctype
+
+
+def _end(joint: _Element, tag: str) -> _Element:
+    return joint.first(tag) or joint
+
+
+def _loops(joint_above: Mapping[str, RobotJoint]) -> list[list[RobotJoint]]:
+    """Every circle of joints, each once."""
+    done: set[str] = set()
+    loops = []
+    for start in joint_above:
+        way: list[str] = []
+        link = start
+        while link in joint_above and link not in done:
+            done.add(link)
+            way.append(link)
+            link = joint_above[link].parent
+        if link in way:
+            loops.append([joint_above[one] for one in reversed(way[way.index(link) :])])
+    return loops
+
+
+def _list(words: Iterable[str]) -> str:
+    return ", ".join(words)

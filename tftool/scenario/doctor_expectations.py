@@ -1,0 +1,139 @@
+"""What a scenario, or a file beside a recording, asks of the doctor; and listening for it.
+
+The doctor itself, and the numpy it needs, is imported where one is asked: most scenarios ask none.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from tftool.base.errors import ScenarioError
+from tftool.scenario import units as values
+from tftool.scenario.document import Document, Node
+from tftool.scenario.fields import Key, Reading, Unreadable, quoted, suggest
+from tftool.scenario.text_file import text_of
+from tftool.world.world import TransformMessage, World
+
+if TYPE_CHECKING:
+    from tftool.doctor.model import Settings
+    from tftool.doctor.session_evidence import Hearing
+
+ENDING = ".doctor.yaml"
+"""What the name of a recording's own list ends in."""
+
+
+@dataclass(frozen=True, slots=True)
+class DoctorRules:
+    """What the doctor is to leave out, and which thresholds it is to take.
+
+    Attributes:
+        ignore: Ids and areas of checks.
+        limits: Thresholds by check and name.
+    """
+
+    ignore: tuple[str, ...] = ()
+    limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+    def settings(self, given: "Settings") -> "Settings":
+        """What a command line says, and these thresholds where it says nothing."""
+        from tftool.doctor.model import Settings
+
+        limits = {name: dict(of) for name, of in self.limits.items()}
+        for name, of in given.limits.items():
+            limits.setdefault(name, {}).update(of)
+        return Settings(given.cache_time, given.fixed_frame, given.tf_topics, limits)
+
+
+NO_RULES = DoctorRules()
+
+
+def check_or_area(node: Node, reading: Reading) -> str:
+    """Read the id of a check, or an area of them."""
+    from tftool.doctor.catalogue import CHECKS
+    from tftool.doctor.findings import Area
+
+    word = reading.text(node, "a check").replace(" ", "-")
+    known = (*CHECKS, *(area.value.replace(" ", "-") for area in Area))
+    if word not in known:
+        near = suggest(word, known) or "; 'tftool doctor --list' shows all"
+        raise reading.refuse(node, f"there is no check or area {quoted(word)}{near}")
+    return word
+
+
+def limits(node: Node, reading: Reading) -> Mapping[str, Mapping[str, float]]:
+    """Read thresholds: `gap.seconds: 2`."""
+    from tftool.doctor.catalogue import CHECKS
+
+    found: dict[str, dict[str, float]] = {}
+    number = values.quantity(values.NUMBER, least=0.0)
+    whole = True
+    for word, (key, value) in reading.entries(node, "gap.seconds: 2").items():
+        check, _, name = word.partition(".")
+        known = [f"{one}.{limit}" for one, what in CHECKS.items() for limit in what.limits]
+        if word not in known:
+            whole = False
+            reading.note(key, f"there is no threshold {quoted(word)}{suggest(word, known)}")
+            continue
+        read = reading.try_read(number, value)
+        if isinstance(read, float):
+            found.setdefault(check, {})[name] = read
+        else:
+            whole = False
+    if not whole:
+        raise Unreadable
+    return MappingProxyType(found)
+
+
+def rules(node: Node, reading: Reading) -> DoctorRules:
+    """Read what is asked of the doctor: `{ignore: [gap, names], limits: {gap.seconds: 2}}`."""
+    known = {
+        "ignore": Key(values.several(check_or_area, "checks"), ()),
+        "limits": Key(limits, MappingProxyType({})),
+    }
+    return DoctorRules(**reading.record(node, known, "doctor"))
+
+
+def rules_beside(path: str | Path) -> tuple[DoctorRules, Path | None]:
+    """The list beside a recording, `run.doctor.yaml` for `run.mcap`, and where it is.
+
+    Raises:
+        InputError: If it cannot be read; `ScenarioError` with every mistake in it.
+    """
+    recording = Path(path)
+    for name in (f"{recording.name}{ENDING}", f"{recording.stem}{ENDING}"):
+        file = recording.with_name(name) if recording.name else recording / name
+        if file.is_file():
+            return _parsed(text_of(file), str(file)), file
+    return NO_RULES, None
+
+
+def _parsed(text: str, name: str) -> DoctorRules:
+    source = Document(text, name)
+    reading = Reading(source)
+    try:
+        root = source.read()
+        reading.mistakes.extend(source.mistakes)
+        found = rules(root, reading)
+        if reading.mistakes:
+            raise Unreadable
+    except Unreadable as error:
+        raise ScenarioError(name, reading.mistakes) from error
+    return found
+
+
+def heard_in(world: World) -> "tuple[Hearing, list[Callable[[], None]]]":
+    """Begin to listen to a world's transforms; what is returned beside ends it."""
+    from tftool.doctor.session_evidence import Hearing
+
+    hearing = Hearing()
+
+    def hear(message: TransformMessage, *, is_static: bool) -> None:
+        now = world.clock.now()
+        hearing.hear(now, message.transforms, message.authority, is_static=is_static)
+
+    return hearing, [
+        world.tf.subscribe(lambda message: hear(message, is_static=False)),
+        world.tf_static.subscribe(lambda message: hear(message, is_static=True)),
+    ]

@@ -1,0 +1,232 @@
+"""Reading a document by what is wanted, with every mistake told at once.
+
+A reader is a function from a node to a value. It notes what is wrong and
+raises `Unreadable`; what reads several things catches that and goes on with
+the next, so that one pass finds all mistakes. The readers of single values are
+in `values`.
+"""
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import MISSING, dataclass, field, fields
+from typing import Any, TypeAlias, TypeVar
+
+from tftool.base.errors import Mistake
+from tftool.base.escaping import visible
+from tftool.base.near_names import did_you_mean, near_names
+from tftool.scenario import document
+from tftool.scenario.document import Document, Node, Scalar, TextPlace
+
+T = TypeVar("T")
+
+Reader: TypeAlias = Callable[[Node, "Reading"], Any]
+
+REQUIRED: Any = object()
+"""The default of a field that must be given."""
+
+UNREAD: Any = object()
+"""What stands where something could not be read."""
+
+_ARGUMENT = re.compile(r"\$(?:\$|\{(\w+)\}|(\w+))")
+
+
+class Unreadable(Exception):
+    """A part could not be read; why is noted already."""
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """What one key may hold, and what it means when it is left out."""
+
+    read: Reader
+    default: Any = REQUIRED
+
+
+class Reading:
+    """One pass over a document: the arguments it is read with, and its mistakes."""
+
+    def __init__(self, source: Document) -> None:
+        self.source = source
+        self.arguments: dict[str, str] = {}
+        self.mistakes: list[Mistake] = []
+        self._noted: set[tuple[TextPlace, str]] = set()
+
+    def note(self, where: Node | TextPlace, text: str) -> None:
+        """Note a mistake; the same one is noted once, however often an alias repeats it."""
+        place = where if isinstance(where, TextPlace) else where.place
+        if (place, text) not in self._noted:
+            self._noted.add((place, text))
+            self.mistakes.append(self.source.mistake(place, text))
+
+    def refuse(self, where: Node | TextPlace, text: str) -> Unreadable:
+        """Note a mistake, and give the exception to raise."""
+        self.note(where, text)
+        return Unreadable()
+
+    def try_read(self, read: Reader, node: Node) -> Any:
+        """Read something; `UNREAD` stands in for what could not be read."""
+        try:
+            return read(node, self)
+        except Unreadable:
+            return UNREAD
+
+    def whole(self, values: Iterable[T]) -> list[T]:
+        """The values, if every one of them could be read."""
+        found = list(values)
+        if any(value is UNREAD for value in found):
+            raise Unreadable
+        return found
+
+    def part(self, node: Node, text: str) -> Scalar:
+        """A part of a value, to be read by itself; mistakes in it point at the value."""
+        return Scalar(node.place, text.replace("$", "$$"))
+
+    def text(self, node: Node, wanted: str) -> str:
+        """The text of a single value, arguments put in.
+
+        Args:
+            node: Where it should stand.
+            wanted: What it should be, with its article: "a frame".
+        """
+        if not isinstance(node, Scalar):
+            kind = "a list" if isinstance(node, document.Sequence) else "a mapping"
+            raise self.refuse(node, f"{kind} stands where {wanted} is wanted")
+        if node.is_nothing:
+            raise self.refuse(node, f"nothing stands where {wanted} is wanted")
+
+        def value(match: re.Match[str]) -> str:
+            name = match[1] or match[2]
+            if name is None:
+                return "$"
+            if name not in self.arguments:
+                near = suggest(name, self.arguments)
+                known = near or (
+                    f"; there are {listed(self.arguments)}"
+                    if self.arguments
+                    else "; declare it under 'arguments'"
+                )
+                raise self.refuse(node, f"unknown argument '${name}'{known}")
+            return self.arguments[name]
+
+        return _ARGUMENT.sub(value, node.text)
+
+    def entries(self, node: Node, wanted: str) -> dict[str, tuple[Scalar, Node]]:
+        """The entries of a mapping by key; a key that is there twice is a mistake."""
+        if isinstance(node, Scalar) and node.is_nothing:
+            return {}
+        if not isinstance(node, document.Mapping):
+            kind = "a list" if isinstance(node, document.Sequence) else quoted(node.text)
+            raise self.refuse(node, f"{kind} stands where a mapping ({wanted}) is wanted")
+        found: dict[str, tuple[Scalar, Node]] = {}
+        for key, value in node.entries:
+            if key.text in found:
+                line = found[key.text][0].place.line + 1
+                self.note(key, f"the key {quoted(key.text)} is there already, in line {line}")
+            else:
+                found[key.text] = (key, value)
+        return found
+
+    def items(self, node: Node, wanted: str) -> tuple[Node, ...]:
+        """The items of a list; nothing at all is an empty one."""
+        if isinstance(node, Scalar) and node.is_nothing:
+            return ()
+        if not isinstance(node, document.Sequence):
+            raise self.refuse(node, f"a list ({wanted}) is wanted here; begin each item with '- '")
+        return node.items
+
+    def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
+        """Read a mapping with known keys.
+
+        Args:
+            node: The mapping.
+            known: What each key may hold.
+            what: What the mapping is, with its article: "a broadcaster".
+
+        Returns:
+            A value for every known key.
+        """
+        entries = self.entries(node, ", ".join(known) or "empty")
+        return self.values(node.place, entries, known, what)
+
+    def values(
+        self,
+        place: TextPlace,
+        entries: Mapping[str, tuple[Scalar, Node]],
+        known: Mapping[str, Key],
+        what: str,
+    ) -> dict[str, Any]:
+        """Read entries that are keys and values already; see `record`."""
+        whole = True
+        meant = set()
+        for name, (key, _) in entries.items():
+            if name not in known:
+                whole = False
+                meant.update(near_names(name, known))
+                near = suggest(name, known, always=True)
+                self.note(key, f"{what} has no key {quoted(name)}{near}")
+        found: dict[str, Any] = {}
+        for name, wanted in known.items():
+            if name in entries:
+                found[name] = self.try_read(wanted.read, entries[name][1])
+            elif wanted.default is REQUIRED:
+                whole = False
+                # Misspelt is not missing as well.
+                if name not in meant:
+                    self.note(place, f"{what} needs the key '{name}'")
+            else:
+                found[name] = wanted.default
+        self.whole(found.values())
+        if not whole:
+            raise Unreadable
+        return found
+
+
+def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = False) -> Any:
+    """A dataclass field that is read from a scenario.
+
+    Args:
+        read: Reader of its value.
+        default: Its value when it is left out; without one it must be given.
+        key: Its key, where that is no name in Python.
+        beside: Whether it stands beside the key that says what this is, not inside it.
+    """
+    metadata: dict[str, Any] = {"read": read, "beside": beside}
+    if key is not None:
+        metadata["key"] = key
+    return field(default=default[0], metadata=metadata) if default else field(metadata=metadata)
+
+
+def parts_of(kind: type) -> dict[str, tuple[Key, bool]]:
+    """What a dataclass that is read may hold, by key, and whether that stands beside it."""
+    parts = {}
+    for one in fields(kind):
+        if "read" in one.metadata:
+            default = REQUIRED if one.default is MISSING else one.default
+            key = one.metadata.get("key", one.name)
+            parts[key] = Key(one.metadata["read"], default), one.metadata["beside"]
+    return parts
+
+
+def attribute_names(kind: type) -> dict[str, str]:
+    """The attribute of a dataclass that is read for each of its keys."""
+    return {one.metadata.get("key", one.name): one.name for one in fields(kind)}
+
+
+def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
+    """The rest of a sentence about an unknown word: the nearest known one, or what there is."""
+    choices = list(known)
+    meant = did_you_mean(word, choices)
+    if meant or not always:
+        return meant
+    return f"; it may have {listed(choices)}" if choices else "; it has none"
+
+
+def listed(words: Iterable[str]) -> str:
+    """Words as a list to read."""
+    return ", ".join(words)
+
+
+def quoted(text: str) -> str:
+    """A value from a file, fit for a message."""
+    shown = visible(text)
+    return f"'{shown[:60]}…'" if len(shown) > 60 else f"'{shown}'"

@@ -1,0 +1,128 @@
+"""What a scenario is, read and checked."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from tftool.base.errors import Mistake
+from tftool.base.stamps import Duration, as_seconds
+from tftool.scenario.answer_checks import AnswerCheck
+from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules
+
+if TYPE_CHECKING:
+    from tftool.scenario.questions import Subject
+    from tftool.scenario.script_actions import Action
+
+
+@dataclass(frozen=True, slots=True)
+class NodeEntry:
+    """A node to start.
+
+    Attributes:
+        kind: Its kind, a key of `kinds.KINDS`.
+        name: Who it is; given, or its kind, numbered when there are several.
+        parameters: What its kind takes, all of it.
+    """
+
+    kind: str
+    name: str
+    parameters: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One thing that happens, `at` nanoseconds after the start.
+
+    Attributes:
+        at: When.
+        action: What.
+        line: Its line in the file.
+        name: Its name there: "spawn".
+        fails: Whether it is to be refused.
+    """
+
+    at: Duration
+    action: "Action"
+    line: int
+    name: str
+    fails: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """When an expectation is judged, in nanoseconds since the start.
+
+    Attributes:
+        kind: "at" a moment, "by" a moment at the latest, or "during" a while.
+        first: The first moment it is looked at.
+        last: The last one.
+        every: How far apart the moments between are.
+    """
+
+    kind: str
+    first: Duration
+    last: Duration
+    every: Duration
+
+    def __str__(self) -> str:
+        if self.kind == "during":
+            return f"from {_clock(self.first)} to {_clock(self.last)}"
+        return f"{self.kind} {_clock(self.last)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Expectation:
+    """What must hold, and when.
+
+    Attributes:
+        when: When it is judged.
+        question: What is asked.
+        check: What the answer must be, from `checks`.
+        line: Its line in the file.
+    """
+
+    when: When
+    question: "Subject"
+    check: AnswerCheck
+    line: int
+
+    def __str__(self) -> str:
+        return f"{self.when}: {self.question} {self.check}"
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """A world, what happens in it, and what must hold.
+
+    Attributes:
+        name: What it is called: its file's name without the ending.
+        file: Where it came from, as it was given.
+        about: What it shows.
+        arguments: What may be set from outside, with the values it was read with.
+        duration: How long it lasts on simulated time, in nanoseconds.
+        cache_time: How far back its buffer remembers, in nanoseconds.
+        nodes: What lives in it, in order.
+        script: What happens.
+        expect: What must hold.
+        doctor: What the doctor is to leave out, in expectations and in `tftool doctor`.
+        source: The text it was read from, so that it can be read with other arguments.
+        not_a_tree: Where its nodes publish two parents of a frame, a loop, or a frame in itself.
+            Not refused: the doctor may be asked about such a scenario.
+    """
+
+    name: str
+    file: str
+    about: str
+    arguments: Mapping[str, str]
+    duration: Duration
+    cache_time: Duration
+    nodes: tuple[NodeEntry, ...]
+    script: tuple[Step, ...]
+    expect: tuple[Expectation, ...]
+    source: str = field(repr=False)
+    doctor: DoctorRules = NO_RULES
+    not_a_tree: tuple[Mistake, ...] = ()
+
+
+def _clock(duration: Duration) -> str:
+    return f"{as_seconds(duration):g} s"

@@ -1,0 +1,304 @@
+"""Readers of single values: numbers with units, names, choices, moments.
+
+Every number has a documented unit and may carry another of the same kind:
+`period: 1`, `period: 1 s` and `period: 1000 ms` are the same.
+"""
+
+import math
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Decimal
+from typing import Literal
+
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp
+from tftool.scenario.document import Node, Scalar
+from tftool.scenario.fields import Reader, Reading, quoted, suggest
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+
+_DEGREE = math.pi / 180.0
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """A kind of number: what it is called, and its units by their factor (the first is 1)."""
+
+    kind: str
+    factors: Mapping[str, float]
+
+    @property
+    def name(self) -> str:
+        """The unit a bare number has; empty when it has none."""
+        return next(iter(self.factors), "")
+
+
+DURATION = Unit(
+    "a duration",
+    {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0},
+)
+LENGTH = Unit("a length", {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "km": 1e3})
+ANGLE = Unit("an angle", {"rad": 1.0, "mrad": 1e-3, "deg": _DEGREE, "°": _DEGREE})
+RATE = Unit("a rate", {"Hz": 1.0, "kHz": 1e3})
+SPEED = Unit("a speed", {"m/s": 1.0, "cm/s": 1e-2, "mm/s": 1e-3})
+TURN_RATE = Unit("a turn rate", {"rad/s": 1.0, "deg/s": _DEGREE, "°/s": _DEGREE})
+NUMBER = Unit("a number", {})
+
+_UNITS = (DURATION, LENGTH, ANGLE, RATE, SPEED, TURN_RATE)
+
+FARTHEST = 1e9
+"""The largest number a scenario may name, in its own unit."""
+
+LONGEST = 24 * 3600.0
+"""The longest duration a scenario may name, in seconds: a day."""
+
+
+def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
+    """The digits of a number and the unit written after it, both checked."""
+    text = reading.text(node, unit.kind)
+    match = _NUMBER.fullmatch(text)
+    if match is None or len(text) > 60:
+        example = f" such as 2 {unit.name}" if unit.name else ""
+        raise reading.refuse(node, f"{quoted(text)} is not {unit.kind}{example}")
+    digits, written = match[1], match[2]
+    if written and written not in unit.factors:
+        raise reading.refuse(node, f"{quoted(text)} is not {unit.kind}: {_about(written, unit)}")
+    # As a float first: 1e999999999 must not be written out.
+    if not abs(float(digits)) <= FARTHEST:
+        raise reading.refuse(node, f"{quoted(text)} is too large: more than {FARTHEST:.0e}")
+    return digits, written or unit.name
+
+
+def _about(written: str, unit: Unit) -> str:
+    if not unit.factors:
+        return f"it has no unit, so no {quoted(written)}"
+    may = f"its unit may be {', '.join(unit.factors)}"
+    for other in _UNITS:
+        if written in other.factors:
+            minutes = " (minutes are min)" if (written, unit) == ("m", DURATION) else ""
+            return f"{written} makes it {other.kind}; {may}{minutes}"
+    for known in unit.factors:
+        if known.lower() == written.lower():
+            return f"{quoted(written)} is no unit of it; did you mean '{known}'?"
+    return f"{quoted(written)} is no unit of it; {may}"
+
+
+def quantity(unit: Unit, *, least: float | None = None, most: float | None = None) -> Reader:
+    """A reader of numbers, given in the unit's first name, within bounds."""
+
+    def read(node: Node, reading: Reading) -> float:
+        digits, written = _measure(node, reading, unit)
+        value = float(digits) * unit.factors.get(written, 1.0)
+        if not _inside(value, least, most):
+            raise reading.refuse(node, _outside(value, unit, least, most))
+        return value
+
+    return read
+
+
+def _inside(value: float, least: float | None, most: float | None) -> bool:
+    return (least is None or value >= least) and (most is None or value <= most)
+
+
+def _outside(value: float, unit: Unit, least: float | None, most: float | None) -> str:
+    blank = f" {unit.name}" if unit.name else ""
+    if most is None:
+        bounds = f"of {least:g}{blank} or more"
+    elif least is None:
+        bounds = f"of {most:g}{blank} or less"
+    else:
+        bounds = f"from {least:g} to {most:g}{blank}"
+    return f"{value:g}{blank} is not {unit.kind} {bounds}"
+
+
+def time(*, least: float = 0.0, most: float = LONGEST) -> Reader:
+    """A reader of durations, exact to the nanosecond."""
+
+    def read(node: Node, reading: Reading) -> Duration:
+        digits, written = _measure(node, reading, DURATION)
+        exact = Decimal(0)
+        if abs(float(digits)) > 1e-30:
+            # The factors are powers of ten or whole: no digit is lost.
+            exact = Decimal(digits) * Decimal(repr(DURATION.factors[written]))
+        if not _inside(float(exact), least, most):
+            raise reading.refuse(node, _outside(float(exact), DURATION, least, most))
+        return int((exact * NANOSECONDS).to_integral_value(ROUND_HALF_UP))
+
+    return read
+
+
+SHORTEST = 1e-3
+"""The shortest period a scenario may name, in seconds; a shorter one would never get on."""
+
+duration = time()
+period = time(least=SHORTEST)
+length = quantity(LENGTH)
+distance = quantity(LENGTH, least=0.0)
+angle = quantity(ANGLE)
+speed = quantity(SPEED)
+top_speed = quantity(SPEED, least=0.0)
+turn_rate = quantity(TURN_RATE)
+rate = quantity(RATE, least=0.0)
+number = quantity(NUMBER)
+positive = quantity(NUMBER, least=0.0)
+
+
+def whole(least: int, most: int) -> Reader:
+    """A reader of whole numbers within bounds."""
+
+    def read(node: Node, reading: Reading) -> int:
+        value = quantity(NUMBER)(node, reading)
+        if not (value.is_integer() and least <= value <= most):
+            raise reading.refuse(
+                node, f"a whole number from {least} to {most} is wanted here, not {value:g}"
+            )
+        return int(value)
+
+    return read
+
+
+def name(what: str = "a name") -> Reader:
+    """A reader of names: any text that can be printed and is not blank."""
+
+    def read(node: Node, reading: Reading) -> str:
+        value = reading.text(node, what)
+        if not value.strip():
+            raise reading.refuse(node, f"{what} is wanted here, not blanks")
+        if not value.isprintable():
+            raise reading.refuse(node, f"{quoted(value)} holds characters that cannot be printed")
+        return value
+
+    return read
+
+
+frame = name("a frame")
+
+_TOPIC = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
+def turtle(node: Node, reading: Reading) -> str:
+    """A turtle's name: part of topic names, so letters, digits and _ only."""
+    value: str = name("a turtle")(node, reading)
+    if _TOPIC.fullmatch(value) is None:
+        raise reading.refuse(
+            node, f"{quoted(value)} names no turtle: letters, digits and _ only, no digit first"
+        )
+    return value
+
+
+def text(node: Node, reading: Reading) -> str:
+    """Any text; what cannot be printed in it is replaced."""
+    value = reading.text(node, "a text")
+    return "".join(char if char.isprintable() or char == "\n" else "\ufffd" for char in value)
+
+
+_TRUTHS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
+
+
+def flag(node: Node, reading: Reading) -> bool:
+    """Yes or no."""
+    value = reading.text(node, "true or false")
+    if value.lower() not in _TRUTHS:
+        raise reading.refuse(node, f"{quoted(value)} is neither true nor false")
+    return _TRUTHS[value.lower()]
+
+
+def or_none(read_one: Reader) -> Reader:
+    """A reader that takes `none` as well, or nothing at all."""
+
+    def read(node: Node, reading: Reading) -> object:
+        if isinstance(node, Scalar) and (node.is_nothing or reading.text(node, "") == "none"):
+            return None
+        return read_one(node, reading)
+
+    return read
+
+
+def choice(choices: Iterable[str], what: str) -> Reader:
+    """A reader of one of several words."""
+    known = tuple(choices)
+
+    def read(node: Node, reading: Reading) -> str:
+        value = reading.text(node, what)
+        if value not in known:
+            near = suggest(value, known) or f"; it may be {', '.join(known)}"
+            raise reading.refuse(node, f"{quoted(value)} is not {what}{near}")
+        return value
+
+    return read
+
+
+def words(known: Iterable[str], what: str) -> Reader:
+    """A reader of words with blanks between them, each one of `known`."""
+    choices = tuple(known)
+
+    def read(node: Node, reading: Reading) -> tuple[str, ...]:
+        found = tuple(reading.text(node, what).split())
+        if not found:
+            raise reading.refuse(node, f"{what} is wanted here, not blanks")
+        for word in found:
+            if word not in choices:
+                near = suggest(word, choices) or f"; it may be {', '.join(choices)}"
+                raise reading.refuse(node, f"{quoted(word)} is not {what}{near}")
+        return found
+
+    return read
+
+
+def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
+    """A reader of a list whose items are all of one kind."""
+
+    def read(node: Node, reading: Reading) -> tuple[object, ...]:
+        items = reading.items(node, what)
+        if count is not None and len(items) != count:
+            raise reading.refuse(node, f"{what} takes {count} values, not {len(items)}")
+        found = [reading.try_read(read_one, item) for item in items]
+        return tuple(reading.whole(found))
+
+    return read
+
+
+@dataclass(frozen=True, slots=True)
+class RelativeMoment:
+    """A moment in a question: relative to the start, to the asking, or just the latest.
+
+    Attributes:
+        kind: What `offset` counts from; nothing for "latest".
+        offset: Nanoseconds.
+    """
+
+    kind: Literal["latest", "now", "start"] = "latest"
+    offset: Duration = 0
+
+    def stamp(self, start: Stamp, now: Stamp) -> Stamp:
+        """The stamp it means in a scenario that started at `start`, asked at `now`."""
+        if self.kind == "latest":
+            return 0
+        return (start if self.kind == "start" else now) + self.offset
+
+    def __str__(self) -> str:
+        if self.kind == "latest":
+            return "latest"
+        amount = f"{abs(self.offset) / NANOSECONDS:g} s"
+        if self.kind == "start":
+            return amount
+        return f"now - {amount}" if self.offset else "now"
+
+
+_AGO = re.compile(r"\s*now\s*(?:-\s*(.+))?")
+
+
+def moment(node: Node, reading: Reading) -> RelativeMoment:
+    """`latest`, `now`, `now - 5 s`, or a time since the scenario's start."""
+    value = reading.text(node, "a moment")
+    if value.strip() == "latest":
+        return RelativeMoment()
+    ago = _AGO.fullmatch(value)
+    if ago is not None and ago[1] is None:
+        return RelativeMoment("now")
+    if ago is not None:
+        return RelativeMoment("now", -duration(reading.part(node, ago[1]), reading))
+    if _NUMBER.fullmatch(value) is None:
+        near = suggest(value, ("latest", "now")) or "; it may be latest, now, now - 5 s, or 12.5 s"
+        raise reading.refuse(node, f"{quoted(value)} is not a moment{near}")
+    return RelativeMoment("start", duration(node, reading))

@@ -1,0 +1,25 @@
+"""Where to begin to look at frames that are all there."""
+
+from typing import Final
+
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.buffer.buffer import Buffer
+
+SETTLING: Final[Duration] = seconds(3)
+"""How long after the beginning all frames are expected to have come; a scenario's turtles have."""
+
+
+def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
+    """The moment to show first; None where nothing moves.
+
+    That is when all has come that comes within `SETTLING` of the beginning.
+
+    Args:
+        buffer: The frames.
+        begin: The first moment there is.
+        end: The last one.
+    """
+    frames = buffer.snapshot(end).frames
+    first = [info.oldest for info in frames if info.samples and not info.is_static]
+    soon = [stamp for stamp in first if stamp <= min(begin + SETTLING, end)]
+    return max([begin, *soon]) if first else None

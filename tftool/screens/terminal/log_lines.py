@@ -1,0 +1,142 @@
+"""The log as a person wants to read it."""
+
+import re
+from collections import deque
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rich.text import Text
+
+from tftool.base.stamps import Stamp, as_seconds
+from tftool.screens.terminal.text_style import Look, wrapped
+from tftool.world.log import PROBLEMS, LogRecord
+
+
+@dataclass(slots=True)
+class _Entry:
+    """A line, and when it was said: of many times only the newest, and how many there were."""
+
+    record: LogRecord
+    kind: str
+    stamps: deque[Stamp]
+    forgotten: int = 0
+
+    def times(self, until: Stamp) -> int:
+        """How often it had been said by a moment."""
+        later = sum(1 for stamp in self.stamps if stamp > until)
+        return 0 if later == len(self.stamps) else self.forgotten + len(self.stamps) - later
+
+    def last(self, until: Stamp) -> Stamp:
+        """When it had been said last by a moment."""
+        return max((stamp for stamp in self.stamps if stamp <= until), default=0)
+
+
+class Journal:
+    """The log as a person wants it: what repeats is one line with a count."""
+
+    KEPT = 300
+    STAMPS = 400
+    # What a node warns of again and again differs in its numbers.
+    _NUMBERS = re.compile(r"-?\d+(\.\d+)?")
+
+    def __init__(self, records: Iterable[LogRecord] = ()) -> None:
+        self.revision = 0
+        self._entries: deque[_Entry] = deque(maxlen=self.KEPT)
+        for record in records:
+            self.add(record)
+
+    def add(self, record: LogRecord) -> None:
+        """Take in a line of the world's log."""
+        self.revision += 1
+        warns = record.level in PROBLEMS
+        text = self._NUMBERS.sub("#", record.text) if warns else record.text
+        kind = f"{record.level}\n{record.node}\n{text}"
+        # Those that repeat themselves take turns: the last few lines are looked at.
+        for entry in list(self._entries)[-4:]:
+            if entry.kind == kind:
+                entry.record = record
+                if len(entry.stamps) == self.STAMPS:
+                    entry.stamps.popleft()
+                    entry.forgotten += 1
+                entry.stamps.append(record.stamp)
+                return
+        self._entries.append(_Entry(record, kind, deque([record.stamp])))
+
+    def lines(
+        self, until: Stamp, start: Stamp, width: int, height: int, look: Look, *, back: int = 0
+    ) -> list[Text]:
+        """Show the newest lines up to a moment, the newest at the bottom.
+
+        Args:
+            until: The moment shown.
+            start: The moment that counts as 0.
+            width: Cells across.
+            height: Lines.
+            look: How to paint.
+            back: How many of the newest lines to leave out.
+        """
+        told = self._told(until)
+        told = told[: max(len(told) - back, 1)]
+        if not told:
+            return [Text("Nothing was said yet.", look.ink(look.palette.dim))]
+        shown: list[Text] = []
+        for entry in reversed(told):
+            lines = self._entry(entry, until, start, width, look)
+            shown[:0] = lines[: max(0, height - len(shown))]
+            if len(shown) >= height:
+                break
+        return shown
+
+    def strip(self, until: Stamp, start: Stamp, width: int, look: Look) -> Text:
+        """The newest line up to a moment in one row, and how to see more.
+
+        Args:
+            until: The moment shown.
+            start: The moment that counts as 0.
+            width: Cells across.
+            look: How to paint.
+        """
+        told = self._told(until)
+        dim = look.ink(look.palette.dim)
+        more = Text.assemble(("  L", look.ink(look.palette.accent, bold=True)), (" log ", dim))
+        line = Text(" Nothing was said yet.", dim)
+        if told:
+            line = Text.assemble(" ", *self._entry(told[-1], until, start, 10_000, look)[:1])
+        room = max(0, width - more.cell_len)
+        if line.cell_len > room:
+            line.truncate(max(0, room - 1))
+            line.append(look.more)
+        line.append(" " * max(0, room - line.cell_len))
+        line.append_text(more)
+        line.truncate(width)
+        return line
+
+    def _told(self, until: Stamp) -> list[_Entry]:
+        """What had been said by a moment, in the order in which each was said last."""
+        told = [entry for entry in self._entries if entry.times(until)]
+        return sorted(told, key=lambda entry: entry.last(until))
+
+    def _entry(
+        self, entry: _Entry, until: Stamp, start: Stamp, width: int, look: Look
+    ) -> list[Text]:
+        palette, record = look.palette, entry.record
+        colors = {"WARN": palette.warning, "ERROR": palette.error, "FATAL": palette.error}
+        color = colors.get(record.level, palette.text)
+        last = entry.last(until)
+        # The session's clock may be another one than that on which the screen began.
+        when = f"{as_seconds(last - start):.1f} " if last >= start else "- "
+        indent = 2 if width < 40 else 7
+        when = when.rjust(indent)
+        count = entry.times(until)
+        times = f" {'x' if look.ascii_only else '×'}{count}" if count > 1 else ""
+        words = f"{record.node}: {record.text}"
+        # The first line shares its place with the time, the others stand a little in.
+        lines = wrapped(
+            words, max(8, width - indent), look.ink(color), first=max(8, width - len(when))
+        )
+        lines[0] = Text.assemble((when, look.ink(palette.dim)), lines[0])
+        lines[1:] = [Text.assemble(" " * indent, line) for line in lines[1:3]]
+        if times:
+            lines[-1].truncate(max(0, width - len(times)))
+            lines[-1].append(times, look.ink(palette.accent, bold=True))
+        return lines

@@ -1,0 +1,290 @@
+"""The text in the panels of the terminal app: pure, from a moment to lines of a given width."""
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from rich.cells import cell_len
+from rich.text import Text
+
+from tftool.base.fixed_width import fitted, padded, plain
+from tftool.base.stamps import as_seconds
+from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.drawing import theme
+from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.screens.terminal.scene import SceneMoment
+from tftool.screens.terminal.screen_layout import BLOCK_LINES
+from tftool.screens.terminal.text_style import Look, wrapped
+
+
+class Row(NamedTuple):
+    """A frame's place in the tree: what is drawn before its name."""
+
+    guide: str
+    info: FrameInfo
+
+
+def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
+    """List all trees from top to bottom, one after the other.
+
+    Frames in a loop, which no root reaches, come last.
+    """
+    through, last, down, blank = (
+        ("|- ", "`- ", "|  ", "   ") if ascii_only else ("├─ ", "└─ ", "│  ", "   ")
+    )
+    found: list[Row] = []
+    # A stack and not a recursion: a tree may be as deep as there are frames.
+    waiting = [(root, "", "") for root in reversed(snapshot.roots())]
+    while waiting:
+        name, before, guide = waiting.pop()
+        found.append(Row(before + guide, snapshot.frame(name)))
+        below = before + ("" if not guide else blank if guide == last else down)
+        children = snapshot.children(name)
+        waiting += [
+            (child, below, last if child == children[-1] else through)
+            for child in reversed(children)
+        ]
+    found += [Row("", snapshot.frame(name)) for name in snapshot.loops()]
+    return found
+
+
+def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
+    """The rows that `tree` shows below its heading, the cursor's among them."""
+    at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
+    space = max(1, height - 1)
+    first = max(0, min(at - space // 2, len(listed) - space))
+    return listed[first : first + space]
+
+
+def tree(
+    moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
+) -> list[Text]:
+    """Show every link with its rate and age: amber when it is stale, then red.
+
+    Args:
+        moment: What to show.
+        listed: Its frames, as `rows` gives them.
+        cursor: The frame the cursor is on; it is kept in view.
+        width: Cells across.
+        height: Lines.
+        look: How to paint.
+    """
+    dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
+    if not listed:
+        return wrapped("No frames yet.", width, dim)
+    columns = _Columns.of(width)
+    head = padded("  frame", columns.name) + f"{'Hz':>{columns.rate}}{'age':>{columns.age}}"
+    lines = [Text(fitted(head + ("  from" if columns.sender else ""), width, more=""), dim)]
+    visible = in_view(listed, cursor, height)
+    room = columns.name - 2
+    # One cell a level instead of three, where names would be cut otherwise.
+    tight = any(len(row.guide) + len(row.info.frame) > room for row in visible)
+    for row in visible:
+        info = row.info
+        age = moment.ages.get(info.frame, 0.0)
+        style = look.ink(theme.of_age(look.palette.text, age, look.palette))
+        picked = info.frame == cursor
+        fresh = not theme.is_stale(age)
+        mark = (">" if look.ascii_only else "▸") if picked else " "
+        mark += ("*" if look.ascii_only else "◎") if info.frame == moment.pair.target else " "
+        guide = fitted(row.guide[:: 3 if tight else 1], max(0, room - 6), more=look.more)
+        name = padded(info.frame, max(1, room - cell_len(guide)), more=look.more)
+        line = Text.assemble(
+            (mark, accent),
+            (guide, dim),
+            (name, look.ink(look.of_name(info.frame), bold=picked) if fresh else style),
+            (_facts(info, age, columns, look), dim if info.is_static else style),
+        )
+        if columns.sender:
+            sender = padded(info.authority or "", columns.sender, more=look.more)
+            line.append("  " + sender, dim)
+        lines.append(line)
+    return lines
+
+
+def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
+    """What the picture is, and in which frame: "Frames in world"."""
+    fixed = moment.picture.fixed
+    if not fixed:
+        return "Field"
+    return f"Frames in {plain(fixed)}" + (" (fixed)" if is_chosen else "")
+
+
+class _Columns(NamedTuple):
+    """How wide the columns of the tree are; the sender's is 0 where there is no room."""
+
+    name: int
+    rate: int
+    age: int
+    sender: int
+
+    @classmethod
+    def of(cls, width: int) -> "_Columns":
+        rate, age = (5, 7) if width < 34 else (7, 13)
+        sender = min(24, width - 46) if width >= 58 else 0
+        used = rate + age + (sender + 2 if sender else 0)
+        return cls(max(4, width - used), rate, age, sender)
+
+
+def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
+    """Rate and age of a link, as wide as their columns."""
+    width = columns.rate + columns.age
+    if info.root is None:
+        return f"{'in a loop':>{width}}"
+    if info.parent is None:
+        return " " * width
+    if info.is_static:
+        return f"{'static':>{width}}"
+    none = "-" if look.ascii_only else "–"
+    rate = f"{info.rate:.1f}" if info.samples > 1 and info.rate < 9999.0 else none
+    shown = f"{age:.1f} s" if age < 100.0 else f"{age:.0f} s"
+    if columns.age > 10 and theme.is_stale(age):
+        shown += " ago"
+    return f"{rate:>{columns.rate}}{shown:>{columns.age}}"
+
+
+def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
+    """Say where the source is in the target: shortly, or with room in every notation.
+
+    Columns are as wide for a number above nothing as for one below: nothing shifts.
+    """
+    asked, dim = moment.pair, look.ink(look.palette.dim)
+    half = max(1, (width - 4) // 2)
+    source, target = (
+        (fitted(name, half, more=look.more), look.ink(look.of_name(name), bold=True))
+        for name in (asked.source, asked.target)
+    )
+    lines = [Text.assemble(source, (" in ", dim), target)]
+    if asked.found is None:
+        return lines + wrapped(asked.refusal, width, look.ink(look.palette.warning))
+    narrow = width < 36
+    facts = _facts_of(asked.found, narrow=narrow, look=look)
+    if height >= BLOCK_LINES and not narrow:
+        facts += _more_facts(asked.found)
+    for name, value in facts:
+        label = f"{name:{2 if narrow else 5}}"
+        shown = fitted(value, max(0, width - len(label)), more=look.more)
+        lines.append(Text.assemble((label, dim), (shown, look.ink(look.palette.text))))
+    return lines
+
+
+def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tuple[str, str]]:
+    translation, rotation = found.transform
+    degrees = [math.degrees(angle) for angle in rpy_from_quaternion(rotation)]
+    stamp = f"{as_seconds(found.stamp):.3f}" if found.stamp else "at all times"
+    away = _away(*translation, look)
+    if narrow:
+        return [
+            ("t", f" {stamp}"),
+            ("p", _numbers(translation, 2, 7)),
+            ("q", _numbers(rotation, 2, 6)),
+            ("r", _numbers(degrees, 1, 7)),
+            ("", f" {away}"),
+        ]
+    return [
+        ("at", f" {stamp}"),
+        ("xyz", _numbers(translation, 3, 8)),
+        ("quat", _numbers(rotation, 3, 8)),
+        ("rpy", _numbers(degrees, 1, 8) + _degree(look)),
+        ("away", f" {away}"),
+    ]
+
+
+def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
+    """The angles in radians, and the rows of the matrix."""
+    radians = rpy_from_quaternion(found.transform.rotation)
+    matrix = found.transform.matrix()
+    rows = [("mat" if not place else "", _numbers(row, 3, 8)) for place, row in enumerate(matrix)]
+    return [("rad", _numbers(radians, 3, 8)), *rows]
+
+
+def _away(x: float, y: float, z: float, look: Look) -> str:
+    """Say how far that is, and in which direction from straight ahead."""
+    away, bearing = math.hypot(x, y, z), math.degrees(math.atan2(y, x))
+    if away < 0.001:
+        return f"{away:.3f} m"
+    if abs(bearing) < 0.05:
+        return f"{away:.3f} m, ahead"
+    side = "left" if bearing > 0 else "right"
+    return f"{away:.3f} m, {abs(bearing):.1f}{_degree(look)} {side}"
+
+
+def _number(value: float, digits: int) -> str:
+    shown = f"{value:.{digits}f}"
+    # Nothing is not less than nothing.
+    return shown.lstrip("-") if not shown.strip("-0.") else shown
+
+
+def _numbers(values: Iterable[float], digits: int, width: int) -> str:
+    """Numbers in columns of `width`, a blank in front of each; a long one takes what it needs."""
+    return "".join(f" {_number(value, digits):>{width - 1}}" for value in values)
+
+
+def _degree(look: Look) -> str:
+    return "d" if look.ascii_only else "°"
+
+
+def scenarios(
+    offered: Sequence[tuple[str, str]], cursor: int, width: int, height: int, look: Look
+) -> list[Text]:
+    """List what can be shown: a name and what it is about, the cursor on one of them."""
+    first = max(0, min(cursor - height // 2, len(offered) - height))
+    wide = max((cell_len(name) for name, _ in offered), default=0) + 2
+    dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
+    lines = []
+    for place in range(first, min(len(offered), first + height)):
+        name, about = offered[place]
+        picked = place == cursor
+        mark = (">" if look.ascii_only else "▸") if picked else " "
+        lines.append(
+            Text.assemble(
+                (f"{mark} ", accent),
+                (padded(name, wide), accent if picked else look.ink(look.palette.text)),
+                (fitted(about, max(0, width - wide - 2), more=look.more), dim),
+            )
+        )
+    return lines
+
+
+def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:
+    """One line: what runs, what time it is there, and whether that is now."""
+    palette = look.palette
+    clock = f"{as_seconds(moment.elapsed):.1f} s"
+    if moment.behind:
+        sign = "<<" if look.ascii_only else "◀◀"
+        state, ink = f"{sign} {as_seconds(moment.behind):.1f} s ago", palette.warning
+    else:
+        state, ink = ("* live" if look.ascii_only else "● live"), palette.accent
+    if rate != 1.0 and math.isfinite(rate):
+        state += f" {'x' if look.ascii_only else '×'}{rate:g}"
+    right = Text.assemble(
+        (clock + "  ", look.ink(palette.text)), (state, look.ink(ink, bold=True)), " "
+    )
+    left = padded(" " + title, max(0, width - right.cell_len), more=look.more)
+    return Text.assemble((left, look.ink(palette.text, bold=True)), right)
+
+
+class Hint(NamedTuple):
+    """A key and what it does; the footer shows as many hints as it has room for."""
+
+    keys: str
+    does: str
+
+
+def footer(hints: Sequence[Hint], width: int, look: Look) -> Text:
+    """One line of key help: the first hints that fit, and always the last."""
+    strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
+
+    def written(hint: Hint) -> Text:
+        return Text.assemble((hint.keys, strong), (" " + hint.does, weak))
+
+    *optional, last = [written(hint) for hint in hints]
+    line, room = Text(" "), width - 1 - last.cell_len
+    for hint in optional:
+        if hint.cell_len + 2 > room:
+            continue
+        line.append_text(hint)
+        line.append("  ")
+        room -= hint.cell_len + 2
+    line.append_text(last)
+    return line

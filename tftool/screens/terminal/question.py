@@ -1,0 +1,116 @@
+"""What a screen shows of its scene: which pair of frames, at which moment."""
+
+from dataclasses import replace
+
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.screens.terminal import panel_text as panels
+from tftool.screens.terminal.scene import Scene, SceneMoment
+
+PATIENCE = seconds(4.0)
+"""For how long the frames of the first pair are waited for, and then those of another."""
+
+
+class SceneQuestion:
+    """Keeps what is asked while the user moves through frames and time.
+
+    Args:
+        scene: Who is asked.
+        pair: Target and source to begin with.
+
+    Attributes:
+        target: The frame that is measured in.
+        source: The frame that is measured; the one under the cursor.
+        at: The moment asked for, or None for the present.
+        fixed: The frame the picture is drawn in; empty for the root of the pair's tree.
+        moment: The last answer, if there was one.
+    """
+
+    def __init__(self, scene: Scene, pair: tuple[str, str]) -> None:
+        self.scene = scene
+        self.target, self.source = self._wished = pair
+        self.at: Stamp | None = None
+        self.fixed = ""
+        self.moment: SceneMoment | None = None
+        self._picked = False
+        self._first_link_at: Duration | None = None
+
+    def ask(self) -> SceneMoment:
+        """Look at the world again."""
+        self.moment = self._answer()
+        return self.moment
+
+    def wait(self, moment: SceneMoment) -> SceneMoment:
+        """Let time go by before a kept moment: it lies farther behind, nothing else changes."""
+        now = self.scene.world.clock.now()
+        self.moment = replace(moment, behind=now - moment.stamp)
+        return self.moment
+
+    def pick(self, step: int) -> bool:
+        """Move the cursor through the tree by `step` rows; whether there is one to move."""
+        if self.moment is None:
+            return False
+        names = [row.info.frame for row in panels.rows(self.moment.snapshot)]
+        if not names:
+            return False
+        at = names.index(self.source) if self.source in names else -1
+        self.source = names[max(0, min(len(names) - 1, at + step))]
+        self._picked = True
+        return True
+
+    def measure(self) -> None:
+        """Make the frame under the cursor the one that is measured in."""
+        self.target, self._picked = self.source, True
+
+    def choose(self, frame: str) -> bool:
+        """Move the cursor to a frame; whether it was elsewhere."""
+        changed = frame != self.source
+        self.source, self._picked = frame, True
+        return changed
+
+    def fix(self) -> None:
+        """Draw the picture in the frame under the cursor; where it is already, in the root."""
+        self.fixed = "" if self.fixed == self.source else self.source
+
+    def swap(self) -> None:
+        """Ask the other way round."""
+        self.target, self.source, self._picked = self.source, self.target, True
+
+    def travel(self, step: Duration) -> None:
+        """Go to an earlier moment, or a later one; past now is live."""
+        now = self.scene.world.clock.now()
+        there = (now if self.at is None else self.at) + step
+        self.at = None if there >= now else max(there, self.scene.oldest())
+
+    def _answer(self) -> SceneMoment:
+        kept = self.moment
+        if self.at is not None and kept is not None and kept.stamp == self.at:
+            return self.scene.again(kept, self.target, self.source, self.fixed)
+        found = self.scene.moment(self.at, self.target, self.source, self.fixed)
+        pair = self._other_pair(found)
+        if pair != (self.target, self.source):
+            self.target, self.source = pair
+            return self.scene.moment(self.at, *pair, self.fixed)
+        return found
+
+    def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
+        """The pair asked for; while its frames are overdue and no other was picked, another."""
+        asked, snapshot = (self.target, self.source), moment.snapshot
+        if not self._picked and all(name in snapshot for name in self._wished):
+            # They came late.
+            return self._wished
+        names = [info.frame for info in snapshot.frames if info.parent is not None]
+        if self._picked or not names:
+            return asked
+        if self._first_link_at is None:
+            self._first_link_at = moment.elapsed
+        simulator = self.scene.simulator
+        turtles = simulator is not None and bool(simulator.turtles)
+        soon = turtles and moment.elapsed < PATIENCE
+        # What is shown in place of the pair may get another root as long as links come.
+        settled = asked == self._wished or moment.elapsed >= self._first_link_at + PATIENCE
+        if soon or (settled and all(name in snapshot for name in asked)):
+            return asked
+        last = "base_link" if "base_link" in names else names[-1]
+        wished = self._wished[1]
+        source = wished if wished in snapshot else last
+        return snapshot.frame(source).root or names[0], source

@@ -1,0 +1,290 @@
+"""The screen of `tftool robot`: a slider for each joint, and the pose of a link beside them."""
+
+from collections.abc import Callable, Sequence
+from typing import ClassVar
+
+from rich.text import Text
+from textual import events
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+
+from tftool.base.counts import count
+from tftool.base.errors import TransformException
+from tftool.base.fixed_width import fitted, padded
+from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.screens.terminal.panel import Panel
+from tftool.screens.terminal.panel_text import Hint, footer
+from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.sliders import Slider, Sliders, tip_of
+from tftool.screens.terminal.text_style import Look, wrapped
+from tftool.screens.terminal.world_app import PanelApp
+from tftool.world.world import World
+
+LOOKS_PER_SECOND = 15
+
+SMALLEST = (40, 8)
+"""Columns and rows below which nothing useful is to be seen."""
+
+KEYS = """\
+ Up, Down        choose a joint (also k, j)
+ Left, Right     slide it between its limits
+ , .             the same in small steps
+ digits, Enter   put it where the number says
+ z c r           all joints: zero, centre, random
+ Z C R           the chosen joint alone
+
+ Tab             pose of another link (Shift+Tab too)
+ m               light or dark
+ q               quit
+"""
+
+
+class RobotApp(PanelApp):
+    """The screen of `tftool robot`.
+
+    Args:
+        world: Where the robot's frames are.
+        sliders: Its joints.
+        link: The link whose pose is shown; the one farthest from the root if None.
+        prefix: What stands before the name of every link.
+        setting: How to show it.
+    """
+
+    CSS = """
+    Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
+    Screen { layers: default above; }
+    Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
+    .ascii Panel { border: ascii $secondary; }
+    #header, #footer { border: none; height: 1; background: $background; }
+    #joints { height: 1fr; }
+    #pose { height: 4; }
+    #keys { layer: above; dock: top; width: 56; display: none; border: round $accent; }
+    .ascii #keys { border: ascii $accent; }
+    """
+    KEYS_WIDTH = 56
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("up,k", "choose(-1)", show=False, priority=True),
+        Binding("down,j", "choose(1)", show=False, priority=True),
+        Binding("left", "step(-1)", show=False, priority=True),
+        Binding("right", "step(1)", show=False, priority=True),
+        Binding("z", "everything('zero')", show=False),
+        Binding("c", "everything('centre')", show=False),
+        Binding("r", "everything('scatter')", show=False),
+        Binding("Z", "one('zero')", show=False),
+        Binding("C", "one('centre')", show=False),
+        Binding("R", "one('scatter')", show=False),
+        Binding("tab", "link(1)", show=False, priority=True),
+        Binding("shift+tab", "link(-1)", show=False, priority=True),
+        Binding("escape", "cancel", show=False),
+    ]
+
+    def __init__(
+        self,
+        world: World,
+        sliders: Sliders,
+        *,
+        link: str | None = None,
+        prefix: str = "",
+        setting: Setting | None = None,
+    ) -> None:
+        super().__init__(world, setting)
+        self.sliders = sliders
+        self.prefix = prefix
+        self.link = link or tip_of(sliders.robot)
+        self._links = list(sliders.robot.links)
+        self._first = 0
+
+    # Building
+
+    def keys_told(self) -> str:
+        """Say what the keys do."""
+        return KEYS
+
+    def compose(self) -> ComposeResult:
+        """Make the panels."""
+        yield Panel("header", can_focus=False)
+        yield Panel("joints", "Joints", can_focus=False)
+        yield Panel("pose", "Link", can_focus=False)
+        yield Panel("footer", can_focus=False)
+        yield Panel("keys", "Keys", can_focus=False)
+
+    def on_mount(self) -> None:
+        """Start looking."""
+        self.set_interval(1.0 / LOOKS_PER_SECOND, self.redraw)
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Fit everything into the new size."""
+        self.call_after_refresh(self.redraw)
+
+    # Looking
+
+    def redraw(self) -> None:
+        """Draw everything that changed, now."""
+        self.guarded(self._draw)
+
+    def _draw(self) -> None:
+        if not self.is_running or not self.panel("header").is_attached:
+            return
+        look = self.look
+        width, height = self.size
+        if width < SMALLEST[0] or height < SMALLEST[1]:
+            least = f"{SMALLEST[0]}x{SMALLEST[1]}"
+            self.panel("joints").show(
+                wrapped(f"This terminal is {width}x{height}; {least} or more is needed.", width - 2)
+            )
+            return
+        robot = self.sliders.robot
+        shown = self.sliders.sliders
+        title = f" {self.title}: {robot.name}, {count(len(shown), 'moving joint')}"
+        strong = look.ink(look.palette.text, bold=True)
+        self.panel("header").show([Text(padded(title, width, more=look.more), strong)])
+        panel = self.panel("joints")
+        columns, rows = panel.size
+        place = next((n for n, one in enumerate(shown) if one.is_chosen), 0)
+        self._first = max(min(self._first, place), place - rows + 1, 0)
+        lines = self._rows(shown[self._first : self._first + rows], columns)
+        panel.show(lines or [Text("This robot has no joint that moves.")])
+        self.panel("pose").show(self._pose(*self.panel("pose").size))
+        self.panel("footer").show([self._footer(width)])
+
+    def _rows(self, shown: Sequence[Slider], width: int) -> list[Text]:
+        look = self.look
+        names = max((len(one.joint.name) for one in shown), default=0)
+        name_width = min(names, max(10, width // 3))
+        limits = width >= 72
+        bar_width = width - name_width - 18 - (20 if limits else 0)
+        return [self._row(one, name_width, bar_width, limits, look) for one in shown]
+
+    def _row(self, one: Slider, name_width: int, bar_width: int, limits: bool, look: Look) -> Text:
+        palette = look.palette
+        mark = (">" if look.ascii_only else "▸") if one.is_chosen else " "
+        ink = look.ink(palette.accent if one.is_chosen else palette.text, bold=one.is_chosen)
+        weak = look.ink(palette.dim)
+        name = padded(one.joint.name, name_width, more=look.more)
+        if one.is_chosen and self.sliders.entry:
+            value = f"{self.sliders.entry}_"
+        else:
+            value = "?" if one.position is None else f"{one.position:.4f}"
+        line = Text.assemble((f"{mark} {name} ", weak if one.follows else ink))
+        line.append(_bar(one, bar_width, look), weak if one.follows else ink)
+        line.append(f" {value:>9} {one.joint.unit:<3}", weak if one.follows else ink)
+        if limits:
+            lower, upper = one.range
+            dots = ".." if look.ascii_only else "…"
+            text = (
+                f"  follows {one.joint.mimic.joint}"
+                if one.follows and one.joint.mimic is not None
+                else f"  {lower:.3g} {dots} {upper:.3g}"
+                if one.joint.limits
+                else "  no limits"
+            )
+            line.append(fitted(text, 20, more=look.more), weak)
+        return line
+
+    def _pose(self, width: int, height: int) -> list[Text]:
+        look = self.look
+        root, link = self.prefix + self.sliders.robot.root, self.prefix + self.link
+        heading = Text(
+            fitted(f"{link} in {root}", width, more=look.more),
+            look.ink(look.palette.text, bold=True),
+        )
+        try:
+            found = self.world.buffer.lookup_transform(root, link)
+        except TransformException as error:
+            return [heading, *wrapped(str(error), width, look.ink(look.palette.warning))][:height]
+        x, y, z = found.transform.translation
+        roll, pitch, yaw = rpy_from_quaternion(found.transform.rotation)
+        return [
+            heading,
+            Text(f"xyz {x:.4f} {y:.4f} {z:.4f} m   rpy {roll:.4f} {pitch:.4f} {yaw:.4f} rad"),
+        ]
+
+    def _footer(self, width: int) -> Text:
+        look = self.look
+        if self.sliders.refusal:
+            words = fitted(f" {self.sliders.refusal}", width, more=look.more)
+            return Text(words, look.ink(look.palette.warning))
+        end = [Hint("Tab", "link"), Hint("?", "keys"), Hint("q", "quit")]
+        if not self.sliders.can_move:
+            return footer(
+                [Hint("up/down" if look.ascii_only else "↑↓", "joint"), *end], width, look
+            )
+        updown, sides = ("up/down", "left/right") if look.ascii_only else ("↑↓", "←→")
+        if self.sliders.entry:
+            return footer([Hint("Enter", "move there"), Hint("Esc", "cancel"), *end], width, look)
+        moves = [
+            Hint(updown, "joint"),
+            Hint(sides, "slide"),
+            Hint("0-9", "type"),
+            Hint("z c r", "zero, centre, random"),
+        ]
+        return footer([*moves, *end], width, look)
+
+    # Keys
+
+    def on_key(self, event: events.Key) -> None:
+        """Take the digits of a position, in the order in which they are typed."""
+        sliders, sign = self.sliders, event.character or ""
+        if event.key == "enter":
+            sliders.enter()
+        elif event.key == "backspace":
+            sliders.type("\b")
+        elif sign == "." and not sliders.entry:
+            sliders.step(1, fine=True)
+        elif sign == ",":
+            sliders.step(-1, fine=True)
+        elif sign and (sign in "0123456789-." or (sign == "e" and sliders.entry)):
+            sliders.type(sign)
+        else:
+            return
+        self.redraw()
+
+    def action_choose(self, step: int) -> None:
+        """Choose another joint."""
+        self.sliders.choose(step)
+        self.redraw()
+
+    def action_step(self, direction: int) -> None:
+        """Slide the chosen joint."""
+        self.sliders.step(direction)
+        self.redraw()
+
+    def action_cancel(self) -> None:
+        """Type nothing after all, and hide the key help."""
+        self.panel("keys").display = False
+        self.sliders.entry = self.sliders.refusal = ""
+        self.redraw()
+
+    def action_everything(self, what: str) -> None:
+        """Put all joints at zero, in the middle, or anywhere."""
+        self._put(what, all_of_them=True)
+
+    def action_one(self, what: str) -> None:
+        """The same with the chosen joint."""
+        self._put(what, all_of_them=False)
+
+    def _put(self, what: str, *, all_of_them: bool) -> None:
+        moves: dict[str, Callable[..., None]] = {
+            "zero": self.sliders.zero,
+            "centre": self.sliders.centre,
+            "scatter": self.sliders.scatter,
+        }
+        moves[what](all_of_them=all_of_them)
+        self.redraw()
+
+    def action_link(self, step: int) -> None:
+        """Show the pose of another link."""
+        place = self._links.index(self.link) + step
+        self.link = self._links[place % len(self._links)]
+        self.redraw()
+
+
+def _bar(one: Slider, width: int, look: Look) -> str:
+    """A slider, `width` cells wide."""
+    left, right, track, knob = "[]-o" if look.ascii_only else "├┤─●"
+    room = max(3, width - 2)
+    share = one.share
+    if share is None:
+        return left + track * room + right
+    place = round(share * (room - 1))
+    return left + track * place + knob + track * (room - 1 - place) + right

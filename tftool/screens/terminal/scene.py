@@ -1,0 +1,389 @@
+"""What a screen shows of a world at one moment, now or as far back as the buffer reaches."""
+
+from collections import deque
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple, Protocol
+
+from tftool.base.errors import TransformException
+from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
+from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.buffer.snapshot import rate_of
+from tftool.drawing.braille_trail import Stroke
+from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
+from tftool.geometry.motion.unicycle import FIELD
+from tftool.geometry.planar import heading, transform_from_pose
+from tftool.geometry.rigid import Transform
+from tftool.messages.turtle_values import Color, Pose2D
+from tftool.screens.terminal.frame_trails import FrameTrails
+from tftool.screens.terminal.frames_picture import (
+    Lookup,
+    in_snapshot,
+    moving,
+    natural_fixed,
+    pictured,
+)
+from tftool.world.nodes.trail import Trail
+from tftool.world.world import World
+
+FLASH = seconds(0.4)
+"""How long a wall stays lit after it was run into."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two frames, and where the source is in the target, or why that cannot be said."""
+
+    target: str
+    source: str
+    found: TransformStamped | None = None
+    refusal: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SceneMoment:
+    """Everything on a screen, frozen.
+
+    Attributes:
+        stamp: The moment shown.
+        behind: How long before now that is; 0 when live.
+        elapsed: How long after the scene's start that is.
+        snapshot: All frames at that moment.
+        ages: For each frame, seconds since its latest stamp changed; 0 for static ones.
+        picture: The frames, seen from above in one of them.
+        pair: The transform asked for.
+    """
+
+    stamp: Stamp
+    behind: Duration
+    elapsed: Duration
+    snapshot: Snapshot
+    ages: dict[str, float]
+    picture: PlanePicture
+    pair: Pair
+
+
+class SimulatedTurtle(Protocol):
+    """A turtle as far as it is drawn."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def pose(self) -> Pose2D:
+        """Where it is."""
+
+    @property
+    def wall_hits(self) -> int:
+        """How often it met the wall."""
+
+
+class Simulator(Protocol):
+    """Who draws turtles: the simulator itself, or what is seen of one elsewhere."""
+
+    trail: Trail
+    revision: int
+
+    @property
+    def turtles(self) -> Mapping[str, SimulatedTurtle]:
+        """Every turtle by its name."""
+
+    @property
+    def background(self) -> Color:
+        """The field's colour."""
+
+
+class _SeenTurtle(NamedTuple):
+    """Where a turtle stood on the field: metres, radians."""
+
+    name: str
+    x: float
+    y: float
+    theta: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """What only the simulator knows of the field at `stamp`: the trail by its length."""
+
+    stamp: Stamp
+    turtles: tuple[_SeenTurtle, ...]
+    walls: frozenset[str]
+    background: Color
+    wipes: int
+    drawn: int
+
+
+class Scene:
+    """Looks at a world on request, and remembers what only a simulator knows.
+
+    Args:
+        world: The world to look at.
+        simulator: Who draws its turtles, where there is one.
+
+    Attributes:
+        start: The moment from which seconds are counted on the screen.
+    """
+
+    def __init__(self, world: World, simulator: Simulator | None = None) -> None:
+        self.world = world
+        self.simulator = simulator
+        self.start: Stamp = world.clock.epoch
+        self._news: dict[str, tuple[Stamp, Stamp]] = {}
+        self._seen: deque[_Seen] = deque()
+        # Trails that were wiped, for as long as one can go back to them.
+        self._wiped: dict[int, tuple[int, tuple[Stroke, ...]]] = {}
+        self._strokes: tuple[Stroke, ...] = ()
+        self._hits: dict[str, int] = {}
+        self._lit: dict[str, Stamp] = {}
+        self._trails = FrameTrails(world.buffer)
+        self._field_frame = ""
+
+    def look(self) -> None:
+        """Remember how things stand; called a few dozen times a second."""
+        now = self.world.clock.now()
+        simulator = self.simulator
+        if simulator is None or not (simulator.turtles or self._seen):
+            return
+        trail = simulator.trail
+        before = self._seen[-1] if self._seen else None
+        if before is None or (trail.wipes, trail.drawn) != (before.wipes, before.drawn):
+            if before is not None and trail.wipes != before.wipes:
+                self._wiped[before.wipes] = before.drawn, self._strokes
+            self._strokes = tuple(trail.segments)
+        turtles = tuple(
+            _SeenTurtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
+            for turtle in simulator.turtles.values()
+        )
+        for turtle in simulator.turtles.values():
+            if turtle.wall_hits > self._hits.get(turtle.name, 0):
+                self._lit.update(dict.fromkeys(_sides(turtle.pose.x, turtle.pose.y), now))
+            self._hits[turtle.name] = turtle.wall_hits
+        walls = frozenset(side for side, lit in self._lit.items() if now - lit < FLASH)
+        self._seen.append(
+            _Seen(now, turtles, walls, simulator.background, trail.wipes, trail.drawn)
+        )
+        # One older than the buffer reaches stays: it says how things were at its very end.
+        reach = now - self.world.buffer.cache_time
+        while len(self._seen) > 1 and self._seen[1].stamp <= reach:
+            self._seen.popleft()
+        for wipes in [one for one in self._wiped if one < self._seen[0].wipes]:
+            del self._wiped[wipes]
+
+    def oldest(self) -> Stamp:
+        """The earliest moment that can be gone back to."""
+        now = self.world.clock.now()
+        snapshot = self.world.buffer.snapshot(now)
+        held = [info.oldest for info in snapshot.frames if info.oldest and not info.is_static]
+        return min(max(min(held, default=now), now - self.world.buffer.cache_time), now)
+
+    def moment(self, at: Stamp | None, target: str, source: str, fixed: str = "") -> SceneMoment:
+        """Everything at one moment.
+
+        Args:
+            at: Which; the present if None.
+            target: The frame the source is measured in.
+            source: The frame that is measured.
+            fixed: The frame the picture is drawn in; the root of the pair's tree if empty.
+        """
+        now = self.world.clock.now()
+        stamp = now if at is None else at
+        snapshot = self.world.buffer.snapshot(stamp, LATEST if at is None else at)
+        if at is not None:
+            frames = tuple(self._as_of(info, at) for info in snapshot.frames)
+            snapshot = Snapshot(snapshot.now, snapshot.at, frames)
+        ages = self._ages(snapshot, now, at)
+        return SceneMoment(
+            stamp=stamp,
+            behind=now - stamp,
+            elapsed=stamp - self.start,
+            snapshot=snapshot,
+            ages=ages,
+            picture=self._picture(snapshot, ages, at, (target, source), fixed),
+            pair=self._pair(target, source, LATEST if at is None else at),
+        )
+
+    def newest(self, target: str, source: str) -> Stamp | None:
+        """The newest moment at which a pair can be told; None where it never can, or always."""
+        try:
+            return self.world.buffer.get_latest_common_time(target, source) or None
+        except TransformException:
+            return None
+
+    def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
+        """The same moment with another pair; it need not be in the buffer any more."""
+        snapshot, pair = moment.snapshot, (target, source)
+        wanted = self._fixed(snapshot, pair, fixed)
+        if moment.picture.fixed != wanted:
+            picture = self._picture(snapshot, moment.ages, moment.stamp, pair, wanted)
+            moment = replace(moment, picture=picture)
+        elif moment.picture.pair != pair:
+            moment = replace(moment, picture=replace(moment.picture, pair=pair))
+        for frame in (target, source):
+            if frame not in snapshot:
+                refusal = f"there was no frame '{frame}' then"
+                return replace(moment, pair=Pair(target, source, refusal=refusal))
+        to, of = snapshot.frame(target), snapshot.frame(source)
+        if to.root_from_frame is None or of.root_from_frame is None or to.root != of.root:
+            refusal = f"'{target}' and '{source}' were not connected then"
+            return replace(moment, pair=Pair(target, source, refusal=refusal))
+        target_from_source = to.root_from_frame.inverse() @ of.root_from_frame
+        found = TransformStamped(moment.stamp, target, source, target_from_source)
+        return replace(moment, pair=Pair(target, source, found))
+
+    def _pair(self, target: str, source: str, at: Stamp) -> Pair:
+        if not target or not source:
+            return Pair(target, source, refusal="there are no frames yet")
+        try:
+            found = self.world.buffer.lookup_transform(target, source, at)
+        except TransformException as refusal:
+            return Pair(target, source, refusal=str(refusal))
+        return Pair(target, source, found)
+
+    def _as_of(self, info: FrameInfo, at: Stamp) -> FrameInfo:
+        """A link as it was known at an earlier moment: no sample of later counts."""
+        if info.parent is None or info.is_static or info.newest <= at:
+            return info
+        stamps = self.world.buffer.samples(info.frame).stamps
+        held = stamps[stamps <= at]
+        if not len(held):
+            return info._replace(samples=0, rate=0.0, buffer_length=0, age=0)
+        oldest, newest = int(held[0]), int(held[-1])
+        return info._replace(
+            samples=len(held),
+            rate=rate_of(len(held), newest - oldest),
+            oldest=oldest,
+            newest=newest,
+            buffer_length=newest - oldest,
+            age=at - newest,
+        )
+
+    def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
+        """Give the age of every frame as rviz counts it: since its stamp last changed.
+
+        In the past what counts is the stamp itself: its time of arrival is not recorded.
+        """
+        ages: dict[str, float] = {}
+        for info in snapshot.frames:
+            if info.is_static or info.parent is None:
+                ages[info.frame] = 0.0
+            elif at is not None:
+                ages[info.frame] = max(0.0, as_seconds(at - info.newest))
+            else:
+                news = self._news.get(info.frame)
+                if news is None or news[0] != info.newest:
+                    # First seen late: it is at least not younger than its stamp, within reason.
+                    since = now if news is not None else min(now, max(info.newest, 1))
+                    news = self._news[info.frame] = info.newest, since
+                ages[info.frame] = as_seconds(now - news[1])
+        return ages
+
+    def _fixed(self, snapshot: Snapshot, pair: tuple[str, str], fixed: str) -> str:
+        return fixed if fixed in snapshot else natural_fixed(snapshot, pair)
+
+    def _picture(
+        self,
+        snapshot: Snapshot,
+        ages: dict[str, float],
+        at: Stamp | None,
+        pair: tuple[str, str],
+        wanted: str,
+    ) -> PlanePicture:
+        fixed = self._fixed(snapshot, pair, wanted)
+        lookup = in_snapshot(snapshot) if at is not None else self._latest(snapshot, fixed)
+        seen = self._at(at)
+        there = () if seen is None else seen.turtles
+        turtles = frozenset(turtle.name for turtle in there)
+        picture = pictured(snapshot, fixed, lookup, ages, turtles)
+        ways = [
+            name
+            for name in moving(snapshot, fixed)
+            if name not in turtles and (not turtles or name != self._field_frame)
+        ]
+        if at is None:
+            trails = self._trails.follow(fixed, ways, snapshot.now)
+        else:
+            if self._trails.fixed:
+                self._trails.follow(self._trails.fixed, ways, snapshot.now)
+            trails = self._trails.until(fixed, ways, at)
+        picture = replace(picture, trails=trails, pair=pair)
+        return picture if seen is None else self._with_field(picture, snapshot, lookup, seen, at)
+
+    def _latest(self, snapshot: Snapshot, fixed: str) -> Lookup:
+        """A lookup of the latest there is: the snapshot has it, but for frames between two."""
+        inside = in_snapshot(snapshot)
+        if fixed in snapshot and snapshot.frame(fixed).parent is None:
+            return inside
+
+        def lookup(target: str, source: str) -> Transform | None:
+            try:
+                return self.world.buffer.lookup_transform(target, source, LATEST).transform
+            except TransformException:
+                return None
+
+        return lookup
+
+    def _with_field(
+        self,
+        picture: PlanePicture,
+        snapshot: Snapshot,
+        lookup: Lookup,
+        seen: _Seen,
+        at: Stamp | None,
+    ) -> PlanePicture:
+        """Lay the turtles' field into the picture where the parent of their frames lies."""
+        parents = [
+            parent
+            for turtle in seen.turtles
+            if turtle.name in snapshot and (parent := snapshot.frame(turtle.name).parent)
+        ]
+        self._field_frame = next(iter(parents), self._field_frame)
+        pose = lookup(picture.fixed, self._field_frame) if self._field_frame else None
+        if pose is None and self._field_frame in snapshot:
+            # Its frame is in a tree of its own, or where nothing is known of it.
+            return picture
+        pose = pose or Transform.identity()
+        field = TurtleField(
+            pose.translation.x, pose.translation.y, heading(pose), seen.background, seen.walls
+        )
+        strangers = tuple(
+            _frameless(turtle, pose) for turtle in seen.turtles if turtle.name not in snapshot
+        )
+        drawn, strokes = self._wiped.get(seen.wipes, (self._seen[-1].drawn, self._strokes))
+        forgotten = drawn - len(strokes)
+        if at is not None:
+            strokes = strokes[: max(0, seen.drawn - forgotten)]
+        return replace(
+            picture,
+            frames=picture.frames + strangers,
+            field=field,
+            pen=Drawn(strokes, forgotten, seen.wipes),
+        )
+
+    def _at(self, at: Stamp | None) -> _Seen | None:
+        if not self._seen:
+            return None
+        if at is None:
+            return self._seen[-1]
+        return next((seen for seen in reversed(self._seen) if seen.stamp <= at), self._seen[0])
+
+
+def _sides(x: float, y: float) -> list[str]:
+    far = FIELD - 1e-5
+    sides = {"left": x <= 0.0, "bottom": y <= 0.0, "right": x >= far, "top": y >= far}
+    return [side for side, met in sides.items() if met]
+
+
+def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
+    """A turtle whose frame was not broadcast: it stands where its simulator says."""
+    there = pose @ transform_from_pose(turtle.x, turtle.y, turtle.theta)
+    ahead = there.rotate((1.0, 0.0, 0.0))[:2]
+    return PlaneFrame(
+        turtle.name,
+        there.translation.x,
+        there.translation.y,
+        (ahead,),
+        is_turtle=True,
+        is_frame=False,
+    )

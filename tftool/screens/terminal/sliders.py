@@ -1,0 +1,220 @@
+"""The joints of a robot as sliders: which is chosen, where each is, and what keys change."""
+
+import math
+import random
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from tftool.base.errors import UsageError
+from tftool.robots.description import RobotJoint
+from tftool.robots.robot_model import Robot
+
+STEPS = 50
+"""Presses of an arrow from one limit to the other."""
+
+FINE = 10
+"""A fine step is so much smaller."""
+
+
+class Positions(Protocol):
+    """Where joints are, and what puts them elsewhere: `nodes.joints.JointStatePublisher`."""
+
+    @property
+    def positions(self) -> Mapping[str, float]:
+        """By joint, those that mimic included."""
+
+    def move(self, joint: str, position: float) -> None:
+        """Put a joint elsewhere."""
+
+
+@dataclass(frozen=True, slots=True)
+class Slider:
+    """One joint as it is shown.
+
+    Attributes:
+        joint: The joint.
+        position: Radians or metres; None while nothing is known.
+        range: The least and greatest position it is slid to.
+        is_chosen: Whether keys move it.
+        follows: Whether it mimics another.
+    """
+
+    joint: RobotJoint
+    position: float | None
+    range: tuple[float, float]
+    is_chosen: bool
+    follows: bool
+
+    @property
+    def share(self) -> float | None:
+        """Where it is between its limits, from 0 to 1; None where that means nothing."""
+        lower, upper = self.range
+        if self.position is None or upper <= lower:
+            return None
+        return min(1.0, max(0.0, (self.position - lower) / (upper - lower)))
+
+
+class Sliders:
+    """The joints of a robot that move, one of them chosen.
+
+    Attributes:
+        robot: The robot.
+        entry: What has been typed of a position; empty while nothing is.
+        refusal: Why what was typed last is no position; empty where it was.
+    """
+
+    def __init__(self, robot: Robot, mover: Positions | None, *, seed: int = 0) -> None:
+        """Begin with the first joint.
+
+        Args:
+            robot: The robot.
+            mover: What moves its joints; None where others do.
+            seed: Of random positions.
+        """
+        self.robot = robot
+        self.entry = ""
+        self.refusal = ""
+        self._mover = mover
+        self._heard: dict[str, float] = {}
+        self._joints = [joint for joint in robot.joints.values() if joint.moves]
+        self._chosen = next((n for n, one in enumerate(self._joints) if not self._follows(one)), 0)
+        self._random = random.Random(seed)
+
+    @property
+    def can_move(self) -> bool:
+        """Whether keys move joints here."""
+        return self._mover is not None
+
+    @property
+    def chosen(self) -> RobotJoint | None:
+        """The joint that keys move; None for a robot without any."""
+        return self._joints[self._chosen] if self._joints else None
+
+    @property
+    def sliders(self) -> Sequence[Slider]:
+        """All of them, in the order of the description."""
+        known = self._heard if self._mover is None else self._mover.positions
+        return [
+            Slider(
+                joint,
+                known.get(joint.name),
+                slide_range(joint),
+                number == self._chosen,
+                self._follows(joint),
+            )
+            for number, joint in enumerate(self._joints)
+        ]
+
+    def hear(self, positions: Mapping[str, float]) -> None:
+        """Take in what others say about the joints."""
+        for name, position in positions.items():
+            if self.robot.takes(name) and math.isfinite(position):
+                self._heard[name] = position
+
+    # What keys do
+
+    def choose(self, step: int) -> None:
+        """Choose the next joint, or the one before, past those that follow others."""
+        self.entry = self.refusal = ""
+        count = len(self._joints)
+        place = self._chosen
+        for _ in range(count):
+            place = (place + step) % count
+            if not self._follows(self._joints[place]):
+                self._chosen = place
+                return
+
+    def step(self, direction: int, *, fine: bool = False) -> None:
+        """Slide the chosen joint a step towards one of its limits."""
+        joint = self.chosen
+        if joint is None or self._mover is None:
+            return
+        lower, upper = slide_range(joint)
+        size = (upper - lower) / STEPS / (FINE if fine else 1)
+        position = self._mover.positions[joint.name] + direction * size
+        self._move(joint, min(upper, max(lower, position)))
+
+    def type(self, sign: str) -> None:
+        """Add a sign to what is typed: a digit, ".", "-", or a backspace, which takes one away."""
+        self.refusal = ""
+        if sign == "\b":
+            self.entry = self.entry[:-1]
+        elif self._mover is not None and len(self.entry) < 20:
+            self.entry += sign
+
+    def enter(self) -> None:
+        """Put the chosen joint where what was typed says."""
+        text, self.entry = self.entry, ""
+        joint = self.chosen
+        if not text or joint is None or self._mover is None:
+            return
+        try:
+            position = float(text)
+        except ValueError:
+            self.refusal = f"'{text}' is no number"
+            return
+        limits = joint.limits
+        if limits is not None and not limits[0] <= position <= limits[1]:
+            self.refusal = f"{position:g} is beyond the limits, {limits[0]:g} to {limits[1]:g}"
+            return
+        self._move(joint, position)
+
+    def zero(self, *, all_of_them: bool = True) -> None:
+        """Put joints at zero, or as near to it as their limits allow."""
+        for joint in self._meant(all_of_them):
+            lower, upper = joint.limits or (0.0, 0.0)
+            self._move(joint, min(upper, max(lower, 0.0)))
+
+    def centre(self, *, all_of_them: bool = True) -> None:
+        """Put joints in the middle of their limits."""
+        for joint in self._meant(all_of_them):
+            lower, upper = slide_range(joint)
+            self._move(joint, (lower + upper) / 2.0)
+
+    def scatter(self, *, all_of_them: bool = True) -> None:
+        """Put joints anywhere between their limits."""
+        for joint in self._meant(all_of_them):
+            lower, upper = slide_range(joint)
+            self._move(joint, self._random.uniform(lower, max(lower, upper)))
+
+    def _meant(self, all_of_them: bool) -> list[RobotJoint]:
+        self.entry = self.refusal = ""
+        if all_of_them:
+            return [joint for joint in self._joints if not self._follows(joint)]
+        return [] if self.chosen is None else [self.chosen]
+
+    def _move(self, joint: RobotJoint, position: float) -> None:
+        if self._mover is None:
+            self.refusal = "others move the joints: leave out --follow to move them here"
+            return
+        try:
+            self._mover.move(joint.name, position)
+        except UsageError as error:
+            self.refusal = str(error)
+
+    def _follows(self, joint: RobotJoint) -> bool:
+        return self.robot.leader(joint.name) != joint.name
+
+
+def slide_range(joint: RobotJoint) -> tuple[float, float]:
+    """The least and greatest position a joint is slid to: its limits, else a turn."""
+    return joint.limits or (-math.pi, math.pi)
+
+
+def tip_of(robot: Robot) -> str:
+    """The link that is farthest from the root, the first of several: a hand, most often.
+
+    Links behind a floating joint have no frame here, and do not count.
+    """
+    depth = {robot.root: 0}
+    waiting = [robot.root]
+    children: dict[str, list[str]] = {}
+    for joint in robot.joints.values():
+        if joint.type != "floating":
+            children.setdefault(joint.parent, []).append(joint.child)
+    for link in waiting:
+        for child in children.get(link, ()):
+            depth[child] = depth[link] + 1
+            waiting.append(child)
+    return max(depth, key=lambda link: depth[link])

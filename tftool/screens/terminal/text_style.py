@@ -1,0 +1,61 @@
+"""How the text of a screen is painted and broken into lines."""
+
+from typing import NamedTuple
+
+from rich.cells import cell_len
+from rich.style import Style
+from rich.text import Text
+
+from tftool.base.fixed_width import fitted, plain
+from tftool.drawing import theme
+from tftool.messages.turtle_values import Color
+
+
+class Look(NamedTuple):
+    """How a screen paints: its palette, and whether it may use more than ASCII."""
+
+    palette: theme.Palette = theme.DARK
+    ascii_only: bool = False
+
+    @property
+    def more(self) -> str:
+        """What stands for text that was left out."""
+        return "~" if self.ascii_only else "…"
+
+    def ink(self, color: Color, *, bold: bool = False) -> Style:
+        """A style with this ink."""
+        return theme.ink(color, bold=bold)
+
+    def of_name(self, name: str) -> Color:
+        """A name's colour, dark enough to be read on a light panel."""
+        return theme.readable(theme.of_name(name), self.palette)
+
+
+def wrapped(
+    words: str, width: int, style: Style | None = None, *, first: int | None = None
+) -> list[Text]:
+    """Break a sentence into lines, at blanks where there are any.
+
+    Args:
+        words: The sentence; it may hold strangers' names.
+        width: Cells a line may take.
+        style: How to paint it.
+        first: Cells the first line may take, where that is another number.
+    """
+    width = max(1, width)
+    lines: list[str] = []
+    line, room = "", width if first is None else first
+    for word in plain(words).split(" "):
+        longer = f"{line} {word}" if line else word
+        if cell_len(longer) <= room:
+            line = longer
+            continue
+        if line:
+            lines.append(line)
+            room = width
+        line = word
+        while cell_len(line) > room:
+            head = fitted(line, room, more="") or line[:1]
+            lines.append(head)
+            line, room = line[len(head) :], width
+    return [Text(one, style or "") for one in [*lines, line]]

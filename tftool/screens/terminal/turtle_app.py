@@ -1,0 +1,525 @@
+"""The terminal app: the field, the tree, a pair of frames, the log; keys drive turtle1.
+
+It looks at a world and never changes it, but for the keys it hands to `press`.
+Time in it is the world's; how often it looks is real time, so that a world at
+100 times real time is drawn no more often than one at 1.
+"""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from typing import ClassVar
+
+from rich.text import Text
+from textual import events
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Container
+from textual.content import Content
+
+from tftool.base.errors import TftoolError
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.screens.terminal import key_bindings as keys
+from tftool.screens.terminal import panel_text as panels
+from tftool.screens.terminal.log_lines import Journal
+from tftool.screens.terminal.pair_history import PairPlot
+from tftool.screens.terminal.panel import Panel
+from tftool.screens.terminal.plane_view import PlaneView
+from tftool.screens.terminal.question import SceneQuestion
+from tftool.screens.terminal.scene import Scene, SceneMoment
+from tftool.screens.terminal.screen_layout import SMALLEST, arranged
+from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.text_style import wrapped
+from tftool.screens.terminal.world_app import PanelApp
+from tftool.world.nodes.idle_drawing import IdleDrawing
+
+LOOKS_PER_SECOND = 20
+PANELS_EVERY = 3
+"""At every how many looks the text beside the field is rewritten."""
+
+REST = 6.0
+"""For how many times as long as a look took there is no other one: with the terminal's own
+painting of it, which takes 0.4 times as long again, the demo stays below a quarter of a core."""
+
+STEP, LEAP = seconds(0.1), seconds(1.0)
+
+Press = Callable[[str], object]
+
+
+class TurtleApp(PanelApp):
+    """The screen of `tftool demo` and `tftool teleop`.
+
+    Args:
+        scene: Where to look.
+        press: Takes a key that drives: "up", "g", ...; None where nothing can be driven.
+        setting: How to show it.
+        idle: Draws while no key is pressed, where something does.
+
+    Attributes:
+        chosen: The scenario to show instead, once one was chosen.
+        press_key: Takes a key that drives; None where nothing can be driven.
+    """
+
+    CSS = """
+    Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
+    Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
+    Panel:focus { border: round $accent; border-title-color: $accent; border-title-style: bold; }
+    .mono Panel:focus { border: heavy $accent; }
+    .ascii Panel { border: ascii $secondary; }
+    .ascii Panel:focus { border: ascii $accent; }
+    #header, #footer, #small { border: none; height: 1; background: $background; }
+    #small { height: 1fr; display: none; }
+    #banner { border: none; display: none; background: $background; }
+    #body { height: 1fr; layout: horizontal; overflow: hidden; }
+    #side { width: 1fr; height: 1fr; layout: vertical; overflow: hidden; }
+    #scenarios { layer: above; dock: top; display: none; border: round $accent; }
+    .ascii #scenarios { border: ascii $accent; }
+    #keys { layer: above; dock: top; width: 76; display: none; border: round $accent; }
+    .ascii #keys { border: ascii $accent; }
+    Screen { layers: default above; }
+    .portrait #body { layout: vertical; }
+    #log { border: none; height: 1; background: $background; }
+    #log:focus { border: round $accent; background: $surface; }
+    .mono #log:focus { border: heavy $accent; }
+    .ascii #log { border: none; }
+    .ascii #log:focus { border: ascii $accent; }
+    """
+    KEYS_WIDTH = 76
+    BINDINGS: ClassVar[list[BindingType]] = [
+        *(
+            Binding(key, f"steer('{key}')", show=False, priority=True)
+            for key in ("up", "down", "left", "right")
+        ),
+        *(
+            Binding(f"{key},{key.upper()}", f"drive('{key}')", show=False, priority=True)
+            for key in "gtredcvb"
+        ),
+        Binding("f", "drive('f')", show=False, priority=True),
+        Binding("F", "fix", show=False, priority=True),
+        Binding("plus,equals_sign", "zoom(1)", show=False, priority=True),
+        Binding("minus,underscore", "zoom(-1)", show=False, priority=True),
+        Binding("0", "fit", show=False, priority=True),
+        *(
+            Binding(f"shift+{key}", f"pan({x}, {y})", show=False, priority=True)
+            for key, x, y in (("left", 6, 0), ("right", -6, 0), ("up", 0, 3), ("down", 0, -3))
+        ),
+        Binding("tab", "panel(1)", show=False, priority=True),
+        Binding("shift+tab", "panel(-1)", show=False, priority=True),
+        Binding("j", "pick(1)", show=False),
+        Binding("k", "pick(-1)", show=False),
+        Binding("enter,space", "measure", show=False),
+        Binding("x", "swap", show=False),
+        Binding("L", "log", show=False),
+        Binding("o,O", "scenarios", show=False),
+        Binding("left_square_bracket", f"travel({-STEP})", show=False),
+        Binding("right_square_bracket", f"travel({STEP})", show=False),
+        Binding("left_curly_bracket", f"travel({-LEAP})", show=False),
+        Binding("right_curly_bracket", f"travel({LEAP})", show=False),
+        Binding("l,escape,end", "live", show=False),
+    ]
+
+    def __init__(
+        self,
+        scene: Scene,
+        press: Press | None = None,
+        setting: Setting | None = None,
+        idle: IdleDrawing | None = None,
+    ) -> None:
+        super().__init__(scene.world, setting)
+        self.scene = scene
+        self.chosen: str | None = None
+        self.press_key = press
+        self._idle = idle
+        self._offered: Sequence[tuple[str, str]] = ()
+        self._offer = 0
+        self._question = SceneQuestion(scene, self.setting.pair)
+        self._question.at = self.setting.at
+        self._stale = True
+        self._painted: object = None
+        self._count = 0
+        self._back = 0
+        self._rest_until = 0.0
+        self._plane = PlaneView()
+        self._plot = PairPlot()
+        self._dragged: tuple[int, int] | None = None
+        self._rows_shown: tuple[str, ...] = ()
+        self._journal = Journal(scene.world.log.records)
+        scene.world.log.listen(self._journal.add, "screen")
+
+    def begin(self, stamp: Stamp) -> None:
+        """Count time from now on: the world begins to live. What is all there began before."""
+        if self.setting.at is None:
+            self.scene.start = stamp
+
+    # Building
+
+    def compose(self) -> ComposeResult:
+        """Make the panels; `_arrange` gives them their sizes."""
+        yield Panel("header", can_focus=False)
+        yield Panel("banner", can_focus=False)
+        with Container(id="body"):
+            yield Panel("field", "Field")
+            with Container(id="side"):
+                yield Panel("tree", "Tree")
+                yield Panel("pair", "Echo")
+                yield Panel("plot", "Plot", can_focus=False)
+        yield Panel("log", "Log")
+        yield Panel("footer", can_focus=False)
+        yield Panel("small", can_focus=False)
+        yield Panel("scenarios", "Scenarios", can_focus=False)
+        yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
+
+    def on_mount(self) -> None:
+        """Start looking."""
+        self.screen.set_class(not self.setting.colors, "mono")
+        self.panel("field").focus()
+        self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Fit the panels into the new size."""
+        self._arrange(event.size.width, event.size.height)
+        self.call_after_refresh(self.redraw)
+
+    def _arrange(self, width: int, height: int) -> None:
+        banner = self._banner(width) if height >= 24 else []
+        moment = self._question.moment
+        frames = 3 if moment is None else len(moment.snapshot.frames)
+        layout = arranged(width, height, len(banner), frames)
+        for name in ("header", "footer"):
+            self.panel(name).display = not layout.small
+        self.panel("small").display = layout.small
+        self.panel("banner").display = bool(banner) and not layout.small
+        self.panel("banner").styles.height = len(banner)
+        self.query_one("#body").display = not layout.small
+        self.query_one("#side").display = not layout.alone
+        self.screen.set_class(layout.portrait, "portrait")
+        field, tree, pair, plot = (self.panel(name) for name in ("field", "tree", "pair", "plot"))
+        field.styles.width = layout.field[0] or "1fr"
+        field.styles.height = layout.field[1] or "1fr"
+        for panel, lines in ((tree, layout.tree), (pair, layout.pair), (plot, 0)):
+            panel.styles.height = lines or "1fr"
+        if self.setting.drive_only:
+            self.query_one("#side").display = False
+            field.styles.width = field.styles.height = "1fr"
+        log = self.panel("log")
+        log.display = not layout.small
+        log.styles.height = layout.log if log.has_focus else 1
+
+    def _banner(self, width: int) -> list[Text]:
+        return [line for text in self.setting.banner for line in wrapped(text, width)]
+
+    # Looking
+
+    def look_again(self) -> None:
+        """Draw what there is by now, unless the last time took so long that it is too soon."""
+        loop = asyncio.get_running_loop()
+        if loop.time() < self._rest_until:
+            return
+        began = loop.time()
+        self.guarded(self._look)
+        # A world of thousands of frames is drawn less often, so that it still lives.
+        self._rest_until = loop.time() + REST * (loop.time() - began)
+
+    def _look(self) -> None:
+        self._count += 1
+        if self._idle is not None and (self._question.at is not None or self._is_over()):
+            # A person reads: nothing moves meanwhile.
+            self._idle.touch()
+        self.scene.look()
+        self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
+
+    def keys_told(self) -> str:
+        """Say what the keys do that do something here."""
+        return keys.told(
+            drives=self.press_key is not None, chooses=self.setting.scenarios is not None
+        )
+
+    def redraw(self) -> None:
+        """Draw everything that changed, now."""
+        self._stale = True
+        self.guarded(lambda: self._draw(panels_too=True))
+
+    def _draw(self, *, panels_too: bool) -> None:
+        if not self.is_running or not self.panel("header").is_attached:
+            return
+        width, height = self.size
+        if self.panel("small").display:
+            least = f"{SMALLEST[0]}x{SMALLEST[1]}"
+            words = f"This terminal is {width}x{height}; tftool needs {least} or more."
+            self.panel("small").show(wrapped(words, width))
+            return
+        question = self._question
+        moment = question.moment
+        if question.at is None or self._stale or moment is None:
+            frames = 0 if moment is None else len(moment.snapshot.frames)
+            simulator = self.scene.simulator
+            painted = simulator.revision if simulator and simulator.turtles else None
+            if not (panels_too or painted != self._painted or painted is None):
+                return
+            self._painted = painted
+            moment = question.ask()
+            if len(moment.snapshot.frames) != frames:
+                self._arrange(width, height)
+        else:
+            moment = question.wait(moment)
+        self._stale = False
+        self._draw_field(moment)
+        if panels_too:
+            self._draw_panels(moment)
+
+    def _draw_field(self, moment: SceneMoment) -> None:
+        field = self.panel("field")
+        width, height = field.size
+        field.border_title = Content(
+            panels.field_title(moment, is_chosen=bool(self._question.fixed))
+        )
+        is_idle = self._idle is not None and self._idle.is_drawing
+        told = (
+            f"{self._idle.turtle} draws by itself; a key stops it" if is_idle and self._idle else ""
+        )
+        field.border_subtitle = Content(told)
+        field.show(
+            self._plane.lines(moment.picture, width, height, self.look, colors=self.setting.colors)
+        )
+
+    def _draw_panels(self, moment: SceneMoment) -> None:
+        look, clock = self.look, self.scene.world.clock
+        width = self.size.width
+        self.panel("header").show([panels.header(self.title, moment, clock.rate, width, look)])
+        hints = keys.hints(
+            self._keys_go_to(),
+            drives=self.press_key is not None,
+            past=self._question.at is not None,
+            ascii_only=look.ascii_only,
+            chooses=self.setting.scenarios is not None,
+        )
+        self.panel("footer").show([panels.footer(hints, width, look)])
+        self.panel("banner").show(self._banner(width))
+        self._draw_log(moment)
+        if not self.query_one("#side").display:
+            return
+        tree, pair, plot = (self.panel(name) for name in ("tree", "pair", "plot"))
+        listed = panels.rows(moment.snapshot, ascii_only=look.ascii_only)
+        shown = panels.in_view(listed, self._question.source, tree.size.height)
+        self._rows_shown = tuple(row.info.frame for row in shown)
+        tree.show(panels.tree(moment, listed, self._question.source, *tree.size, look))
+        pair.show(panels.pair(moment, *pair.size, look))
+        plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
+
+    def _draw_log(self, moment: SceneMoment) -> None:
+        """The newest line in a strip; where the log has the keys, all there is room for."""
+        log, look = self.panel("log"), self.look
+        if log.has_focus:
+            lines = self._journal.lines(
+                moment.stamp, self.scene.start, *log.size, look, back=self._back
+            )
+        else:
+            lines = [self._journal.strip(moment.stamp, self.scene.start, log.size.width, look)]
+        log.show(lines)
+
+    # The mouse
+
+    def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
+        """Come nearer to what is under the pointer."""
+        self._wheel(event, 1)
+
+    def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
+        """Go back from what is under the pointer."""
+        self._wheel(event, -1)
+
+    def _wheel(self, event: events.MouseEvent, step: int) -> None:
+        name, x, y = self._under(event)
+        if name == "field":
+            self._plane.camera.zoom(step, self._plane.cell(x, y))
+        elif name == "tree":
+            self._question.pick(-step)
+        elif name == "log":
+            self._scroll(step)
+        self.redraw()
+
+    def on_mouse_down(self, event: events.MouseDown) -> None:
+        """Pick the frame under the pointer, or begin to drag the picture."""
+        name, x, y = self._under(event)
+        moment = self._question.moment
+        if moment is None:
+            return
+        if name == "field":
+            self._dragged = event.screen_x, event.screen_y
+            frame = self._plane.frame_at(moment.picture, x, y)
+        elif name == "tree":
+            frame = self._rows_shown[y - 1] if 0 < y <= len(self._rows_shown) else None
+        else:
+            return
+        if frame is not None and self._question.choose(frame):
+            self.redraw()
+
+    def on_mouse_move(self, event: events.MouseMove) -> None:
+        """Drag the picture."""
+        if self._dragged is None:
+            return
+        if not event.button:
+            self._dragged = None
+            return
+        x, y = event.screen_x, event.screen_y
+        self._plane.camera.pan(x - self._dragged[0], y - self._dragged[1])
+        self._dragged = x, y
+        self.redraw()
+
+    def on_mouse_up(self) -> None:
+        """Let the picture go."""
+        self._dragged = None
+
+    def _under(self, event: events.MouseEvent) -> tuple[str, int, int]:
+        """The panel under the pointer, and the cell in it."""
+        for name in ("field", "tree", "pair", "log"):
+            panel = self.panel(name)
+            inside = panel.content_region
+            if panel.display and inside.contains(event.screen_x, event.screen_y):
+                return name, event.screen_x - inside.x, event.screen_y - inside.y
+        return "", 0, 0
+
+    # Keys
+
+    async def on_event(self, event: events.Event) -> None:
+        """Note that a person is there."""
+        if isinstance(event, events.Key | events.MouseDown) and self._idle is not None:
+            self._idle.touch()
+        await super().on_event(event)
+
+    def _is_over(self) -> bool:
+        """Whether keys or scenarios lie over the picture."""
+        return bool(self.panel("keys").display or self.panel("scenarios").display)
+
+    def _keys_go_to(self) -> str:
+        if self.panel("scenarios").display:
+            return "scenarios"
+        return (self.focused.id or "") if self.focused else ""
+
+    def action_drive(self, key: str) -> None:
+        """Hand a key to the teleop node."""
+        if self.press_key is not None:
+            try:
+                self.press_key(key)
+            except TftoolError as refusal:
+                self.scene.world.log.warn("screen", str(refusal))
+
+    def action_steer(self, key: str) -> None:
+        """Drive; or, in a panel of text, move there."""
+        focused = self._keys_go_to()
+        step = {"up": -1, "down": 1}.get(key, 0)
+        if focused == "scenarios":
+            self._offer = max(0, min(len(self._offered) - 1, self._offer + step))
+            self._show_offered()
+        elif focused in {"tree", "pair"}:
+            if step:
+                self.action_pick(step)
+        elif focused == "log":
+            self._scroll(-step)
+            self.redraw()
+        else:
+            self.action_drive(key)
+
+    def _scroll(self, lines: int) -> None:
+        """Show earlier lines of the log, or later ones."""
+        self._back = max(0, min(self._back + lines, len(self.scene.world.log.records)))
+
+    def action_panel(self, step: int) -> None:
+        """Give the keys to the next panel."""
+        if step > 0:
+            self.screen.focus_next()
+        else:
+            self.screen.focus_previous()
+        self.call_after_refresh(self.redraw)
+
+    def action_log(self) -> None:
+        """Open the log, or close it."""
+        log = self.panel("log")
+        (self.panel("field") if log.has_focus else log).focus()
+
+    def on_descendant_focus(self) -> None:
+        """Fit the panels: the log is open while it has the keys."""
+        self._fit_panels()
+
+    def _fit_panels(self) -> None:
+        self._back = 0
+        self._arrange(*self.size)
+        self.call_after_refresh(self.redraw)
+
+    def action_pick(self, step: int) -> None:
+        """Move through the tree: the frame under the cursor is the pair's source."""
+        if self._question.pick(step):
+            self.redraw()
+
+    def action_measure(self) -> None:
+        """Make the frame under the cursor the one that is measured in."""
+        if self.panel("scenarios").display:
+            self.chosen = self._offered[self._offer][0]
+            self.exit()
+            return
+        self._question.measure()
+        self.redraw()
+
+    def action_fix(self) -> None:
+        """Draw the picture in the frame under the cursor, or again in the root of its tree."""
+        if self.setting.drive_only:
+            # Teleop has no cursor: there the letter is what it is in either case.
+            self.action_drive("f")
+            return
+        self._question.fix()
+        self.redraw()
+
+    def action_zoom(self, steps: int) -> None:
+        """Come nearer, or go back."""
+        self._plane.camera.zoom(steps)
+        self.redraw()
+
+    def action_pan(self, columns: int, rows: int) -> None:
+        """Move the picture."""
+        self._plane.camera.pan(columns, rows)
+        self.redraw()
+
+    def action_fit(self) -> None:
+        """Show all there is again."""
+        self._plane.camera.fit()
+        self.redraw()
+
+    def action_swap(self) -> None:
+        """Ask the other way round."""
+        self._question.swap()
+        self.redraw()
+
+    def action_travel(self, step: Duration) -> None:
+        """Show an earlier moment, or a later one; past now is live."""
+        self._question.travel(step)
+        self.redraw()
+
+    def action_live(self) -> None:
+        """Show the present again, and hide the key help."""
+        if self._is_over():
+            self.panel("keys").display = self.panel("scenarios").display = False
+            self.redraw()
+            return
+        if self.panel("log").has_focus:
+            self.panel("field").focus()
+        self._question.at = None
+        self._back = 0
+        self.redraw()
+
+    def action_scenarios(self) -> None:
+        """Show what else there is to be seen, or hide it."""
+        if self.setting.scenarios is None:
+            return
+        panel = self.panel("scenarios")
+        panel.display = not panel.display
+        self.panel("keys").display = False
+        if panel.display:
+            self._offered = self._offered or self.setting.scenarios()
+            width, height = self.size
+            wide, high = min(width - 2, 96), min(height - 2, len(self._offered) + 2)
+            panel.styles.width, panel.styles.height = wide, high
+            panel.styles.offset = max(0, (width - wide) // 2), max(0, (height - high) // 2)
+            self.call_after_refresh(self._show_offered)
+        self.redraw()
+
+    def _show_offered(self) -> None:
+        panel = self.panel("scenarios")
+        panel.show(panels.scenarios(self._offered, self._offer, *panel.size, self.look))

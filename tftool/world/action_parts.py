@@ -1,0 +1,227 @@
+"""An action as ROS 2 makes it of services and topics: what they answer and say, over a world's."""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from typing import TYPE_CHECKING, Any, Final
+
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.messages.classes import INTERFACES
+from tftool.world.topics import GoalHandle
+
+if TYPE_CHECKING:
+    from tftool.world.world import World
+
+KEPT: Final = 100
+"""Goals kept for each action, running ones and, for late requests, ended ones; beyond this
+number of running goals a new one is refused."""
+
+CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
+STATUS: Final = "action_msgs/msg/GoalStatusArray"
+
+ACTIVE: Final = {"executing": 2, "canceling": 3}
+ENDED: Final = {"succeeded": 4, "canceled": 5, "aborted": 6}
+"""The numbers of action_msgs' GoalStatus."""
+
+_EVERY_GOAL = bytes(16)
+_NO_ERROR, _REJECTED, _UNKNOWN_GOAL, _ENDED = 0, 1, 2, 3
+
+
+class Tasks:
+    """Tasks that are held until they end, and cancelled when their owner closes."""
+
+    def __init__(self) -> None:
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def start(self, work: Coroutine[Any, Any, None]) -> None:
+        """Let something run beside everything else."""
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def cancel(self) -> None:
+        """End whatever still runs."""
+        for task in tuple(self._tasks):
+            task.cancel()
+
+
+def message(ros_type: str, **fields: Any) -> Any:
+    """A message, or a part of a service or an action, by its full name."""
+    return INTERFACES.part(ros_type)(**fields)
+
+
+def goal_id_message(goal_id: bytes) -> Any:
+    """A goal's id as a message."""
+    return message("unique_identifier_msgs/msg/UUID", uuid=goal_id)
+
+
+def goal_info(goal_id: bytes, accepted: Stamp) -> Any:
+    """Which goal, and when it was taken."""
+    return message(
+        "action_msgs/msg/GoalInfo", goal_id=goal_id_message(goal_id), stamp=_time(accepted)
+    )
+
+
+def _time(stamp: Stamp) -> Any:
+    sec, nanosec = divmod(stamp, NANOSECONDS)
+    return message("builtin_interfaces/msg/Time", sec=sec, nanosec=nanosec)
+
+
+class ActionParts:
+    """Answers what an action's hidden services are asked, and says what its hidden topics say.
+
+    It tracks every goal sent to the action's server in this world, from any client.
+    """
+
+    def __init__(
+        self,
+        world: "World",
+        name: str,
+        interface: str,
+        *,
+        on_feedback: Callable[[Any], object],
+        on_status: Callable[[Any], object],
+        warn: Callable[[str], object],
+    ) -> None:
+        """Follow an action's goals.
+
+        Args:
+            world: The world that has it.
+            name: The action's name.
+            interface: Its type, "package/action/Name".
+            on_feedback: Is given each FeedbackMessage.
+            on_status: Is given the states of all goals when one of them changes.
+            warn: Is given a sentence for the log.
+        """
+        self._world = world
+        self._name = name
+        self._type = interface
+        self._on_feedback = on_feedback
+        self._on_status = on_status
+        self._warn = warn
+        self._goals: dict[bytes, tuple[GoalHandle, Stamp]] = {}
+        self._undecided: set[bytes] = set()
+        self._tasks = Tasks()
+        self._is_closed = False
+        self._stop = world.watch_goals(name, self._follow, name)
+
+    def close(self) -> None:
+        """Follow no more; what is still worked on is not told of."""
+        self._is_closed = True
+        self._stop()
+        self._tasks.cancel()
+
+    def give_up(self) -> None:
+        """Ask for the end of what is under way."""
+        for goal, _ in self._goals.values():
+            goal.cancel()
+
+    async def send_goal(self, asked: Any) -> Any:
+        """Hand a goal over; the answer comes once its server has decided."""
+        goal_id = bytes(asked.goal_id.uuid)
+        now = self._world.clock.now()
+        is_new = goal_id not in self._goals and goal_id not in self._undecided
+        accepted = is_new and self._has_room()
+        if accepted:
+            # Deciding takes a while, in which the same goal may come again.
+            self._undecided.add(goal_id)
+            try:
+                goal = self._world.hand_over(self._name, asked.goal, goal_id=goal_id)
+                accepted = await self._enters(goal)
+            finally:
+                self._undecided.discard(goal_id)
+        return message(f"{self._type}_SendGoal_Response", accepted=accepted, stamp=_time(now))
+
+    def _has_room(self) -> bool:
+        """Whether one more goal may begin; the oldest that have ended make way for it."""
+        if self._make_way(len(self._undecided)) <= 0:
+            return True
+        self._warn(f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.")
+        return False
+
+    def _make_way(self, others: int) -> int:
+        """Forget goals that have ended until one more has room; how many are too many still."""
+        surplus = len(self._goals) + others + 1 - KEPT
+        ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
+        for goal_id in ended[: max(0, surplus)]:
+            del self._goals[goal_id]
+        return surplus - len(ended)
+
+    def _follow(self, goal: GoalHandle) -> None:
+        def feed(feedback: Any) -> None:
+            if not self._is_closed:
+                self._on_feedback(
+                    message(
+                        f"{self._type}_FeedbackMessage",
+                        goal_id=goal_id_message(goal.goal_id),
+                        feedback=feedback,
+                    )
+                )
+
+        goal.feeds.append(feed)
+        self._tasks.start(self._see_through(goal))
+
+    async def _see_through(self, goal: GoalHandle) -> None:
+        if await self._enters(goal):
+            await goal.result()
+            self._publish_status()
+
+    async def _enters(self, goal: GoalHandle) -> bool:
+        """Note a goal once its server takes it; whether it does."""
+        if goal.decided is not None and not await asyncio.shield(goal.decided):
+            return False
+        if goal.goal_id not in self._goals:
+            self._make_way(0)
+            self._goals[goal.goal_id] = goal, self._world.clock.now()
+            self._publish_status()
+        return True
+
+    async def cancel_goal(self, asked: Any) -> Any:
+        """Ask for the end of one goal, or of all; the answer comes with the server's decision."""
+        goal_id = bytes(asked.goal_info.goal_id.uuid)
+        every = goal_id == _EVERY_GOAL
+        chosen = [
+            (each, *self._goals[each])
+            for each in (list(self._goals) if every else [goal_id])
+            if each in self._goals
+        ]
+        going = [one for one in chosen if not one[1].done]
+        for _, goal, _ in going:
+            goal.cancel()
+        canceled = [
+            goal_info(each, accepted) for each, goal, accepted in going if await goal.cancellation()
+        ]
+        if canceled:
+            code = _NO_ERROR
+            self._publish_status()
+        elif going:
+            code = _REJECTED
+        elif every:
+            code = _NO_ERROR
+        else:
+            code = _ENDED if chosen else _UNKNOWN_GOAL
+        return message(f"{CANCEL_GOAL}_Response", return_code=code, goals_canceling=canceled)
+
+    async def get_result(self, asked: Any) -> Any:
+        """Wait for a goal's end."""
+        goal, _ = self._goals.get(bytes(asked.goal_id.uuid), (None, 0))
+        answer = f"{self._type}_GetResult_Response"
+        if goal is None:
+            return message(answer)
+        end = await goal.result()
+        return message(answer, status=ENDED[end.status], result=end.value)
+
+    def _publish_status(self) -> None:
+        entries = []
+        for goal_id, (goal, accepted) in self._goals.items():
+            if not goal.done:
+                number = ACTIVE["canceling" if goal.cancel_requested else "executing"]
+            else:
+                number = ENDED[goal.ended.status if goal.ended else "aborted"]
+            entries.append(
+                message(
+                    "action_msgs/msg/GoalStatus",
+                    goal_info=goal_info(goal_id, accepted),
+                    status=number,
+                )
+            )
+        self._on_status(message(STATUS, status_list=entries))

@@ -1,0 +1,550 @@
+"""Where time comes from: simulated or real, one interface for both.
+
+No other module touches `time` or `asyncio.sleep`. A waiter names the moment it wants
+and its place within that moment: (stamp, phase, rank, order of asking). Both
+clocks wake waiters in exactly that order, because asyncio itself breaks ties
+between timers of one instant unpredictably.
+
+On the simulated clock the event loop lives in virtual time too: when every task
+sleeps, time jumps to whatever is due next, so asyncio's own timeouts mean
+simulated time and ten minutes pass in a second.
+"""
+
+import asyncio
+import contextlib
+import heapq
+import math
+import threading
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Coroutine
+from enum import IntEnum
+from typing import Any, TypeVar
+
+from tftool.base.listeners import Listeners
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds, whole
+from tftool.world.stopping import PATIENCE, STANDSTILL, Stopper, abandon, leftovers
+from tftool.world.virtual_loop import VirtualLoop
+
+T = TypeVar("T")
+
+
+class Phase(IntEnum):
+    """The order of wake-ups within one instant."""
+
+    SIMULATE = 0
+    BROADCAST = 1
+    CONSUME = 2
+    WATCH = 3
+    END = 4
+
+
+class Clock(ABC):
+    """A source of stamps that can be waited on.
+
+    Attributes:
+        epoch: The moment the clock was made. Never 0, which means "latest".
+        rate: How many of the clock's seconds pass in a real one; infinite when simulated.
+        interrupted: Whether a signal has asked the run on it to end; known at once, even
+            while something holds up the loop, which would otherwise be the first to know.
+        when_killed: Called before a second signal ends the process: restore the terminal there.
+        stopper: What can end the run on it; None while nothing runs.
+    """
+
+    epoch: Stamp
+    rate: float
+    interrupted: bool
+    when_killed: Listeners[()]
+    stopper: Stopper | None
+
+    def __init__(self, epoch: Stamp, rate: float) -> None:
+        self.epoch = epoch
+        self.rate = rate
+        self.interrupted = False
+        self.when_killed = Listeners()
+        self.stopper = None
+        self._waiters: list[tuple[Stamp, int, int, int, asyncio.Future[None]]] = []
+        self._asked = 0
+
+    @abstractmethod
+    def now(self) -> Stamp:
+        """The moment it is, in nanoseconds."""
+
+    @abstractmethod
+    def new_loop(self) -> asyncio.AbstractEventLoop:
+        """Make an event loop whose time is this clock's."""
+
+    def interrupt(self) -> None:
+        """Note that a signal has come."""
+        self.interrupted = True
+
+    @abstractmethod
+    def limit(self, until: Stamp | None) -> None:
+        """Have a node that holds up the loop ended once the run is to be over.
+
+        Args:
+            until: The end of the run; None where it needs no watching any more.
+        """
+
+    @abstractmethod
+    def real_timer(self, patience: float) -> "asyncio.Future[None]":
+        """A future that is done after `patience` real seconds; cancel it to give it up."""
+
+    async def wait_for_end(
+        self, tasks: "Collection[asyncio.Task[Any]]"
+    ) -> "set[asyncio.Task[Any]]":
+        """Wait for cancelled tasks, for `PATIENCE` real seconds; for ever after a signal.
+
+        Returns:
+            Those that have not returned.
+        """
+        waiting = set(tasks)
+        timer = self.real_timer(PATIENCE)
+        try:
+            while waiting and (self.interrupted or not timer.done()):
+                also = set() if timer.done() else {timer}
+                await asyncio.wait(waiting | also, return_when=asyncio.FIRST_COMPLETED)
+                waiting = {task for task in waiting if not task.done()}
+        finally:
+            timer.cancel()
+        return waiting
+
+    def elapsed(self) -> Duration:
+        """How long ago the clock's epoch was, in nanoseconds."""
+        return self.now() - self.epoch
+
+    def timer(
+        self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
+    ) -> "asyncio.Future[None]":
+        """A future that is done at `stamp` (at once, in turn, if that has passed).
+
+        Cancel it to give it up.
+
+        Raises:
+            TypeError: If `stamp` is not a whole number: 0.5 of a nanosecond is a slip of who
+                meant seconds, and NaN would be no moment at all.
+        """
+        stamp = whole(stamp)
+        future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._asked += 1
+        heapq.heappush(self._waiters, (stamp, phase, rank, self._asked, future))
+        return future
+
+    async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
+        """Wait for a moment; one that has passed still waits for its turn."""
+        await self.timer(stamp, phase, rank)
+
+    async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
+        """Wait for a while, in nanoseconds of this clock."""
+        await self.timer(self.now() + duration, phase, rank)
+
+    def _next_due(self) -> Stamp | None:
+        """When the next waiter that still waits is due; given-up ones are dropped."""
+        while self._waiters:
+            if not self._waiters[0][4].done():
+                return self._waiters[0][0]
+            heapq.heappop(self._waiters)
+        return None
+
+
+class SimClock(Clock):
+    """Simulated time: stands still while anything runs, jumps when everything waits.
+
+    Two runs are the same run. One waiter is woken at a time, and everything it
+    sets off comes to rest before the next one of the same instant is woken.
+
+    Attributes:
+        alarms: How many timers of real time are set.
+    """
+
+    def __init__(self, epoch: Stamp = seconds(1000)) -> None:
+        """Start at `epoch`.
+
+        Raises:
+            ValueError: If `epoch` is not after 0; 0 means "latest" in every question.
+        """
+        if epoch <= 0:
+            raise ValueError("a simulated clock starts after 0, which means 'latest'")
+        super().__init__(epoch, math.inf)
+        self.alarms = 0
+        self._now = epoch
+
+    def now(self) -> Stamp:
+        """The simulated moment, in nanoseconds."""
+        return self._now
+
+    def timer(
+        self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
+    ) -> "asyncio.Future[None]":
+        """A future that is done at `stamp`; what has passed takes its turn in this instant."""
+        return super().timer(max(whole(stamp), self._now), phase, rank)
+
+    def new_loop(self) -> asyncio.AbstractEventLoop:
+        """Make an event loop that lives in this clock's time."""
+        return VirtualLoop(self)
+
+    def limit(self, until: Stamp | None) -> None:
+        """End a node that holds up simulated time for `STANDSTILL` real seconds."""
+        if self.stopper is not None:
+            self.stopper.limit(None, None if until is None else STANDSTILL)
+
+    def real_timer(self, patience: float) -> "asyncio.Future[None]":
+        """A future that is done after `patience` real seconds, however much is simulated."""
+        loop = asyncio.get_running_loop()
+        future: asyncio.Future[None] = loop.create_future()
+
+        def ring() -> None:
+            with contextlib.suppress(RuntimeError):  # the loop has been closed
+                loop.call_soon_threadsafe(_set, future)
+
+        alarm = threading.Timer(patience, ring)
+        alarm.daemon = True
+        # Something from outside is on its way: simulated time is not at its end.
+        self.alarms += 1
+
+        def forget(_: "asyncio.Future[None]") -> None:
+            self.alarms -= 1
+            alarm.cancel()
+
+        future.add_done_callback(forget)
+        alarm.start()
+        return future
+
+    def advance(self, loop_timer: float | None) -> bool:
+        """Jump to what is due next and wake it; False when nothing is due, ever.
+
+        Called by the clock's own event loop when every task waits.
+
+        Args:
+            loop_timer: Seconds until asyncio's own next timer, None without one.
+        """
+        due = self._next_due()
+        timer = None if loop_timer is None else self._now + math.ceil(loop_timer * NANOSECONDS)
+        if due is None and timer is None:
+            return False
+        # At a tie our waiters go first: data that arrives in time beats its timeout.
+        if timer is not None and (due is None or timer < due):
+            self._now = timer
+            return True
+        stamp, _, _, _, future = heapq.heappop(self._waiters)
+        self._now = stamp
+        future.set_result(None)
+        return True
+
+
+class WallClock(Clock):
+    """Real time since the Unix epoch, optionally running faster or slower.
+
+    Steps of the system's clock do not reach it: it is read once, then a
+    monotonic clock counts on.
+    """
+
+    def __init__(
+        self, rate: float = 1.0, *, epoch: Stamp | None = None, head_start: Duration = 0
+    ) -> None:
+        """Start now, at `rate` times real time.
+
+        Args:
+            rate: How many of its seconds pass in a real one.
+            epoch: What it reads first, such as the moment a recording began; the moment it
+                is, less the head start, when None.
+            head_start: How much of the past to live through first, as fast as it can be
+                simulated, so that a world is already under way at the first look at it.
+
+        Raises:
+            ValueError: If `rate` is not a positive number between a billionth and a
+                billion, the head start negative, or the epoch not after 0.
+        """
+        # Beyond, a moment would not be a finite number of real seconds away.
+        if not 1e-9 <= rate <= 1e9:
+            raise ValueError(f"a rate must be a positive number from 1e-9 to 1e9, not {rate!r}")
+        if head_start < 0:
+            raise ValueError(f"a head start cannot be negative: {head_start} ns")
+        if epoch is not None and epoch <= 0:
+            raise ValueError("a clock starts after 0, which means 'latest'")
+        super().__init__(time.time_ns() - head_start if epoch is None else epoch, rate)
+        self._started = time.monotonic_ns() - round(head_start / rate)
+        self._alarm: asyncio.TimerHandle | None = None
+        # Up to here time stands still while anything runs; from here on it is real.
+        self._caught_up = self.epoch + head_start
+        self._behind = head_start
+        self._simulated: Stamp | None = self.epoch if head_start else None
+
+    def now(self) -> Stamp:
+        """The moment it is, in nanoseconds since the Unix epoch (at rate 1)."""
+        return self._real() if self._simulated is None else self._simulated
+
+    def _real(self) -> Stamp:
+        passed = time.monotonic_ns() - self._started
+        return self.epoch + (passed if self.rate == 1.0 else round(passed * self.rate))
+
+    def new_loop(self) -> asyncio.AbstractEventLoop:
+        """Make an ordinary event loop."""
+        return asyncio.new_event_loop()
+
+    def timer(
+        self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
+    ) -> "asyncio.Future[None]":
+        """A future that is done at `stamp`; the alarm is reset if that is the earliest."""
+        future = super().timer(stamp, phase, rank)
+        if self._waiters[0][4] is future:
+            self._set_alarm()
+        return future
+
+    def limit(self, until: Stamp | None) -> None:
+        """End a node that holds up the loop when that moment has passed."""
+        if self.stopper is not None:
+            wait = None if until is None else (until - self.now()) / (NANOSECONDS * self.rate)
+            # A thread waits for no more than some hundred years.
+            self.stopper.limit(None if wait is None or wait > 1e9 else max(wait, 0.0))
+
+    def real_timer(self, patience: float) -> "asyncio.Future[None]":
+        """A future that is done after `patience` real seconds, whatever the rate."""
+        loop = asyncio.get_running_loop()
+        future: asyncio.Future[None] = loop.create_future()
+        alarm = loop.call_later(patience, _set, future)
+        future.add_done_callback(lambda _: alarm.cancel())
+        return future
+
+    def _set_alarm(self) -> None:
+        if self._alarm is not None:
+            self._alarm.cancel()
+            self._alarm = None
+        due = self._next_due()
+        if self._simulated is not None:
+            self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
+        elif due is not None:
+            # A wait longer than any stamp lasts is interrupted once in between.
+            delay = max(0, min(due - self.now(), 2**63)) / (NANOSECONDS * self.rate)
+            self._alarm = asyncio.get_running_loop().call_later(delay, self._wake)
+
+    def _wake(self) -> None:
+        if self._alarm is not None:
+            self._alarm.cancel()
+            self._alarm = None
+        if self._simulated is not None and _others_wait_their_turn():
+            asyncio.get_running_loop().call_soon(self._wake)
+            return
+        due = self._next_due()
+        if self._simulated is not None:
+            self._simulated = self._moment_before_now(due, self._simulated)
+        if due is None or due > self.now():
+            self._set_alarm()
+            return
+        heapq.heappop(self._waiters)[4].set_result(None)
+        # The woken task takes its step before the next waiter of the instant is woken.
+        asyncio.get_running_loop().call_soon(self._wake)
+
+    def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
+        """Where a head start goes on after `moment`; None where it has reached the present."""
+        real = self._real()
+        behind = real - self._caught_up
+        if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
+            # To live through the last stretch took a while itself; what fell due in it is
+            # lived through as well, and takes less.
+            self._caught_up, self._behind = real, behind
+        if due is not None and due <= self._caught_up:
+            return max(due, moment)
+        if due is not None and due <= real:
+            # This world is no faster than time is: better a clock that lags behind the
+            # system's than everything late at once.
+            self._started += round(behind / self.rate)
+        return None
+
+
+class FollowedClock(WallClock):
+    """Real time, until it is told what time it is: then it stands still between two tellings.
+
+    What a world that shares a session lives by: while another process publishes `/clock`, as one
+    that plays a recording does, now is what that says. A wait keeps its remaining duration when
+    time falls back, or when its source changes.
+
+    Attributes:
+        fell_back: Called with by how many nanoseconds, when what it is told lies before now.
+    """
+
+    def __init__(self, told: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
+        """Read real time, or a moment that stands still from the beginning.
+
+        Args:
+            told: That moment.
+            epoch: When it began, where that was before.
+        """
+        super().__init__(epoch=told if epoch is None else epoch)
+        self.fell_back: Listeners[Duration] = Listeners()
+        self._told = told
+        self._first: asyncio.Future[None] | None = None
+
+    @property
+    def is_told(self) -> bool:
+        """Whether it reads what it is told."""
+        return self._told is not None
+
+    def now(self) -> Stamp:
+        """The moment it was told last, else the moment it is."""
+        return super().now() if self._told is None else self._told
+
+    def tell(self, moment: Stamp) -> None:
+        """Say what time it is, from now on; in the loop that runs on it.
+
+        Args:
+            moment: Nanoseconds; 0 and less, which are no moment, count as 1.
+        """
+        before, is_first = self.now(), self._told is None
+        self._told = max(moment, 1)
+        change = self._told - before
+        if is_first:
+            self.epoch = self._told
+            # What holds up the loop cannot be told by real time any more.
+            self.limit(None)
+        if is_first or change < 0:
+            self._shift(change)
+        self._set_alarm()
+        if self._first is not None:
+            _set(self._first)
+        if change < 0 and not is_first:
+            self.fell_back.call(-change)
+
+    async def told_once(self, patience: Duration) -> None:
+        """Wait until it is told what time it is, for so long in real time."""
+        first = self._first = asyncio.get_running_loop().create_future()
+        if self.is_told:
+            first.set_result(None)
+        timer = self.real_timer(patience / NANOSECONDS)
+        try:
+            await asyncio.wait({first, timer}, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            timer.cancel()
+
+    def run_on(self) -> None:
+        """Go on by real time from where it stands: it is told no more."""
+        if self._told is not None:
+            self._started = time.monotonic_ns() - (self._told - self.epoch)
+            self._told = None
+            self._set_alarm()
+
+    def limit(self, until: Stamp | None) -> None:
+        """End a node that holds up the loop; only in real time is that known."""
+        super().limit(None if self.is_told else until)
+
+    def _shift(self, change: Duration) -> None:
+        """Let every waiter wait for as long as it would have."""
+        self._waiters = [
+            (stamp + change, phase, rank, asked, future)
+            for stamp, phase, rank, asked, future in self._waiters
+        ]
+        heapq.heapify(self._waiters)
+
+    def _set_alarm(self) -> None:
+        if self._told is None:
+            super()._set_alarm()
+            return
+        if self._alarm is not None:
+            self._alarm.cancel()
+            self._alarm = None
+        due = self._next_due()
+        if due is not None and due <= self._told:
+            self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
+
+
+def pace_of(clock: Clock) -> Clock:
+    """The clock by which to wait for what a person should see, while the world lives by `clock`.
+
+    Real time where the world's is told from outside: that may stand still, or run at any rate.
+    """
+    if not isinstance(clock, FollowedClock):
+        return clock
+    pace = WallClock()
+    pace.stopper = clock.stopper
+    return pace
+
+
+def _set(future: "asyncio.Future[None]") -> None:
+    if not future.done():
+        future.set_result(None)
+
+
+def _others_wait_their_turn() -> bool:
+    """Whether the running loop has work at hand; asyncio has no public way to ask."""
+    return bool(getattr(asyncio.get_running_loop(), "_ready", ()))
+
+
+def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
+    """Run a coroutine to its end on the loop that belongs to `clock`.
+
+    The first SIGINT or SIGTERM cancels it, so that every `finally` runs; what does not return
+    within two seconds is named on stderr, and a second signal ends the process with status
+    130, whatever runs in it.
+
+    Returns:
+        What the coroutine returns.
+
+    Raises:
+        KeyboardInterrupt: If a signal ended it; its cause is what failed on the way out.
+        Exception: What the coroutine raises, or a task that it left behind.
+    """
+    loop = clock.new_loop()
+    clock.interrupted = False
+    try:
+        asyncio.set_event_loop(loop)
+        task = loop.create_task(main)
+        stopper = Stopper(loop, task, _real_seconds, clock.interrupt, clock.when_killed)
+        clock.stopper = stopper
+        try:
+            return _outcome(clock, loop, task)
+        finally:
+            clock.stopper = None
+            stopper.close()
+            loop.run_until_complete(loop.shutdown_asyncgens())
+    finally:
+        asyncio.set_event_loop(None)
+        loop.close()
+
+
+def _real_seconds() -> float:
+    return time.monotonic_ns() / NANOSECONDS
+
+
+def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[T]") -> T:
+    """Run a task to its end, and those it leaves behind."""
+    failure: BaseException | None = None
+    try:
+        loop.run_until_complete(task)
+    except BaseException as error:
+        failure = error
+    left_failure = _cancel_leftovers(clock, loop)
+    if failure is None or isinstance(failure, asyncio.CancelledError):
+        failure = left_failure or failure
+    if clock.interrupted and (failure is None or isinstance(failure, Exception)):
+        raise KeyboardInterrupt from failure
+    if clock.interrupted:
+        raise KeyboardInterrupt from None
+    if failure is not None:
+        raise failure
+    return task.result()
+
+
+def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseException | None:
+    """Cancel what still runs, and give the first thing that is raised by it."""
+
+    async def cancel(tasks: "set[asyncio.Task[Any]]") -> BaseException | None:
+        for task in tasks:
+            task.cancel()
+        for task in await clock.wait_for_end(tasks):
+            abandon(task)
+        for task in tasks:
+            if task.done() and not task.cancelled() and (error := task.exception()) is not None:
+                return error
+        return None
+
+    left = leftovers(loop)
+    if not left:
+        return None
+    ending = loop.create_task(cancel(left))
+    try:
+        return loop.run_until_complete(ending)
+    finally:
+        # The loop itself may refuse to go on: nothing of this is left for when it is closed.
+        if not ending.done():
+            abandon(ending)
+            ending.get_coro().close()

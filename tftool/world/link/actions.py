@@ -1,0 +1,185 @@
+"""An action: three services and two topics on the wire, one action in a world."""
+
+import asyncio
+import secrets
+from collections.abc import Awaitable, Callable, Coroutine
+from typing import Any, Final, cast
+
+from tftool.base.errors import LinkError, MalformedMessage
+from tftool.messages.classes import INTERFACES
+from tftool.messages.codec import codec
+from tftool.world.action_parts import (
+    CANCEL_GOAL,
+    ENDED,
+    STATUS,
+    ActionParts,
+    Tasks,
+    goal_id_message,
+    goal_info,
+    message,
+)
+from tftool.world.endpoints import Quality
+from tftool.world.link.graph import GraphEntity
+from tftool.world.link.link_context import LinkContext
+from tftool.world.link.seam import Arrived
+from tftool.world.link.services import LONGEST, Answering, Asking
+from tftool.world.topics import GoalHandle, Status
+
+_NAMES: Final = {number: name for name, number in ENDED.items()}
+
+_FEEDBACK: Final = Quality(depth=10)
+_STATUS: Final = Quality(depth=1, is_latched=True)
+
+
+def _bytes(message: Any) -> bytes:
+    return codec(type(message)).encode(message)
+
+
+def _read(ros_type: str, payload: bytes) -> Any:
+    return codec(INTERFACES.part(ros_type)).decode(payload)
+
+
+class ActionServer:
+    """An action of our world, offered to the other processes."""
+
+    def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
+        """Offer an action; the arguments are those of `ServiceServer`."""
+        interface: str = kind.interface__
+        node, base = node or link.main_node, f"{name}/_action"
+        publish = link.middleware.publisher
+        self._feedback = publish(
+            node, f"{base}/feedback", f"{interface}_FeedbackMessage", _FEEDBACK
+        )
+        self._status = publish(node, f"{base}/status", STATUS, _STATUS)
+        self.parts = ActionParts(
+            link.world,
+            name,
+            interface,
+            on_feedback=lambda said: self._feedback.put(_bytes(said), link.now()),
+            on_status=lambda said: self._status.put(_bytes(said), link.now()),
+            warn=lambda text: link.say_once(f"goals {name}", text),
+        )
+        self._services = [
+            Answering(link, node, f"{base}/{part}", ros_type, _in_bytes(ros_type, answer))
+            for part, ros_type, answer in (
+                ("send_goal", f"{interface}_SendGoal", self.parts.send_goal),
+                ("cancel_goal", CANCEL_GOAL, self.parts.cancel_goal),
+                ("get_result", f"{interface}_GetResult", self.parts.get_result),
+            )
+        ]
+
+    def close(self) -> None:
+        """Take no goals any more; those under way are given up."""
+        for service in self._services:
+            service.close()
+        self._feedback.close()
+        self._status.close()
+        self.parts.close()
+        self.parts.give_up()
+
+
+def _in_bytes(
+    ros_type: str, answer: Callable[[Any], Awaitable[Any]]
+) -> Callable[[bytes], Coroutine[Any, Any, bytes]]:
+    async def handle(payload: bytes) -> bytes:
+        return _bytes(await answer(_read(f"{ros_type}_Request", payload)))
+
+    return handle
+
+
+class ActionClient:
+    """An action of another process, as one of our world."""
+
+    def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
+        self._link = link
+        self._name = name
+        self._type = server.ros_type.removesuffix("_SendGoal")
+        self._goals: dict[bytes, GoalHandle] = {}
+        self._tasks = Tasks()
+        base = f"{name}/_action"
+
+        def part(what: str, ros_type: str) -> Asking:
+            return Asking(link, f"{base}/{what}", ros_type)
+
+        self._send = part("send_goal", f"{self._type}_SendGoal")
+        self._cancel = part("cancel_goal", CANCEL_GOAL)
+        self._result = part("get_result", f"{self._type}_GetResult")
+        feedback = f"{self._type}_FeedbackMessage"
+        self._stop_feedback = link.middleware.listen(
+            f"{base}/feedback", feedback, self._on_feedback
+        )
+        self._withdraw = link.world.serve_action(
+            name,
+            self._accept,
+            INTERFACES.find(*self._type.split("/")),
+            node=server.node,
+            is_remote=True,
+        )
+
+    def close(self) -> None:
+        """Take it out of our world; goals under way end as aborted."""
+        self._withdraw()
+        self._stop_feedback()
+        self._tasks.cancel()
+        for part in (self._send, self._cancel, self._result):
+            part.close()
+
+    def _accept(self, goal: GoalHandle) -> None:
+        goal_id = secrets.token_bytes(16)
+        self._goals[goal_id] = goal
+        goal.decided = asyncio.get_running_loop().create_future()
+        goal.on_cancel = lambda: self._tasks.start(self._call_off(goal_id, goal))
+        self._tasks.start(self._follow(goal_id, goal, goal.decided))
+
+    async def _follow(
+        self, goal_id: bytes, goal: GoalHandle, decided: "asyncio.Future[bool]"
+    ) -> None:
+        """Send a goal, and see it to its end."""
+        status: Status = "aborted"
+        result: Any = INTERFACES.part(f"{self._type}_Result")()
+        try:
+            asked = message(
+                f"{self._type}_SendGoal_Request",
+                goal_id=goal_id_message(goal_id),
+                goal=goal.request,
+            )
+            answer = await self._send.ask(_bytes(asked), goal.patience or LONGEST)
+            accepted = _read(f"{self._type}_SendGoal_Response", answer).accepted
+            decided.set_result(accepted)
+            if accepted:
+                question = message(
+                    f"{self._type}_GetResult_Request", goal_id=goal_id_message(goal_id)
+                )
+                answer = await self._result.ask(_bytes(question), LONGEST)
+                ended = _read(f"{self._type}_GetResult_Response", answer)
+                status = cast("Status", _NAMES.get(ended.status, "aborted"))
+                result = ended.result
+        except (LinkError, MalformedMessage, AssertionError) as error:
+            self._link.world.log.warn("link", f"{self._name}: {error}")
+        finally:
+            self._goals.pop(goal_id, None)
+            if not decided.done():
+                decided.set_result(False)
+            goal.finish(status, result)
+
+    async def _call_off(self, goal_id: bytes, goal: GoalHandle) -> None:
+        info = goal_info(goal_id, 0)
+        accepted = False
+        try:
+            asked = message(f"{CANCEL_GOAL}_Request", goal_info=info)
+            answer = await self._cancel.ask(_bytes(asked), goal.patience or LONGEST)
+            accepted = bool(_read(f"{CANCEL_GOAL}_Response", answer).goals_canceling)
+        except (LinkError, MalformedMessage) as error:
+            self._link.world.log.warn("link", f"{self._name}: {error}")
+        finally:
+            goal.decide_cancel(accepted)
+
+    def _on_feedback(self, message: Arrived) -> None:
+        try:
+            said = _read(f"{self._type}_FeedbackMessage", message.payload)
+        except MalformedMessage as refusal:
+            self._link.refuse(f"{self._name}/_action/feedback", refusal)
+            return
+        goal = self._goals.get(bytes(said.goal_id.uuid))
+        if goal is not None:
+            goal.publish_feedback(said.feedback)

@@ -1,0 +1,196 @@
+"""Services over DDS as ROS 2's Cyclone has them: two topics, a number in front of each message.
+
+Fast DDS carries that number beside the message, out of reach of the library; what speaks it
+is refused by name.
+"""
+
+import asyncio
+import itertools
+import os
+import struct
+from collections.abc import Callable
+from typing import Final
+
+from tftool.base.errors import LinkError
+from tftool.base.stamps import Stamp, seconds
+from tftool.world.clock import WallClock
+from tftool.world.endpoints import Quality
+from tftool.world.link.dds import dds_names as names
+from tftool.world.link.dds.dds_types import Raw, Types
+from tftool.world.link.dds.participant import DdsSample, Participant
+from tftool.world.link.graph import SERVER, Graph
+from tftool.world.link.seam import WireRequest
+
+QUALITY: Final = Quality(depth=10)
+"""ROS 2's quality of services."""
+
+NUMBERED: Final = (("client_guid", "uint64"), ("sequence_number", "int64"))
+"""What lies in front of each request and each reply: whose it is, and which."""
+
+_HEAD: Final = 4
+_NUMBER: Final = 16
+_PAUSE: Final = seconds(0.005)
+
+REFUSED: Final = (
+    "it is served over {vendor}, which carries the number of a request where DDS's library for "
+    "Python can neither read nor write it; run the robot with rmw_cyclonedds_cpp or rmw_zenoh_cpp"
+)
+
+
+class ServicePart:
+    """What both sides of services need.
+
+    Attributes:
+        participant: Ours.
+        graph: Who else is there.
+        sender: Gives the GUID of the writer of a message.
+    """
+
+    def __init__(
+        self,
+        participant: Participant,
+        types: Types,
+        graph: Graph,
+        sender: Callable[[DdsSample], bytes],
+    ) -> None:
+        self.participant = participant
+        self.graph = graph
+        self.sender = sender
+        self._types = types
+
+    def kinds(self, ros_type: str) -> tuple[type[Raw], type[Raw]]:
+        """The classes of a service's requests and replies."""
+        raw = self._types.raw
+        return (
+            raw(f"{ros_type}_Request", beside=NUMBERED),
+            raw(f"{ros_type}_Response", beside=NUMBERED),
+        )
+
+
+class CycloneServer:
+    """The serving end of a service."""
+
+    def __init__(
+        self,
+        part: ServicePart,
+        name: str,
+        ros_type: str,
+        on_request: Callable[[WireRequest], object],
+        on_stranger: Callable[[str], object],
+    ) -> None:
+        """Serve.
+
+        Args:
+            part: What both sides need.
+            name: The service's name.
+            ros_type: Its type.
+            on_request: Called with every request.
+            on_stranger: Called with the name of a library whose requests cannot be read.
+        """
+        self._part = part
+        self._on_request = on_request
+        self._on_stranger = on_stranger
+        request, reply = part.kinds(ros_type)
+        take_part = part.participant
+        self._writer = take_part.writer(f"{names.REPLY}{name}Reply", reply, QUALITY, b"")
+        self._reader = take_part.reader(
+            f"{names.REQUEST}{name}Request", request, QUALITY, self._asked
+        )
+        self.gids = self._reader.gid, self._writer.gid
+
+    def close(self) -> None:
+        """Serve no more."""
+        self._reader.close()
+        self._writer.close()
+
+    def _asked(self, sample: DdsSample) -> None:
+        sender = self._part.sender(sample)
+        if sender[:2] not in (names.CYCLONE, b""):
+            self._on_stranger(names.vendor(sender))
+            return
+        self._on_request(CycloneRequest(sample.payload, self._writer.put))
+
+
+class CycloneRequest:
+    """A request that came in; its number goes back with the answer."""
+
+    def __init__(self, payload: bytes, reply: Callable[[bytes], object]) -> None:
+        self._number = payload[_HEAD : _HEAD + _NUMBER]
+        # Both numbers are sixteen bytes, so that nothing behind them is aligned otherwise.
+        self.payload: bytes = payload[:_HEAD] + payload[_HEAD + _NUMBER :]
+        self._reply = reply
+
+    def answer(self, payload: bytes, stamp: Stamp) -> None:
+        """Reply, once."""
+        self._reply(payload[:_HEAD] + self._number + payload[_HEAD:])
+
+    def refuse(self, reason: str) -> None:
+        """Do nothing: ROS 2 has no word for it over DDS, and its client waits until it is tired."""
+
+
+class CycloneClient:
+    """The asking end of a service; opened with its first request."""
+
+    def __init__(self, part: ServicePart, name: str, ros_type: str) -> None:
+        self._part = part
+        self._name = name
+        self._ros_type = ros_type
+        self._guid = int.from_bytes(os.urandom(8), "little")
+        self._numbers = itertools.count(1)
+        self._waiting: dict[int, asyncio.Future[bytes]] = {}
+        self._close: list[Callable[[], None]] = []
+        self._is_matched: Callable[[], bool] = bool
+
+    async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
+        """Send a request and wait for the answer."""
+        vendors = {
+            one.gid[:2]
+            for one in self._part.graph.entities(SERVER, name=self._name)
+            if one.ros_type == self._ros_type
+        }
+        if vendors and names.CYCLONE not in vendors:
+            raise LinkError(REFUSED.format(vendor=names.vendor(next(iter(vendors)))))
+        number = next(self._numbers)
+        answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
+        self._waiting[number] = answer
+        try:
+            async with asyncio.timeout(timeout):
+                await self._send(number, payload)
+                return await answer
+        except TimeoutError:
+            raise LinkError(f"no server answered within {timeout:g} s, or it has left") from None
+        finally:
+            del self._waiting[number]
+
+    async def _send(self, number: int, payload: bytes) -> None:
+        if not self._close:
+            self._open()
+        clock = WallClock()
+        # What is written before both sides know each other no server gets.
+        while not self._is_matched():
+            await clock.sleep(_PAUSE)
+        beside = struct.pack("<Qq", self._guid, number)
+        self._put(payload[:_HEAD] + beside + payload[_HEAD:])
+
+    def _open(self) -> None:
+        request, reply = self._part.kinds(self._ros_type)
+        take_part = self._part.participant
+        reader = take_part.reader(f"{names.REPLY}{self._name}Reply", reply, QUALITY, self._answered)
+        writer = take_part.writer(f"{names.REQUEST}{self._name}Request", request, QUALITY, b"")
+        self._close = [reader.close, writer.close]
+        self._put = writer.put
+        self._is_matched = lambda: writer.readers > 0 and reader.writers > 0
+
+    def _answered(self, sample: DdsSample) -> None:
+        payload = sample.payload
+        order = "<" if payload[1] & 1 else ">"
+        guid, number = struct.unpack_from(f"{order}Qq", payload, _HEAD)
+        answer = self._waiting.get(number)
+        if guid == self._guid and answer is not None and not answer.done():
+            answer.set_result(payload[:_HEAD] + payload[_HEAD + _NUMBER :])
+
+    def close(self) -> None:
+        """Ask no more."""
+        for close in self._close:
+            close()
+        self._close = []

@@ -1,0 +1,428 @@
+"""Who is there, as DDS tells: its built-in topics, and what ROS 2's nodes say of themselves.
+
+DDS knows participants and their endpoints; which node an endpoint belongs to is written on
+`ros_discovery_info`, of which every participant of ROS 2 sends its own.
+"""
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+from tftool.base.errors import LinkError, MalformedMessage
+from tftool.messages.classes import Interfaces, Message
+from tftool.messages.codec import Codec, codec
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.link.dds import dds_names as names
+from tftool.world.link.dds.dds_types import Types
+from tftool.world.link.dds.participant import DdsSample, Participant, TopicWriter
+from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, GraphEntity, Process, node_name
+
+INFO: Final = "rmw_dds_common/msg/ParticipantEntitiesInfo"
+
+_DEFINITION: Final = """\
+rmw_dds_common/Gid gid
+rmw_dds_common/NodeEntitiesInfo[] node_entities_info_seq
+================================================================================
+MSG: rmw_dds_common/NodeEntitiesInfo
+string<=256 node_namespace
+string<=256 node_name
+rmw_dds_common/Gid[] reader_gid_seq
+rmw_dds_common/Gid[] writer_gid_seq
+================================================================================
+MSG: rmw_dds_common/Gid
+uint8[{size}] data
+"""
+
+GID_SIZES: Final = (16, 24)
+"""Bytes of a GUID in that message: from ROS 2 Iron on, and before."""
+
+LATEST_OF_ALL: Final = Quality(depth=1, is_latched=True)
+"""The quality of `ros_discovery_info`."""
+
+MOST: Final = 20_000
+"""Endpoints that are remembered."""
+
+_KINDS: Final = {
+    (names.TOPIC, PUBLISHER): PUBLISHER,
+    (names.TOPIC, SUBSCRIPTION): SUBSCRIPTION,
+    # A service is two topics; each side is shown by its end of the requests.
+    (names.REQUEST, SUBSCRIPTION): SERVER,
+    (names.REQUEST, PUBLISHER): CLIENT,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """An endpoint, as the built-in topics show it."""
+
+    handle: int
+    participant: bytes
+    entity: GraphEntity
+
+
+class Information:
+    """`ros_discovery_info` in one of its forms: which node has which endpoints."""
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        self._interfaces = Interfaces()
+        self.kind: type[Message] = self._interfaces.recorded(INFO, _DEFINITION.format(size=size))
+        self._interfaces.define(INFO, _DEFINITION.format(size=size))
+        self._codec: Codec = codec(self.kind)
+
+    def raw(self) -> type[Any]:
+        """The library's class of it."""
+        return Types(self._interfaces).raw(INFO)
+
+    def encode(self, participant: bytes, nodes: dict[str, tuple[set[bytes], set[bytes]]]) -> bytes:
+        """What a participant says.
+
+        Args:
+            participant: Its GUID.
+            nodes: GUIDs of the readers and the writers of each of its nodes.
+        """
+        said: Any = self.kind()
+        said.gid = self._gid(participant)
+        said.node_entities_info_seq = [
+            self._node(name, *gids) for name, gids in sorted(nodes.items())
+        ]
+        return self._codec.encode(said)
+
+    def decode(self, payload: bytes) -> tuple[bytes, dict[bytes, str], list[str]]:
+        """What a participant says: its GUID, nodes by the GUIDs of endpoints, all its nodes.
+
+        Raises:
+            MalformedMessage: If it is none of this form.
+        """
+        said: Any = self._codec.decode(payload)
+        nodes, found = [], {}
+        for one in said.node_entities_info_seq:
+            name = node_name(f"{one.node_namespace}/{one.node_name}")
+            nodes.append(name)
+            for gid in (*one.reader_gid_seq, *one.writer_gid_seq):
+                found[bytes(gid.data)[:16]] = name
+        return bytes(said.gid.data)[:16], found, nodes
+
+    def _gid(self, guid: bytes) -> Any:
+        return self._interfaces.message("rmw_dds_common/msg/Gid")(
+            data=list(guid.ljust(self.size, b"\0"))
+        )
+
+    def _node(self, name: str, readers: set[bytes], writers: set[bytes]) -> Any:
+        space, _, own = name.rpartition("/")
+        return self._interfaces.message("rmw_dds_common/msg/NodeEntitiesInfo")(
+            node_namespace=f"/{space}",
+            node_name=own,
+            reader_gid_seq=[self._gid(gid) for gid in sorted(readers)],
+            writer_gid_seq=[self._gid(gid) for gid in sorted(writers)],
+        )
+
+
+class Discovery:
+    """Keeps a graph in line with what others show, and shows our own nodes.
+
+    Attributes:
+        graph: Who else is there.
+        participants: How many of them.
+    """
+
+    def __init__(self, participant: Participant, domain: int) -> None:
+        """Begin to look; what is there comes in by `look`.
+
+        Args:
+            participant: Ours.
+            domain: Number of the domain.
+        """
+        from cyclonedds import builtin
+
+        self._participant = participant
+        self._domain = domain
+        self.graph = Graph(participant.gid.hex(), domain)
+        self._names: dict[bytes, str] = {}
+        self._found: dict[tuple[str, bytes], _Found] = {}
+        self._gids: dict[int, bytes] = {}
+        self._speaking: set[bytes] = set()
+        self._informing: dict[bytes, int] = {}
+        self._nodes: dict[bytes, tuple[dict[bytes, str], list[str]]] = {}
+        self._shown_nodes: dict[bytes, set[str]] = {}
+        self._report: Callable[[GraphEntity | Process | None, bool], None] = _ignore
+        self._is_due = threading.Event()
+        self._will_look = False
+        self._changed = self._is_due.set
+        self._information = {size: Information(size) for size in GID_SIZES}
+        told = self._tell
+        self._participants = participant.builtin(builtin.BuiltinTopicDcpsParticipant, told)
+        self._readers = {
+            PUBLISHER: participant.builtin(builtin.BuiltinTopicDcpsPublication, told),
+            SUBSCRIPTION: participant.builtin(builtin.BuiltinTopicDcpsSubscription, told),
+        }
+        self._infos = [
+            participant.reader(names.DISCOVERY, form.raw(), LATEST_OF_ALL, self._informed_by(form))
+            for form in self._information.values()
+        ]
+        self._own: dict[str, tuple[set[bytes], set[bytes]]] = {}
+        self._writer: TopicWriter | None = None
+        participant.at_close(self._close)
+
+    def _close(self) -> None:
+        self._report = _ignore
+        self._participants = None
+        self._readers.clear()
+        for reader in self._infos:
+            reader.close()
+        if self._writer is not None:
+            self._writer.close()
+
+    def start(self, report: Callable[[GraphEntity | Process | None, bool], None]) -> None:
+        """Call back from now on with what comes and goes."""
+        self._report = report
+        self._changed = self._look_soon
+        self._look_soon()
+
+    @property
+    def participants(self) -> int:
+        """How many participants are there."""
+        return len(self._names)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether every participant has shown its endpoints, and its nodes if it tells them."""
+        has_spoken = self._names.keys() <= self._speaking
+        return has_spoken and self._informing.keys() <= self._nodes.keys()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait until something has changed, before anything is called back."""
+        changed = self._is_due.wait(seconds)
+        self._is_due.clear()
+        return changed
+
+    def gid(self, writer: int) -> bytes:
+        """The GUID of a writer, by the library's number of it; b"" if it is not known."""
+        if writer not in self._gids:
+            self.look()
+        return self._gids.get(writer, b"")
+
+    # Threads of the library's
+
+    def _tell(self) -> None:
+        self._changed()
+
+    def _look_soon(self) -> None:
+        # One look serves all that came until then.
+        if not self._will_look:
+            self._will_look = True
+            self._participant.inbox.put(self._look_now, None)
+
+    def _look_now(self, _: object) -> None:
+        self._will_look = False
+        self.look()
+
+    # On the loop
+
+    def look(self) -> None:
+        """Take in what the built-in topics have."""
+        if self._participants is None:
+            return
+        for one in _all(self._participants):
+            self._take_participant(one)
+        for role, reader in self._readers.items():
+            for one in _all(reader):
+                self._take_endpoint(role, one)
+
+    def _take_participant(self, one: Any) -> None:
+        key = one.key.bytes
+        if key == self._participant.gid:
+            return
+        if not _is_alive(one):
+            self._forget(key)
+            return
+        policies = {policy.__scope__: policy for policy in one.qos}
+        self._names[key] = str(getattr(policies.get("EntityName"), "name", ""))
+        data = bytes(getattr(policies.get("Userdata"), "data", b""))
+        process = names.process_shown(data, self._domain, key.hex())
+        if process is not None:
+            self._exchange(f"process {key.hex()}", process)
+
+    def _take_endpoint(self, role: str, one: Any) -> None:
+        key, owner = (role, one.key.bytes), one.participant_key.bytes
+        if not _is_alive(one):
+            gone = self._found.pop(key, None)
+            self._gids.pop(one.sample_info.instance_handle, None)
+            if gone is not None:
+                self._exchange(_key(key), None)
+            return
+        if owner == self._participant.gid or len(self._found) >= MOST:
+            return
+        self._speaking.add(owner)
+        handle = one.sample_info.instance_handle
+        if role == PUBLISHER:
+            self._gids[handle] = key[1]
+        if one.topic_name == names.DISCOVERY and role == PUBLISHER:
+            policies = {policy.__scope__: policy for policy in one.qos}
+            data = bytes(getattr(policies.get("Userdata"), "data", b""))
+            self._informing[owner] = GID_SIZES[0] if names.hash_shown(data) else 0
+            return
+        part = names.ros_part(one.topic_name, one.type_name)
+        kind = None if part is None else _KINDS.get((part.prefix, role))
+        if part is None or kind is None:
+            return
+        quality, shown_hash = _described(one.qos)
+        entity = GraphEntity(
+            kind,
+            self._domain,
+            owner.hex(),
+            "",
+            part.name,
+            part.ros_type,
+            quality,
+            key[1],
+            shown_hash,
+        )
+        self._found[key] = _Found(handle, owner, entity)
+        self._show(key)
+
+    def _show(self, key: tuple[str, bytes]) -> None:
+        """Enter an endpoint in the graph, under its node as far as that is known."""
+        found = self._found[key]
+        nodes = self._nodes.get(found.participant, ({}, []))[0]
+        node = nodes.get(key[1]) or self._node_of(found.participant)
+        self._exchange(_key(key), replace(found.entity, node=node))
+
+    def _node_of(self, participant: bytes) -> str:
+        """What stands for the node of a participant that says nothing of nodes."""
+        only = self._nodes.get(participant, ({}, []))[1]
+        if len(only) == 1:
+            return only[0]
+        name = self._names.get(participant, "")
+        return node_name(name) if name else f"participant_{participant[2:8].hex()}"
+
+    def _forget(self, participant: bytes) -> None:
+        self._names.pop(participant, None)
+        self._informing.pop(participant, None)
+        self._speaking.discard(participant)
+        self._nodes.pop(participant, None)
+        for name in self._shown_nodes.pop(participant, set()):
+            self._exchange(f"node {participant.hex()} {name}", None)
+        for key in [key for key, one in self._found.items() if one.participant == participant]:
+            self._gids.pop(self._found.pop(key).handle, None)
+            self._exchange(_key(key), None)
+        self._exchange(f"process {participant.hex()}", None)
+
+    def _exchange(self, key: str, new: GraphEntity | Process | None) -> None:
+        """Enter something in place of what stood under its key, and report both."""
+        old = self.graph.get(key)
+        if old == new:
+            return
+        if old is not None:
+            self.graph.remove(key)
+        if new is not None and self.graph.add(key, new) is not None:
+            self._report(new, True)
+        if old is not None:
+            self._report(old, False)
+
+    # What nodes say of themselves
+
+    def _informed_by(self, form: Information) -> Callable[[DdsSample], None]:
+        def informed(sample: DdsSample) -> None:
+            self._take_information(form, sample)
+
+        return informed
+
+    def _take_information(self, form: Information, sample: DdsSample) -> None:
+        try:
+            participant, nodes, all_nodes = form.decode(sample.payload)
+        except (MalformedMessage, UnicodeError):
+            return
+        self.look()
+        if participant not in self._names:
+            return  # it has left, or speaks for another
+        # A message of one form can be read by the other, and says nothing then.
+        if self._informing.get(participant) not in (None, 0, form.size):
+            return
+        if not all_nodes and form.size != GID_SIZES[0] and participant in self._nodes:
+            return
+        self._nodes[participant] = nodes, all_nodes
+        shown, now = self._shown_nodes.setdefault(participant, set()), set(all_nodes)
+        for name in shown - now:
+            self._exchange(f"node {participant.hex()} {name}", None)
+        for name in now - shown:
+            entity = GraphEntity(NODE, self._domain, participant.hex(), name)
+            self._exchange(f"node {participant.hex()} {name}", entity)
+        self._shown_nodes[participant] = now
+        for key in [key for key, one in self._found.items() if one.participant == participant]:
+            self._show(key)
+
+    # What we say
+
+    def show_node(self, name: str) -> Callable[[], None]:
+        """Show a node of ours until what is returned is called."""
+        self._own.setdefault(name, (set(), set()))
+        self._say()
+
+        def hide() -> None:
+            if self._own.pop(name, None) is not None:
+                self._say()
+
+        return hide
+
+    def show_endpoint(self, node: str, role: str, gid: bytes) -> Callable[[], None]:
+        """Show that an endpoint of ours is a node's, until what is returned is called."""
+        which = 1 if role == PUBLISHER else 0
+        self._own.setdefault(node, (set(), set()))[which].add(gid)
+        self._say()
+
+        def hide() -> None:
+            if node in self._own:
+                self._own[node][which].discard(gid)
+                self._say()
+
+        return hide
+
+    def _say(self) -> None:
+        if self._participants is None:
+            return
+        if self._writer is None:
+            form = self._information[GID_SIZES[0]]
+            self._writer = self._participant.writer(names.DISCOVERY, form.raw(), LATEST_OF_ALL, b"")
+        said = self._information[GID_SIZES[0]].encode(self._participant.gid, self._own)
+        try:
+            self._writer.put(said)
+        except LinkError:
+            return
+
+
+def _ignore(_: GraphEntity | Process | None, __: bool) -> None:
+    """Report nothing."""
+
+
+def _key(key: tuple[str, bytes]) -> str:
+    return f"{key[0]} {key[1].hex()}"
+
+
+def _all(reader: Any) -> list[Any]:
+    """Everything that a reader has."""
+    found: list[Any] = []
+    while taken := reader.take(256):
+        found += taken
+    return found
+
+
+def _is_alive(one: Any) -> bool:
+    from cyclonedds.core import InstanceState
+
+    return bool(one.sample_info.instance_state == InstanceState.Alive)
+
+
+def _described(qos: Any) -> tuple[Quality, str]:
+    """An endpoint's quality, and the hash of its type where it is shown."""
+    policies = {policy.__scope__: policy for policy in qos}
+    history = policies.get("History")
+    quality = Quality(
+        depth=max(1, int(getattr(history, "depth", 1))),
+        is_reliable=type(policies.get("Reliability")).__name__.endswith("Reliable"),
+        is_latched=not type(policies.get("Durability")).__name__.endswith("Volatile"),
+        keeps_all="KeepAll" in type(history).__name__,
+    )
+    data = bytes(getattr(policies.get("Userdata"), "data", b""))
+    return quality, names.hash_shown(data)

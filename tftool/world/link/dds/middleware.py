@@ -1,0 +1,428 @@
+"""DDS as the middleware of a link, by the names and types of ROS 2's Cyclone and Fast DDS."""
+
+import asyncio
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from tftool.base.errors import InputError, LinkError
+from tftool.base.stamps import Stamp, seconds
+from tftool.messages.classes import INTERFACES
+from tftool.messages.hashes import type_hash
+from tftool.world.clock import WallClock
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, TF, TF_STATIC, Quality, conflict
+from tftool.world.link.dds import dds_names as names
+from tftool.world.link.dds.dds_services import CycloneClient, CycloneServer, ServicePart
+from tftool.world.link.dds.dds_types import Raw, Types
+from tftool.world.link.dds.discovery import Discovery
+from tftool.world.link.dds.participant import DdsSample, Participant, TopicReader, TopicWriter
+from tftool.world.link.dds.settings import network, other_domains, participants_here
+from tftool.world.link.graph import GraphEntity, Process, node_name
+from tftool.world.link.link_options import Options
+from tftool.world.link.seam import Arrived, Middleware, Watcher, WireClient, WireRequest
+
+ALONE: Final = seconds(2)
+"""How long to look for others where none is heard of."""
+
+INTRODUCED: Final = seconds(6)
+"""How long to wait for those of this machine that are known to be there."""
+
+SETTLED: Final = 0.3
+"""Seconds without news after which all that is there is taken to be known."""
+
+_RELIABILITY: Final = 11
+"""The library's number of that policy."""
+
+
+class DdsMiddleware:
+    """This process among those that talk ROS 2 over DDS; see `seam.Middleware`.
+
+    Attributes:
+        graph: Who else is there.
+        session: The GUID of our participant, in hexadecimal.
+        unanswering: None; what is stopped cannot be told from what is not there.
+        notices: What the user should know before anything else, as sentences.
+    """
+
+    def __init__(self, options: Options) -> None:
+        """Join, as the seam says."""
+        self._options = options
+        self._network = network(options.reach.interfaces)
+        self.notices: tuple[str, ...] = self._network.told
+        name = f"tftool {options.command} ({os.getpid()})"
+        self._participant = Participant(options.domain, self._network, name, names.ENCLAVE.encode())
+        try:
+            self._discovery = Discovery(self._participant, options.domain)
+            self.graph = self._discovery.graph
+            self.session = self.graph.own
+            self.unanswering: tuple[int, ...] = ()
+            self._types = Types(INTERFACES)
+            self._services = ServicePart(self._participant, self._types, self.graph, self.sender)
+            self._watcher: Watcher | None = None
+            self._readers: dict[tuple[str, str], list[_Listening]] = {}
+            self._claims: list[_Claim] = []
+            self._look_around()
+        except BaseException:
+            self._participant.close()
+            raise
+
+    def _look_around(self) -> None:
+        """Wait until all are known that are there."""
+        discovery, clock = self._discovery, WallClock()
+        begin = clock.now()
+        ours = 1
+        news = True
+        while True:
+            discovery.look()
+            self._participant.inbox.call_now()
+            waited = clock.now() - begin
+            there = participants_here(self._options.domain) - ours
+            known = discovery.participants
+            if waited > INTRODUCED:
+                break
+            is_known = known and known >= there and not news
+            # One that has no endpoint at all shows none, however long it is waited for.
+            if is_known and (discovery.is_complete or waited > ALONE):
+                return
+            # On the loopback there is no other machine that could still answer.
+            alone = 0 if self._network.is_loopback and there == 0 else ALONE
+            if not known and there <= 0 and waited > alone:
+                break
+            news = discovery.wait(SETTLED)
+        if known < there:
+            some = f"{there - known} of {there} programs that listen"
+            self.notices += (
+                f"{some} in DDS domain {self._options.domain} of this machine did not answer on "
+                f"{self._network}: they may use another interface (--dds-on).",
+            )
+        elif not known:
+            others = other_domains(self._options.domain)
+            elsewhere = f"; programs of this machine use {_listed(others)}" if others else ""
+            way = (
+                "a robot elsewhere needs --dds-on INTERFACE"
+                if self._network.is_loopback
+                else "is it the right interface?"
+            )
+            self.notices += (
+                f"No other DDS program answers in domain {self._options.domain} on "
+                f"{self._network}{elsewhere}: {way}, another domain --domain N.",
+            )
+
+    @property
+    def lost(self) -> int:
+        """Messages that were dropped because too many waited to be taken in."""
+        return self._participant.inbox.lost + self._participant.oversized
+
+    def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
+        """Call back on `loop` from now on, and report changes of the graph."""
+        self._watcher = watcher
+        self._participant.inbox.start(loop)
+        self._discovery.start(self._changed)
+        if watcher is not None:
+            for process in self.graph.processes():
+                watcher.graph_changed(process, True)
+            for one in self.graph.entities():
+                watcher.graph_changed(one, True)
+                self._compare(one)
+
+    def tell_frames(self, names: Sequence[str]) -> None:
+        """Do nothing: command lines are completed from sessions over zenoh."""
+
+    def settle(self) -> None:
+        """Do nothing: over DDS processes may join at any time."""
+
+    def close(self) -> None:
+        """Send what still waits, and leave."""
+        for listening in [one for several in self._readers.values() for one in several]:
+            listening.close()
+        self._readers.clear()
+        self._participant.close()
+
+    # What is shown
+
+    def process(self, process: Process) -> Callable[[], None]:
+        """Show this process."""
+        self._participant.tell(names.process_data(process))
+        return _nothing
+
+    def node(self, name: str) -> Callable[[], None]:
+        """Show a node."""
+        if self._options.read_only:
+            return _nothing
+        return self._discovery.show_node(node_name(name))
+
+    def subscription(
+        self, node: str, name: str, ros_type: str, quality: Quality
+    ) -> Callable[[], None]:
+        """Show that a node subscribes a topic: that the readers of it are its own."""
+        claim = _Claim(node_name(node), name, ros_type, quality)
+        self._claims.append(claim)
+        for one in self._readers.get((name, ros_type), ()):
+            self._assign(one)
+
+        def hide() -> None:
+            self._claims.remove(claim)
+            for one in self._readers.get((name, ros_type), ()):
+                self._assign(one)
+
+        return hide
+
+    def _assign(self, listening: "_Listening") -> None:
+        """Show a reader as one of the node that claims its topic."""
+        listening.hide()
+        listening.hide = _nothing
+        if self._options.read_only or listening.reader is None:
+            return
+        for claim in self._claims:
+            if (claim.name, claim.ros_type) == (listening.name, listening.ros_type):
+                gid = listening.reader.gid
+                listening.hide = self._discovery.show_endpoint(claim.node, SUBSCRIPTION, gid)
+                return
+
+    # Topics
+
+    def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> "DdsPublisher":
+        """Publish a topic, as a node of this process."""
+        kind = self._kind(ros_type)
+        if self._options.read_only:
+            raise LinkError("a process that only looks publishes nothing")
+        beside = f"typehash={type_hash(INTERFACES, ros_type)};".encode()
+        writer = self._participant.writer(names.TOPIC + name, kind, quality, beside)
+        hide = self._discovery.show_endpoint(node_name(node), PUBLISHER, writer.gid)
+        return DdsPublisher(writer, hide)
+
+    def listen(
+        self,
+        name: str,
+        ros_type: str,
+        on_message: Callable[[Arrived], object],
+        *,
+        is_latched: bool = False,
+    ) -> Callable[[], None]:
+        """Have `on_message` called with what others publish."""
+        listening = _Listening(self, name, ros_type, on_message, is_latched=is_latched)
+        try:
+            listening.open(is_reliable=self._asks_reliable(name, ros_type))
+        except (LinkError, InputError) as error:
+            self.say_once(f"type {ros_type}", f"'{name}' cannot be read over DDS: {error}.")
+            return _nothing
+        several = self._readers.setdefault((name, ros_type), [])
+        several.append(listening)
+        self._assign(listening)
+
+        def stop() -> None:
+            if listening in several:
+                several.remove(listening)
+            listening.close()
+
+        return stop
+
+    def _asks_reliable(self, name: str, ros_type: str) -> bool:
+        """Whether a reader may ask for reliability: tf2 does, others take what is offered."""
+        if name in ("tf", "tf_static"):
+            return True
+        offered = self.graph.entities(PUBLISHER, name=name)
+        return all(one.quality.is_reliable for one in offered if one.ros_type == ros_type)
+
+    def open_reader(
+        self,
+        listening: "_Listening",
+        on_sample: Callable[[DdsSample], object],
+        *,
+        is_reliable: bool,
+    ) -> TopicReader:
+        """A reader for what listens."""
+        quality = Quality(is_reliable=is_reliable, is_latched=listening.is_latched)
+        return self._participant.reader(
+            names.TOPIC + listening.name,
+            self._kind(listening.ros_type),
+            quality,
+            on_sample,
+            listening.refused,
+        )
+
+    def sender(self, sample: DdsSample) -> bytes:
+        """The GUID of the writer of a message."""
+        return self._discovery.gid(sample.writer)
+
+    def say_once(self, what: str, sentence: str) -> None:
+        """Warn of something, the first time."""
+        if self._watcher is not None:
+            self._watcher.say_once(what, sentence)
+
+    def _kind(self, ros_type: str) -> type[Raw]:
+        return self._types.raw(ros_type)
+
+    # Services
+
+    def server(
+        self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
+    ) -> Callable[[], None]:
+        """Serve a service as a node of this process."""
+
+        def stranger(vendor: str) -> None:
+            self.say_once(
+                f"asked {vendor}",
+                f"A node over {vendor} asks for the service '{name}': {vendor} numbers requests "
+                "where DDS's library for Python cannot read them, so it gets no answer.",
+            )
+
+        try:
+            server = CycloneServer(self._services, name, ros_type, on_request, stranger)
+        except (LinkError, InputError) as error:
+            self.say_once(f"type {ros_type}", f"'{name}' cannot be served over DDS: {error}.")
+            return _nothing
+        reads, writes = server.gids
+        hide = [
+            self._discovery.show_endpoint(node_name(node), SUBSCRIPTION, reads),
+            self._discovery.show_endpoint(node_name(node), PUBLISHER, writes),
+        ]
+
+        def leave() -> None:
+            for one in hide:
+                one()
+            server.close()
+
+        return leave
+
+    def client(self, node: str, name: str, ros_type: str) -> WireClient:
+        """Ask a service as a node of this process."""
+        return CycloneClient(self._services, name, ros_type)
+
+    # What others show
+
+    def _changed(self, found: GraphEntity | Process | None, there: bool) -> None:
+        if self._watcher is not None:
+            self._watcher.graph_changed(found, there)
+            if there and found is not None:
+                self._compare(found)
+            elif isinstance(found, GraphEntity):
+                self._tell_departure(found)
+
+    def _tell_departure(self, gone: GraphEntity) -> None:
+        """Say that a publisher of transforms is there no more."""
+        if gone.kind != PUBLISHER or gone.name != "tf":
+            return
+        # It may only have become known under its node's name.
+        if all(one.gid != gone.gid for one in self.graph.entities(PUBLISHER, name="tf")):
+            self.say_once(
+                f"left {gone.gid.hex()}",
+                f"'{gone.node}' publishes /tf no more: it has left, or was not heard of for the "
+                "ten seconds of its lease. What it sent stays as it was.",
+            )
+
+    def _compare(self, found: GraphEntity | Process) -> None:
+        """Say why nothing passes between us and another endpoint, where that is so."""
+        if not isinstance(found, GraphEntity) or found.kind != PUBLISHER:
+            return
+        asked = {"tf": TF, "tf_static": TF_STATIC}.get(found.name)
+        policy = "" if asked is None else conflict(found.quality, asked)
+        if policy:
+            offers = "best effort" if policy == "RELIABILITY" else "volatile"
+            wants = "reliable" if policy == "RELIABILITY" else "transient local"
+            self.say_once(
+                f"quality {found.name} {found.node}",
+                f"'{found.node}' publishes /{found.name} as {offers}, and tf2 asks for {wants}: "
+                f"neither tf2's listeners nor this one get anything of it ({policy}). Let it "
+                f"offer {wants}.",
+            )
+        if not found.type_hash or not INTERFACES.has(found.ros_type):
+            return
+        if found.type_hash != type_hash(INTERFACES, found.ros_type):
+            self.say_once(
+                f"hash {found.name} {found.ros_type}",
+                f"'{found.node}' publishes '{found.name}' with another definition of "
+                f"{found.ros_type} than ours: what does not fit ours is not read. Give tftool the "
+                "definition it was built with (a workspace's own package), or update one of both.",
+            )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Claim:
+    """A subscription that a node states; each is another one."""
+
+    node: str
+    name: str
+    ros_type: str
+    quality: Quality
+
+
+class _Listening:
+    """The reader of a topic; created again with lower QoS where it requested too much."""
+
+    def __init__(
+        self,
+        middleware: DdsMiddleware,
+        name: str,
+        ros_type: str,
+        on_message: Callable[[Arrived], object],
+        *,
+        is_latched: bool,
+    ) -> None:
+        self._middleware = middleware
+        self._on_message = on_message
+        self.name = name
+        self.ros_type = ros_type
+        self.is_latched = is_latched
+        self.reader: TopicReader | None = None
+        self.hide: Callable[[], None] = _nothing
+        self._is_closed = False
+
+    def open(self, *, is_reliable: bool) -> None:
+        """Make the reader."""
+        self.reader = self._middleware.open_reader(self, self._arrived, is_reliable=is_reliable)
+
+    def close(self) -> None:
+        """Listen no more."""
+        self._is_closed = True
+        self.hide()
+        if self.reader is not None:
+            self.reader.close()
+
+    def refused(self, policy: int) -> None:
+        """Ask for less, where a publisher offers less than was asked for."""
+        if self._is_closed or self.name in ("tf", "tf_static") or policy != _RELIABILITY:
+            return
+        if self.reader is not None:
+            self.reader.close()
+        self.open(is_reliable=False)
+
+    def _arrived(self, sample: DdsSample) -> None:
+        if not self._is_closed:
+            self._on_message(Arrived(sample.payload, self._middleware.sender(sample)))
+
+
+class DdsPublisher:
+    """A publisher: a writer, which others see as its node's."""
+
+    def __init__(self, writer: TopicWriter, hide: Callable[[], None]) -> None:
+        self._writer = writer
+        self._hide = hide
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether a message would reach a subscription, or be kept for later ones."""
+        return self._writer.is_wanted
+
+    def put(self, payload: bytes, stamp: Stamp) -> None:
+        """Send one message."""
+        self._writer.put(payload)
+
+    def close(self) -> None:
+        """Send no more."""
+        self._hide()
+        self._writer.close()
+
+
+def _listed(domains: list[int]) -> str:
+    numbers = ", ".join(str(one) for one in domains[:5])
+    return f"domain {numbers}" if len(domains) == 1 else f"domains {numbers}"
+
+
+def _nothing() -> None:
+    """Hide nothing."""
+
+
+if TYPE_CHECKING:
+    _AS_SEAM: type[Middleware] = DdsMiddleware

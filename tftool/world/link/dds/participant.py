@@ -1,0 +1,369 @@
+"""This process as a participant of DDS: its readers and writers, and the threads behind.
+
+`cyclonedds` is imported when one is made and not before. What the library calls back on
+its own threads goes through an inbox to the event loop, and writing through an outbox.
+"""
+
+import contextlib
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+from tftool.base.errors import LinkError, UsageError
+from tftool.world.endpoints import Quality
+from tftool.world.link.dds.dds_types import Raw
+from tftool.world.link.dds.settings import MOST_PARTICIPANTS, Network
+from tftool.world.link.inbox import Inbox
+from tftool.world.link.outbox import Outbox
+
+LARGEST: Final = 64 * 1024 * 1024
+"""Bytes of the largest message that is taken in."""
+
+AT_ONCE: Final = 256
+"""How many messages a reader hands over at a time."""
+
+PATIENCE: Final = 1_000_000_000
+"""Nanoseconds a reliable writer waits for a reader that has not taken what came before."""
+
+NO_WHEEL: Final = (
+    "DDS needs the package 'cyclonedds', which is missing here ({error}): pip install "
+    "'tftool-tf2[dds]'. Where there is no wheel of it (Linux on arm64, Python 3.14), build it "
+    "from source with Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect."
+)
+
+
+@dataclass(frozen=True, slots=True)
+class DdsSample:
+    """A message that came in.
+
+    Attributes:
+        payload: Its CDR.
+        writer: The library's number of the writer that sent it.
+    """
+
+    payload: bytes
+    writer: int
+
+
+class Domains:
+    """Domains of this process: the library has one configuration for each."""
+
+    def __init__(self) -> None:
+        self._held: dict[int, tuple[Any, str, int]] = {}
+        self._lock = threading.Lock()
+
+    def enter(self, number: int, network: Network) -> None:
+        """Hold a domain until it is left as often.
+
+        Raises:
+            LinkError: If it is there with another configuration, or cannot be made.
+        """
+        config = network.xml()
+        from cyclonedds.core import DDSException
+        from cyclonedds.domain import Domain
+
+        with self._lock:
+            made, known, count = self._held.get(number, (None, config, 0))
+            if known != config:
+                raise LinkError(
+                    f"this process is in DDS domain {number} by another network already"
+                )
+            if made is None:
+                try:
+                    made = Domain(number, config)
+                except (DDSException, UnicodeEncodeError) as error:
+                    raise LinkError(_refused(number, network)) from error
+            self._held[number] = made, config, count + 1
+
+    def leave(self, number: int) -> None:
+        """Let a domain go."""
+        with self._lock:
+            made, config, count = self._held.pop(number)
+            if count > 1:
+                self._held[number] = made, config, count - 1
+            else:
+                _end(made)
+
+
+_DOMAINS: Final = Domains()
+
+
+class Participant:
+    """What is open in one domain.
+
+    Attributes:
+        entity: The library's participant.
+        gid: Its GUID, 16 bytes.
+        oversized: Messages that were larger than `LARGEST`.
+    """
+
+    def __init__(self, domain: int, network: Network, name: str, user_data: bytes) -> None:
+        """Take part.
+
+        Args:
+            domain: Number of the domain.
+            network: Where it looks for others.
+            name: What others may call it.
+            user_data: What is written beside it.
+
+        Raises:
+            UsageError: If the extra `dds` is not installed.
+            LinkError: If there is no way in.
+        """
+        try:
+            from cyclonedds.core import DDSException, Policy, Qos
+            from cyclonedds.domain import DomainParticipant
+        except (ImportError, OSError) as error:
+            raise UsageError(NO_WHEEL.format(error=error)) from error
+        self._domain = domain
+        self.oversized = 0
+        self.inbox = Inbox()
+        self._outbox = Outbox()
+        self._closing: list[Callable[[], None]] = []
+        self._topics: dict[tuple[str, type[Raw]], Any] = {}
+        _DOMAINS.enter(domain, network)
+        try:
+            qos = Qos(Policy.EntityName(name), Policy.Userdata(user_data))
+            self.entity: Any = DomainParticipant(domain, qos=qos)
+        except DDSException as error:
+            _DOMAINS.leave(domain)
+            raise LinkError(_refused(domain, network)) from error
+        except BaseException:
+            _DOMAINS.leave(domain)
+            raise
+        self.gid: bytes = self.entity.guid.bytes
+
+    def close(self) -> None:
+        """Send what still waits, and leave; nothing is called back any more."""
+        self.inbox.close()
+        self._outbox.close()
+        for close in self._closing:
+            close()
+        self._closing.clear()
+        if self.entity is not None:
+            # With all that is in it.
+            _end(self.entity)
+            self._topics.clear()
+            self.entity = None
+            _DOMAINS.leave(self._domain)
+
+    def reader(
+        self,
+        topic: str,
+        kind: type[Raw],
+        quality: Quality,
+        on_sample: Callable[[DdsSample], object],
+        on_refused: Callable[[int], object] | None = None,
+    ) -> "TopicReader":
+        """Have `on_sample` called on the loop with what others write.
+
+        Args:
+            topic: The name of the topic in DDS.
+            kind: The class of its messages.
+            quality: What is asked for.
+            on_sample: Called with every message.
+            on_refused: Called with the number of the policy by which a writer does not fit.
+        """
+        from cyclonedds.core import Listener, Policy
+        from cyclonedds.sub import DataReader
+
+        inbox, participant = self.inbox, self
+
+        class Taking(Listener):  # type: ignore[misc]
+            def on_data_available(self, reader: Any) -> None:
+                with contextlib.suppress(Exception):
+                    participant._take(reader, on_sample)
+
+            def on_requested_incompatible_qos(self, reader: Any, status: Any) -> None:
+                if on_refused is not None:
+                    inbox.put(on_refused, int(status.last_policy_id))
+
+        # All that waits is kept: it is taken at once, and bounds are those of the inbox.
+        policies = _policies(quality, Policy.History.KeepAll)
+        policies.append(Policy.IgnoreLocal.Participant)
+        made = DataReader(
+            self.entity, self._topic(topic, kind), qos=_qos(policies), listener=Taking()
+        )
+        # What came while it was made found nothing to tell yet.
+        self._take(made, on_sample)
+        return TopicReader(made)
+
+    def writer(
+        self, topic: str, kind: type[Raw], quality: Quality, user_data: bytes
+    ) -> "TopicWriter":
+        """Write a topic.
+
+        Args:
+            topic: The name of the topic in DDS.
+            kind: The class of its messages.
+            quality: What is offered.
+            user_data: What is written beside it: the hash of its type.
+        """
+        from cyclonedds.core import Policy
+        from cyclonedds.pub import DataWriter
+
+        kept = Policy.History.KeepLast(max(1, quality.depth))
+        # What is not kept for late readers is kept until those that are there have it.
+        keeps_all = quality.keeps_all or (quality.is_reliable and not quality.is_latched)
+        policies = _policies(quality, Policy.History.KeepAll if keeps_all else kept)
+        policies.append(Policy.Userdata(user_data))
+        if quality.is_latched and not quality.keeps_all:
+            policies.append(Policy.DurabilityService(0, kept, -1, -1, -1))
+        made = DataWriter(self.entity, self._topic(topic, kind), qos=_qos(policies))
+        return TopicWriter(made, kind, self._outbox, keeps=quality.is_latched)
+
+    def builtin(self, topic: Any, on_change: Callable[[], object]) -> Any:
+        """A reader of one of the library's own topics.
+
+        Args:
+            topic: Which one.
+            on_change: Called, on a thread of the library's, when there is something to take.
+        """
+        from cyclonedds.builtin import BuiltinDataReader
+        from cyclonedds.core import Listener
+
+        class Telling(Listener):  # type: ignore[misc]
+            def on_data_available(self, reader: Any) -> None:
+                on_change()
+
+        return BuiltinDataReader(self.entity, topic, listener=Telling())
+
+    def tell(self, user_data: bytes) -> None:
+        """Change what is written beside it."""
+        from cyclonedds.core import Policy, Qos
+
+        self.entity.set_qos(Qos(Policy.Userdata(user_data)))
+
+    def at_close(self, close: Callable[[], None]) -> None:
+        """Call something before the participant goes."""
+        self._closing.append(close)
+
+    def _topic(self, name: str, kind: type[Raw]) -> Any:
+        from cyclonedds.core import DDSException
+        from cyclonedds.topic import Topic
+
+        key = name, kind
+        if key not in self._topics:
+            try:
+                self._topics[key] = Topic(self.entity, name, kind)
+            except DDSException as error:
+                raise LinkError(f"DDS does not take the topic '{name}' ({error})") from error
+        return self._topics[key]
+
+    def _take(self, reader: Any, on_sample: Callable[[DdsSample], object]) -> None:
+        """Hand over what waits (on a thread of the library's)."""
+        while True:
+            taken = reader.take(AT_ONCE)
+            for one in taken:
+                # Word of a writer that has left comes in the same way.
+                if not isinstance(one, Raw):
+                    continue
+                if len(one.payload) > LARGEST:
+                    self.oversized += 1
+                    continue
+                sample = DdsSample(one.payload, one.sample_info.publication_handle)
+                self.inbox.put(on_sample, sample, len(one.payload))
+            if len(taken) < AT_ONCE:
+                return
+
+
+class TopicReader:
+    """A reader, until it is closed."""
+
+    def __init__(self, made: Any) -> None:
+        self._made = made
+        self.gid: bytes = made.guid.bytes
+
+    def close(self) -> None:
+        """Read no more."""
+        made, self._made = self._made, None
+        if made is not None:
+            _end(made)
+
+    @property
+    def writers(self) -> int:
+        """How many writers it is matched with."""
+        return 0 if self._made is None else len(self._made.get_matched_publications())
+
+
+class TopicWriter:
+    """A writer, until it is closed."""
+
+    def __init__(self, made: Any, kind: type[Raw], outbox: Outbox, *, keeps: bool) -> None:
+        self._made = made
+        self._kind = kind
+        self._outbox = outbox
+        self._keeps = keeps
+        self.gid: bytes = made.guid.bytes
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether a message would reach a reader, or be kept for later ones."""
+        return self._made is not None and (self._keeps or self.readers > 0)
+
+    @property
+    def readers(self) -> int:
+        """How many readers it is matched with."""
+        return int(self._made.get_publication_matched_status().current_count)
+
+    def put(self, payload: bytes) -> None:
+        """Write a message, soon.
+
+        Raises:
+            LinkError: If the participant is closed.
+        """
+        made = self._made
+        if made is not None:
+            self._outbox.put(lambda: made.write(self._kind(payload)), len(payload))
+
+    def close(self) -> None:
+        """Write no more, once everything before is written."""
+        made, self._made = self._made, None
+        if made is None:
+            return
+        try:
+            self._outbox.put(lambda: _end(made))
+        except LinkError:
+            _end(made)
+
+
+def _end(entity: Any) -> None:
+    """Delete something of the library's now, whatever else still refers to it.
+
+    The library itself does so when the last reference is gone, and has no other way.
+    """
+    entity.__del__()
+
+
+def _policies(quality: Quality, history: Any) -> list[Any]:
+    from cyclonedds.core import Policy
+
+    return [
+        Policy.Reliability.Reliable(PATIENCE)
+        if quality.is_reliable
+        else Policy.Reliability.BestEffort,
+        Policy.Durability.TransientLocal if quality.is_latched else Policy.Durability.Volatile,
+        history,
+        # ROS 2 speaks no other.
+        Policy.DataRepresentation(use_cdrv0_representation=True, use_xcdrv2_representation=False),
+    ]
+
+
+def _qos(policies: list[Any]) -> Any:
+    from cyclonedds.core import Qos
+
+    return Qos(*policies)
+
+
+def _refused(domain: int, network: Network) -> str:
+    if network.config:
+        return (
+            f"the library does not take CYCLONEDDS_URI's configuration for DDS domain {domain}: "
+            "unset it, or mend what it names"
+        )
+    return (
+        f"no participant can be made in DDS domain {domain} on {network}: either all "
+        f"{MOST_PARTICIPANTS + 1} places of this machine are taken (end some programs, or choose "
+        "another --domain), or its ports are another program's"
+    )

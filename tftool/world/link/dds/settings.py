@@ -1,0 +1,256 @@
+"""Where DDS goes: ROS 2's environment and the command line, as Cyclone's configuration.
+
+Nothing here sends anything. Without a word from the user all of it stays on the loopback
+of this machine; the library's own defaults would send to the whole network at once.
+"""
+
+import ipaddress
+import os
+import socket
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Final
+from xml.sax.saxutils import quoteattr
+
+from tftool.base.errors import LinkError
+
+LOOPBACK: Final = "127.0.0.1"
+
+MOST_PARTICIPANTS: Final = 120
+"""How many participants of one machine a domain has numbers for."""
+
+_LARGE_PACKETS: Final = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>62000B</FragmentSize>"
+"""The loopback carries in one piece what a cable takes in forty."""
+
+_RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
+
+
+@dataclass(frozen=True, slots=True)
+class Network:
+    """Where a participant looks for others.
+
+    Attributes:
+        interfaces: Names or own addresses of the interfaces it uses; none for those by which
+            its peers are reached.
+        peers: Addresses it goes to.
+        config: Cyclone's configuration that the user has set, taken in place of ours.
+        told: What the user should know of it, as sentences.
+    """
+
+    interfaces: tuple[str, ...] = ()
+    peers: tuple[str, ...] = ()
+    config: str = ""
+    told: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        if self.config:
+            return "the network of CYCLONEDDS_URI"
+        return ", ".join([*self.interfaces, *self.peers]) or f"{LOOPBACK}, this machine only"
+
+    @property
+    def is_loopback(self) -> bool:
+        """Whether nothing goes out of this machine."""
+        return not (self.interfaces or self.peers or self.config)
+
+    def xml(self) -> str:
+        """Cyclone's configuration."""
+        if self.config:
+            return self.config
+        used = self.interfaces or ((LOOPBACK,) if self.is_loopback else _ways_to(self.peers))
+        # Interfaces that are named are searched as ROS 2 does; peers alone are gone to.
+        multicast = "spdp" if self.interfaces else "false"
+        peers = self.peers or ((LOOPBACK,) if self.is_loopback else ())
+        # Others of this machine are found without multicast too.
+        peers = (*peers, *(one for one in _own(used) if one not in peers))
+        return (
+            '<CycloneDDS><Domain Id="any"><General><Interfaces>'
+            + "".join(_interface(one) for one in used)
+            + f"</Interfaces><AllowMulticast>{multicast}</AllowMulticast>"
+            f"<DontRoute>{'true' if self.is_loopback else 'false'}</DontRoute>"
+            f"{_LARGE_PACKETS if self.is_loopback else ''}</General>"
+            "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+            f"<MaxAutoParticipantIndex>{MOST_PARTICIPANTS}</MaxAutoParticipantIndex><Peers>"
+            + "".join(f"<Peer address={quoteattr(one)}/>" for one in peers)
+            + "</Peers></Discovery>"
+            # What it would complain of on its own goes to stderr, in words for its makers.
+            "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>"
+        )
+
+
+def network(places: Iterable[str], environment: Mapping[str, str] | None = None) -> Network:
+    """Where to look for others.
+
+    Args:
+        places: What the user named: interfaces and addresses.
+        environment: ROS 2's variables; those of this process when None.
+
+    Raises:
+        LinkError: If a place is none, or the environment forbids it.
+    """
+    variables = os.environ if environment is None else environment
+    interfaces: list[str] = []
+    peers: list[str] = []
+    for place in places:
+        (interfaces if _is_own(place) else peers).append(_checked(place))
+    confined = _confined(variables)
+    static = tuple(one.strip() for one in variables.get("ROS_STATIC_PEERS", "").split(";"))
+    static = tuple(one for one in static if one)
+    config = variables.get("CYCLONEDDS_URI", "").strip()
+    outward = [one for one in (*interfaces, *peers) if not _is_loopback(one)]
+    if confined and outward:
+        raise LinkError(
+            f"{confined} keeps ROS 2 to this machine, and --dds-on {outward[0]} leaves it: "
+            "unset the variable, or leave out --dds-on"
+        )
+    if config and not places and not confined:
+        told = "CYCLONEDDS_URI is set: DDS goes where that configuration says, not to "
+        return Network(config=config, told=(f"{told}the loopback alone.",))
+    told = ""
+    if interfaces or peers:
+        peers += [_checked(one) for one in static if one not in peers and not confined]
+    elif any(not _is_loopback(one) for one in static):
+        told = (
+            f"ROS_STATIC_PEERS names {', '.join(static)}, and --dds alone keeps to the loopback: "
+            f"--dds-on {static[0]} goes there."
+        )
+    if all(_is_loopback(one) for one in (*interfaces, *peers)):
+        return Network(told=(told,) if told else ())
+    return Network(tuple(interfaces), tuple(peers), told=(told,) if told else ())
+
+
+def _confined(variables: Mapping[str, str]) -> str:
+    """The variable that keeps ROS 2 to this machine; "" where none does.
+
+    Raises:
+        LinkError: If one forbids discovery altogether, or is none of ROS 2's words.
+    """
+    reach = variables.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").strip().upper()
+    if reach and reach not in _RANGES:
+        raise LinkError(
+            f"ROS_AUTOMATIC_DISCOVERY_RANGE is '{reach[:60]}', none of {', '.join(_RANGES)}"
+        )
+    if reach == "OFF":
+        raise LinkError(
+            "ROS_AUTOMATIC_DISCOVERY_RANGE=OFF lets a process find no other one: unset it, or "
+            "set it to LOCALHOST"
+        )
+    # Where both are set ROS 2 follows the older one.
+    if variables.get("ROS_LOCALHOST_ONLY", "").strip() == "1":
+        return "ROS_LOCALHOST_ONLY=1"
+    return "ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST" if reach == "LOCALHOST" else ""
+
+
+def _checked(place: str) -> str:
+    """An interface's name as it is; an address, or that of a host that is named.
+
+    Raises:
+        LinkError: If it is neither.
+    """
+    if place in _interfaces():
+        return place
+    try:
+        return str(ipaddress.ip_address(place))
+    except ValueError:
+        pass
+    try:
+        found = socket.getaddrinfo(place, None, socket.AF_INET, socket.SOCK_DGRAM)
+    except (OSError, UnicodeError) as error:
+        raise LinkError(
+            f"'{place[:80]}' is no interface of this machine ({', '.join(_interfaces())}), and no "
+            "address of another one"
+        ) from error
+    return str(found[0][4][0])
+
+
+def _interfaces() -> list[str]:
+    try:
+        return [name for _, name in socket.if_nameindex()]
+    except (AttributeError, OSError):
+        return []
+
+
+def _is_own(place: str) -> bool:
+    """Whether a place is an interface of this machine, by its name or its address."""
+    if place in _interfaces():
+        return True
+    try:
+        address = ipaddress.ip_address(place)
+    except ValueError:
+        return False
+    family = socket.AF_INET if address.version == 4 else socket.AF_INET6
+    # Only an address of one's own can be bound.
+    with socket.socket(family, socket.SOCK_DGRAM) as trial:
+        try:
+            trial.bind((place, 0))
+        except OSError:
+            return False
+    return True
+
+
+def _is_loopback(place: str) -> bool:
+    if place in ("lo", "lo0"):
+        return True
+    try:
+        return ipaddress.ip_address(place).is_loopback
+    except ValueError:
+        return False
+
+
+def _own(used: Iterable[str]) -> list[str]:
+    """The addresses among interfaces that are named by one."""
+    return [one for one in used if one not in _interfaces()]
+
+
+def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
+    """Our own addresses on the ways to some peers; asked of the routes, nothing is sent.
+
+    Raises:
+        LinkError: If there is no way to one.
+    """
+    found = []
+    for peer in peers:
+        family = socket.AF_INET6 if ":" in peer else socket.AF_INET
+        with socket.socket(family, socket.SOCK_DGRAM) as trial:
+            try:
+                trial.connect((peer, 7400))
+            except OSError as error:
+                raise LinkError(f"there is no way from here to {peer}: {error.strerror}") from error
+            address = str(trial.getsockname()[0])
+        # A machine's own addresses and the others' do not go together in one participant.
+        if address not in found and not _is_loopback(address):
+            found.append(address)
+    return tuple(found) or (LOOPBACK,)
+
+
+def _interface(place: str) -> str:
+    kind = "name" if place in _interfaces() else "address"
+    return f"<NetworkInterface {kind}={quoteattr(place)}/>"
+
+
+def other_domains(domain: int) -> list[int]:
+    """Domains in which other programs of this machine listen, by their ports (Linux only)."""
+    return sorted(set(_listening()) - {domain})
+
+
+def participants_here(domain: int) -> int:
+    """How many participants of this machine listen in a domain, ours too (Linux only)."""
+    return _listening().get(domain, 0)
+
+
+def _listening() -> dict[int, int]:
+    """How many participants listen in each domain of this machine; none where it is not told."""
+    ports: set[int] = set()
+    for table in ("/proc/net/udp", "/proc/net/udp6"):
+        try:
+            with open(table, encoding="ascii") as file:
+                lines = file.read().splitlines()[1:]
+        except OSError:
+            continue
+        ports |= {int(line.split()[1].rpartition(":")[2], 16) for line in lines}
+    found: dict[int, int] = {}
+    for port in ports:
+        number, rest = divmod(port - 7400, 250)
+        # A participant has two ports, one behind the other. Above lie ports for anything.
+        if number in range(101) and rest >= 10 and rest % 2 == 0 and port + 1 in ports:
+            found[number] = found.get(number, 0) + 1
+    return found

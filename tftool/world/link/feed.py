@@ -1,0 +1,163 @@
+"""A recording's other topics on their way out: bytes as they were recorded, when they are due."""
+
+import heapq
+from collections.abc import Callable, Iterator
+from typing import Final
+
+import numpy as np
+
+from tftool.base.errors import InputError, MalformedMessage
+from tftool.base.stamps import Stamp, seconds
+from tftool.messages.classes import INTERFACES, Interfaces
+from tftool.messages.codec import Codec, codec
+from tftool.messages.layouts import ROS1
+from tftool.messages.schema import full_name
+from tftool.recordings.container import TRANSIENT_LOCAL
+from tftool.recordings.contract import RawMessage, RecordedTopic, Source
+from tftool.recordings.timeline import PlayClock
+from tftool.world.endpoints import Quality
+from tftool.world.link.seam import WirePublisher
+from tftool.world.link.session import Link, is_plain
+
+AHEAD: Final = seconds(1)
+"""How far out of order messages may lie in a recording and are still sent in order."""
+
+MOST_WAITING: Final = 10_000
+MOST_WAITING_BYTES: Final = 256_000_000
+
+
+class TopicFeed:
+    """Sends the messages of every topic that carries no transforms, and whose type is known.
+
+    Attributes:
+        topics: Names of those that are sent.
+        left_out: Why others are not, as sentences.
+    """
+
+    def __init__(self, link: Link, source: Source, clock: PlayClock, node: str) -> None:
+        """Show what will be published.
+
+        Args:
+            link: By which the messages go out.
+            source: The recording.
+            clock: Which moment a log time is.
+            node: The node that publishes where the recording does not say who did.
+        """
+        self._link = link
+        self._source = source
+        self._clock = clock
+        self._senders: dict[str, WirePublisher] = {}
+        self._convert: dict[str, Callable[[bytes], bytes]] = {}
+        self.left_out: list[str] = []
+        latched = {one.topic for one in source.publishers if one.durability == TRANSIENT_LOCAL}
+        for topic in source.topics:
+            if topic.transforms or topic.name.strip("/") == "clock":
+                continue
+            try:
+                ros_type, convert = _way_out(topic)
+            except (InputError, MalformedMessage) as error:
+                self.left_out.append(f"'{topic.name}' is not sent: {error}")
+                continue
+            if convert is not None:
+                self._convert[topic.name] = convert
+            self._senders[topic.name] = link.middleware.publisher(
+                node, topic.name.strip("/"), ros_type, Quality(is_latched=topic.name in latched)
+            )
+        self.topics = tuple(self._senders)
+        self._messages: Iterator[RawMessage] = iter(())
+        self._waiting: list[tuple[Stamp, int, RawMessage]] = []
+        self._bytes = self._number = 0
+        self._read_to: Stamp | None = 0
+
+    def seek(self, moment: Stamp) -> None:
+        """Continue from a moment; the file is read again."""
+        self._messages = self._source.messages(self.topics) if self.topics else iter(())
+        self._waiting.clear()
+        self._bytes, self._read_to = 0, 0
+        self._read(moment)
+        while self._waiting and self._waiting[0][0] < moment:
+            self._take()
+            self._read(moment)
+
+    def send_until(self, moment: Stamp) -> None:
+        """Send what is due up to a moment."""
+        self._read(moment)
+        while self._waiting and self._waiting[0][0] <= moment:
+            message = self._take()
+            self._send(message)
+            self._read(moment)
+
+    def next_due(self) -> Stamp | None:
+        """The moment of the next message; None where there is none any more."""
+        return self._waiting[0][0] if self._waiting else None
+
+    def close(self) -> None:
+        """Send no more."""
+        for sender in self._senders.values():
+            sender.close()
+
+    def _take(self) -> RawMessage:
+        message = heapq.heappop(self._waiting)[2]
+        self._bytes -= len(message.payload)
+        return message
+
+    def _read(self, moment: Stamp) -> None:
+        """Read on until nothing that is due by a moment can still come."""
+        while (
+            self._read_to is not None
+            and (self._read_to <= moment + AHEAD or not self._waiting)
+            and len(self._waiting) < MOST_WAITING
+            and self._bytes < MOST_WAITING_BYTES
+        ):
+            message = next(self._messages, None)
+            if message is None:
+                self._read_to = None
+                return
+            due = int(self._clock.of(np.array([message.log_time], dtype=np.int64))[0])
+            self._read_to = max(self._read_to, due)
+            self._number += 1
+            heapq.heappush(self._waiting, (due, self._number, message))
+            self._bytes += len(message.payload)
+
+    def _send(self, message: RawMessage) -> None:
+        topic = message.sender.topic
+        sender = self._senders[topic]
+        if not sender.is_wanted:
+            return
+        convert = self._convert.get(topic)
+        try:
+            payload = message.payload if convert is None else convert(message.payload)
+        except MalformedMessage as refusal:
+            self._link.refuse(topic, refusal)
+            return
+        sender.put(payload, self._link.now())
+
+
+def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None]:
+    """A topic's type on the wire, and what makes CDR of its bytes; None where they are it.
+
+    Raises:
+        InputError: If it cannot be sent, for what reason.
+        MalformedMessage: If its type cannot be written.
+    """
+    if not is_plain(topic.name.strip("/")):
+        raise InputError("its name is none that ROS 2 takes")
+    if topic.encoding not in ("cdr", "ros1"):
+        raise InputError(f"it is written as '{topic.encoding}'")
+    full = full_name(topic.type)
+    if topic.encoding == "ros1":
+        if not INTERFACES.has(full):
+            raise InputError(f"ROS 1's type {topic.type} is not known in ROS 2")
+        read = Codec(Interfaces().recorded(topic.type, topic.definition), ROS1).decode
+        write = codec(INTERFACES.message(full)).encode
+
+        def convert(payload: bytes) -> bytes:
+            return write(read(payload))
+
+        return full, convert
+    if not INTERFACES.has(full):
+        if not topic.definition.strip():
+            raise InputError(f"its type {topic.type} is not known, and not defined in it")
+        INTERFACES.define(full, topic.definition)
+    INTERFACES.message(full)
+    return full, None

@@ -1,0 +1,204 @@
+"""Who is there: processes, nodes, and what they publish, subscribe and serve."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Final
+
+from tftool.base.stamps import Stamp
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+
+NODE: Final = "node"
+SERVER: Final = "server"
+CLIENT: Final = "client"
+KINDS: Final = (NODE, PUBLISHER, SUBSCRIPTION, SERVER, CLIENT)
+
+MOST: Final = 20_000
+"""How many entries are kept; what other processes announce beyond that is ignored."""
+
+MOST_DOMAINS: Final = 100
+"""Other domains that are remembered, to say so once of each."""
+
+
+@dataclass(frozen=True, slots=True)
+class GraphEntity:
+    """A node of another process, or what one offers or uses.
+
+    Attributes:
+        kind: One of `KINDS`.
+        domain: Number of the ROS domain.
+        session: The process it is of, by the middleware's name for it.
+        node: The node's name, with its namespace, without the leading slash.
+        name: The topic's or service's name without the leading slash; of a node, "".
+        ros_type: Its type, "tf2_msgs/msg/TFMessage"; of a node, "".
+        quality: Its quality of service; of a node, the default one.
+        gid: Bytes that identify it; they stand beside the messages of a publisher.
+        type_hash: The hash of the type, where it is shown; else "".
+    """
+
+    kind: str
+    domain: int
+    session: str
+    node: str
+    name: str = ""
+    ros_type: str = ""
+    quality: Quality = field(default_factory=Quality)
+    gid: bytes = b""
+    type_hash: str = ""
+
+
+class Role(StrEnum):
+    """What a tftool is to the others of its session.
+
+    Attributes:
+        HOST: It runs the world that others look at.
+        SOURCE: It brings something of its own, a static transform or a user's node.
+        GUEST: It only takes part, and waits for a process that brings something.
+    """
+
+    HOST = "host"
+    SOURCE = "source"
+    GUEST = "guest"
+
+
+@dataclass(frozen=True, slots=True)
+class Process:
+    """A tftool in the session, as it presents itself.
+
+    Attributes:
+        domain: Number of its ROS domain.
+        session: The middleware's name for it.
+        since: When it joined, by its own clock.
+        pid: Its process number on its machine.
+        role: What it is to the others.
+        command: What it was called for: "demo", "echo".
+    """
+
+    domain: int
+    session: str
+    since: Stamp
+    pid: int
+    role: Role
+    command: str
+
+    def __str__(self) -> str:
+        return f"'tftool {self.command}' (process {self.pid})"
+
+
+class Graph:
+    """What all other processes show.
+
+    Attributes:
+        own: This process's session, of which nothing is entered.
+        domain: The domain we are in.
+    """
+
+    def __init__(self, own: str, domain: int) -> None:
+        self.own = own
+        self.domain = domain
+        self._entities: dict[str, GraphEntity] = {}
+        self._by_name: dict[str, dict[str, GraphEntity]] = {}
+        self._processes: dict[str, Process] = {}
+        self._foreign: set[int] = set()
+
+    def add(self, key: str, found: GraphEntity | Process) -> GraphEntity | Process | None:
+        """Enter something under the key by which it is taken out again.
+
+        Returns:
+            What is new by it; None when nothing is.
+        """
+        if key in self._entities or key in self._processes or found.session == self.own:
+            return None
+        if len(self._entities) + len(self._processes) >= MOST:
+            return None
+        if found.domain != self.domain:
+            if len(self._foreign) < MOST_DOMAINS:
+                self._foreign.add(found.domain)
+            return None
+        if isinstance(found, GraphEntity):
+            self._entities[key] = found
+            self._by_name.setdefault(found.name, {})[key] = found
+        else:
+            self._processes[key] = found
+        return found
+
+    def remove(self, key: str) -> GraphEntity | Process | None:
+        """Take something out.
+
+        Returns:
+            What is gone by it; None when it was not known.
+        """
+        gone = self._entities.pop(key, None)
+        if gone is None:
+            return self._processes.pop(key, None)
+        namesakes = self._by_name[gone.name]
+        del namesakes[key]
+        if not namesakes:
+            del self._by_name[gone.name]
+        return gone
+
+    def get(self, key: str) -> GraphEntity | Process | None:
+        """What is entered under a key; None where nothing is."""
+        return self._entities.get(key) or self._processes.get(key)
+
+    @property
+    def foreign_domains(self) -> frozenset[int]:
+        """Other domains that were heard of."""
+        return frozenset(self._foreign)
+
+    def processes(self) -> list[Process]:
+        """Every tftool, the one that is there longest first."""
+        return sorted(self._processes.values(), key=lambda one: (one.since, one.session))
+
+    def process(self, session: str) -> Process | None:
+        """The tftool that a session belongs to."""
+        return next((one for one in self._processes.values() if one.session == session), None)
+
+    def entities(self, *kinds: str, name: str | None = None) -> list[GraphEntity]:
+        """Everything of some kinds, of one name if one is given."""
+        found = self._entities if name is None else self._by_name.get(name, {})
+        return [one for one in found.values() if not kinds or one.kind in kinds]
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no other process is there."""
+        return not self._entities and not self._processes
+
+    @property
+    def sessions(self) -> frozenset[str]:
+        """The sessions that show something."""
+        found = {one.session for one in self._processes.values()}
+        return frozenset(found | {one.session for one in self._entities.values()})
+
+    @property
+    def has_sources(self) -> bool:
+        """Whether a process is there that brings something; guests only wait."""
+        guests = set()
+        for one in self._processes.values():
+            if one.role is not Role.GUEST:
+                return True
+            guests.add(one.session)
+        return any(one.session not in guests for one in self._entities.values())
+
+    def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
+        """Who sent a message: by its gid, else the only one it can be; None if that is unclear."""
+        unknown = []
+        for one in self.entities(PUBLISHER, name=topic):
+            if one.gid == gid:
+                return one
+            if self.process(one.session) is None:
+                unknown.append(one)
+        return unknown[0] if len(unknown) == 1 else None
+
+
+def hosts(processes: Iterable[Process]) -> list[Process]:
+    """Those among some processes that run a world."""
+    return [one for one in processes if one.role is Role.HOST]
+
+
+def node_name(name: str) -> str:
+    """A node's name as ROS would have it: letters, digits and underscores."""
+    name = re.sub(r"[^A-Za-z0-9_/]", "_", name.strip("/"))[:200]
+    name = re.sub(r"/+", "/", name)
+    return name if name and not name[0].isdigit() else f"_{name}"

@@ -1,0 +1,141 @@
+"""What topics, services and actions on their way out and in need of the link they belong to.
+
+The link makes them and they ask it; this narrow part between the two leaves one direction.
+"""
+
+from typing import Final
+
+from tftool.base.errors import LinkError, MalformedMessage
+from tftool.base.stamps import Stamp
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.world.link.graph import Graph, GraphEntity
+from tftool.world.link.link_options import Options
+from tftool.world.link.seam import Middleware
+from tftool.world.world import World
+
+NAME: Final = "link"
+"""The name under which a link logs."""
+
+UNKNOWN: Final = Quality(is_latched=True)
+"""The quality of a publisher that the graph does not show: no subscription asks for more."""
+
+
+class LinkContext:
+    """What the parts of a link share: the middleware, the world, and what went wrong.
+
+    Attributes:
+        options: How the process takes part.
+        middleware: What carries it all.
+        graph: Who else is there.
+        endpoints: What others publish and subscribe, as it is entered in the world.
+        refused: Messages that came in and were not what they should be.
+        received: Messages that were taken in.
+        heard_statics: The gids of those who have sent static transforms.
+    """
+
+    def __init__(self, options: Options, middleware: Middleware) -> None:
+        self.options = options
+        self.middleware = middleware
+        self.graph: Graph = middleware.graph
+        self.endpoints: dict[GraphEntity, Endpoint] = {}
+        self.refused = 0
+        self.received = 0
+        self.heard_statics: set[bytes] = set()
+        self._world: World | None = None
+        self._said: set[str] = set()
+        self._senders: dict[tuple[bytes, str], GraphEntity | None] = {}
+
+    @property
+    def world(self) -> World:
+        """The world that is attached."""
+        if self._world is None:
+            raise LinkError("no world is attached to this link yet")
+        return self._world
+
+    def now(self) -> Stamp:
+        """The moment by the world's clock."""
+        return self.world.clock.now()
+
+    @property
+    def unanswering(self) -> str:
+        """Which processes of this machine do not answer, and what to do, as a sentence; or ""."""
+        found = [str(pid) for pid in self.middleware.unanswering]
+        if not found:
+            return ""
+        which = "process" if len(found) == 1 else "processes"
+        does, it = ("does", "it") if len(found) == 1 else ("do", "them")
+        return (
+            f"{which.capitalize()} {', '.join(found)} of this machine {does} not answer (stopped "
+            f"with Ctrl-Z?): let {it} go on (fg, or kill -CONT {' '.join(found)}), or end {it} "
+            f"(kill -9 {' '.join(found)})."
+        )
+
+    @property
+    def main_node(self) -> str:
+        """The node that what cannot be told apart is said to be of: the first of the world."""
+        shown = (node.name for node in self.world.nodes if node.is_shown)
+        return next(shown, f"tftool_{self.options.command}")
+
+    @property
+    def awaits_statics(self) -> bool:
+        """Whether a publisher of static transforms is there of which none have come yet."""
+        if b"" in self.heard_statics:
+            return False  # one that does not say who it is
+        publishers = self.graph.entities(PUBLISHER, name="tf_static")
+        return any(
+            one.gid not in self.heard_statics and one.quality.is_latched for one in publishers
+        )
+
+    def authority(self, gid: bytes, topic: str) -> str:
+        """The node that sent a message, by the gid beside it; b"" if there was none."""
+        entity = self._sender(gid, topic)
+        return _unnamed(gid) if entity is None else entity.node
+
+    def endpoint(self, gid: bytes, topic: str, ros_type: str) -> Endpoint:
+        """The publisher that sent a message.
+
+        A message can overtake the word that its publisher is there. Until that is known, the
+        publisher is named by its gid, and fits what any subscription asks for.
+        """
+        entity = self._sender(gid, topic)
+        if entity is None:
+            return Endpoint(PUBLISHER, _unnamed(gid), topic, ros_type, UNKNOWN, is_remote=True)
+        return self.far_endpoint(entity)
+
+    def far_endpoint(self, entity: GraphEntity) -> Endpoint:
+        """A publisher or subscription of another process, as it is entered in the world."""
+        if entity not in self.endpoints:
+            self.endpoints[entity] = Endpoint(
+                PUBLISHER if entity.kind == PUBLISHER else SUBSCRIPTION,
+                entity.node,
+                entity.name,
+                entity.ros_type,
+                entity.quality,
+                is_remote=True,
+            )
+        return self.endpoints[entity]
+
+    def _sender(self, gid: bytes, topic: str) -> GraphEntity | None:
+        # By topic, too: a message without a gid is taken for the only publisher's there.
+        key = gid, topic
+        if key not in self._senders:
+            if len(self._senders) > 1000:
+                self._senders.clear()
+            self._senders[key] = self.graph.publisher(gid, topic)
+        return self._senders[key]
+
+    def refuse(self, name: str, refusal: MalformedMessage) -> None:
+        """Count a message that is not what it should be, and say the first of each topic."""
+        self.refused += 1
+        self.say_once(f"refused {name}", f"On '{name}': {refusal}. Others like it are counted.")
+
+    def say_once(self, what: str, sentence: str) -> None:
+        """Warn in the world's log, unless this was said before."""
+        if what not in self._said and len(self._said) < 1000:
+            self._said.add(what)
+            self.world.log.warn(NAME, sentence)
+
+
+def _unnamed(gid: bytes) -> str:
+    """What a publisher is called whose node is not known."""
+    return f"publisher_{gid[:4].hex() or 'unknown'}"

@@ -1,0 +1,125 @@
+"""From our event loop to the transport: sent on a thread of its own.
+
+To send blocks while a reader takes nothing, up to a second until it counts as gone.
+That may hold up this thread, and nothing else: a process that is stopped with
+Ctrl-Z must not stop the worlds of the others.
+"""
+
+import contextlib
+import queue
+import threading
+from collections.abc import Callable
+from typing import Final
+
+from tftool.base.errors import LinkError
+
+MOST_AHEAD: Final = 32
+"""How far the loop may run ahead before it lets the sender catch up."""
+
+MOST_WAITING: Final = 20_000
+"""Messages that may wait while a reader takes nothing; then the loop waits a while as well."""
+
+MOST_BYTES: Final = 256 * 1024 * 1024
+"""Bytes of payload that may wait in the same way: a few images weigh more than many poses."""
+
+LONGEST_WAIT: Final = 2.0
+"""Seconds the loop waits for room in all; what is sent while there is none is dropped then."""
+
+_PAUSE = 0.0002
+_STUCK = 50  # pauses without progress, after which the sender counts as stuck
+_FAREWELL = 2.0
+
+
+class Outbox:
+    """Calls that send something, made in their order on one thread.
+
+    Attributes:
+        dropped: How many were dropped because too much waited for a sender that is stuck.
+    """
+
+    def __init__(self) -> None:
+        self._queue: queue.SimpleQueue[tuple[Callable[[], object], int] | None] = (
+            queue.SimpleQueue()
+        )
+        # Each of these is written by one thread only, so that neither needs a lock.
+        self._put = self._put_bytes = 0
+        self.dropped = 0
+        self._sent = self._sent_bytes = 0
+        self._stuck = False
+        self._is_hopeless = False
+        self._closed = False
+        self._thread: threading.Thread | None = None
+
+    def put(self, send: Callable[[], object], size: int = 0) -> None:
+        """Have something sent, after everything before it; what it raises is passed over.
+
+        Where too much waits, and the sender has sent nothing for `LONGEST_WAIT`, it is
+        dropped: a call that never returns must not hold up the loop for ever.
+
+        Args:
+            send: Sends it.
+            size: Bytes it holds until it is sent.
+
+        Raises:
+            LinkError: If this is closed.
+        """
+        if self._closed:
+            raise LinkError("a message could not be sent: the link is closed")
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._run, name="outbox", daemon=True)
+            self._thread.start()
+        if self._is_full and self._is_hopeless:
+            self.dropped += 1
+            return
+        self._put += 1
+        self._put_bytes += size
+        self._queue.put((send, size))
+        if self._is_full or (self._put - self._sent > MOST_AHEAD and not self._stuck):
+            self._let_catch_up()
+
+    def close(self) -> None:
+        """Send what waits, for as long as that makes sense, and nothing after it."""
+        if not self._closed:
+            self._closed = True
+            self._queue.put(None)
+            if self._thread is not None:
+                self._thread.join(_FAREWELL)
+
+    @property
+    def _is_full(self) -> bool:
+        """Whether more waits than may."""
+        waiting, held = self._put - self._sent, self._put_bytes - self._sent_bytes
+        return waiting > MOST_WAITING or held > MOST_BYTES
+
+    def _let_catch_up(self) -> None:
+        """Give way to the sender while it gets on.
+
+        Without it, a loop that never rests would keep the interpreter to itself.
+        """
+        pause = threading.Event()
+        sent, idle = self._sent, 0
+        while self._put - self._sent > MOST_AHEAD // 2 or self._is_full:
+            pause.wait(_PAUSE)
+            idle = idle + 1 if self._sent == sent else 0
+            sent = self._sent
+            if idle >= _STUCK and not self._is_full:
+                self._stuck = True
+                return
+            if idle * _PAUSE >= LONGEST_WAIT:
+                self._is_hopeless = True
+                return
+
+    def _run(self) -> None:
+        while True:
+            waiting = self._queue.get()
+            if waiting is None:
+                return
+            send, size = waiting
+            # Who it was for may be gone by now, or the session closed.
+            with contextlib.suppress(Exception):
+                send()
+            # Named no more, so that what counts as sent is free as well.
+            del waiting, send
+            self._sent_bytes += size
+            self._sent += 1
+            self._stuck = self._is_hopeless = False

@@ -1,0 +1,351 @@
+"""A session: one world, joined to the other processes that share it.
+
+What nodes here publish goes out, what others publish comes in, and neither goes
+round: what came in over the link is never sent out again. The world does not know
+the difference; a service of another process is a service of the world.
+"""
+
+import asyncio
+import os
+import re
+from collections.abc import Callable
+from typing import Any
+
+from tftool.base.errors import MalformedMessage
+from tftool.messages import turtle_messages as values
+from tftool.messages.classes import INTERFACES, Message
+from tftool.world.clock import WallClock
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
+from tftool.world.link.actions import ActionClient, ActionServer
+from tftool.world.link.graph import NODE, SERVER, GraphEntity, Process, Role, hosts
+from tftool.world.link.link_context import NAME, LinkContext
+from tftool.world.link.link_options import Options
+from tftool.world.link.seam import join
+from tftool.world.link.services import ServiceClient, ServiceServer
+from tftool.world.link.tf import StaticBridge, TransformBridge
+from tftool.world.link.topic_link import TopicBridge
+from tftool.world.offers import Offer
+from tftool.world.world import TransformMessage, World
+
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
+
+
+class Link(LinkContext):
+    """A process's place in a session: it joins, and carries its world's traffic.
+
+    Attributes:
+        departures: How many of the processes have left that transforms came from.
+    """
+
+    def __init__(self, options: Options) -> None:
+        """Join the others of this machine, and those `options` reach out to.
+
+        Returns at once when it stands alone. No other process of this machine can join
+        in between until `attach`, `settle` or `close` is called, so that no two of them
+        decide at once whether to host.
+
+        Raises:
+            LinkError: If there is no place to meet, or the middleware is missing or refuses.
+        """
+        super().__init__(options, join(options))
+        self._nodes: dict[str, Callable[[], None]] = {}
+        self._removals: dict[GraphEntity, Callable[[], None]] = {}
+        self._stops: list[Callable[[], None]] = []
+        self._bridges: dict[str, TopicBridge | TransformBridge] = {}
+        self._servers: dict[str, tuple[Offer[Any], ServiceServer | ActionServer]] = {}
+        self._clients: dict[str, ServiceClient | ActionClient] = {}
+        self._closed = False
+        self._settling = False
+        self._reconciling = False
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._since = 0
+        self.departures = 0
+        self._forgotten = 0
+        self._told = 0
+
+    def settle(self) -> None:
+        """Let other processes of this machine join from now on."""
+        self.middleware.settle()
+
+    # Taking part
+
+    def attach(self, world: World, *, role: Role) -> None:
+        """Carry a world's topics, services and actions from now on; call inside its loop.
+
+        Args:
+            world: Whose.
+            role: What this process is to the others.
+        """
+        self._world = world
+        self._since = WallClock().epoch
+        self._loop = asyncio.get_running_loop()
+        if not self.options.read_only:
+            self._stops.append(self.middleware.process(self._process(role)))
+        self.middleware.start(self._loop, self)
+        self._stops.append(world.watch(self._world_changed, NAME))
+        self._reconcile()
+        self.settle()
+        self._tell_frames()
+
+    def _tell_frames(self) -> None:
+        """Keep the list of frames that command lines are completed from, a second behind."""
+        if self._closed or self._loop is None:
+            return
+        frames = self.world.buffer.frames()
+        if len(frames) != self._told:
+            self._told = len(frames)
+            self.middleware.tell_frames(frames)
+        self._loop.call_later(1.0, self._tell_frames)
+
+    def _process(self, role: Role) -> Process:
+        """This process, as the others see it."""
+        domain, session = self.options.domain, self.middleware.session
+        return Process(domain, session, self._since, os.getpid(), role, self.options.command)
+
+    def close(self) -> None:
+        """Leave the session; nothing of the world is touched."""
+        if self._closed:
+            return
+        self._closed = True
+        for bridge in self._bridges.values():
+            bridge.close()
+        for _, server in self._servers.values():
+            server.close()
+        for client in self._clients.values():
+            client.close()
+        for stop in self._nodes.values():
+            stop()
+        for stop in self._stops:
+            stop()
+        self.middleware.close()
+
+    def __enter__(self) -> "Link":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    # Keeping up with the world
+
+    def _world_changed(self) -> None:
+        """Carry new topics at once, before their first value; the rest can wait a moment.
+
+        A crowd of turtles changes the world thousands of times, and one look serves all.
+        """
+        if self._closed:
+            return
+        # While all is being matched this changes nothing, and the look that comes soon finds
+        # what a step that is over has not seen.
+        self._match(self._match_nodes, self._carry_topics)
+        self._reconcile_soon()
+
+    def _reconcile(self) -> None:
+        """Bring what is declared in line with what the world and the others have."""
+        self._reconciling = False
+        self._match(
+            self._match_nodes,
+            self._match_endpoints,
+            self._name_topics,
+            self._carry_topics,
+            self._refresh_topics,
+            self._match_servers,
+            self._match_clients,
+        )
+
+    def _match(self, *steps: Callable[[], None]) -> None:
+        # Serving another's service changes the world, which calls this in between.
+        if self._closed or self._settling:
+            return
+        self._settling = True
+        try:
+            for step in steps:
+                step()
+        finally:
+            self._settling = False
+
+    def _match_nodes(self) -> None:
+        if self.options.read_only:
+            return
+        shown = {node.name for node in self.world.nodes if node.is_shown}
+        wanted = shown or {f"tftool_{self.options.command}"}
+        for name in set(self._nodes) - wanted:
+            self._nodes.pop(name)()
+        for name in wanted - set(self._nodes):
+            self._nodes[name] = self.middleware.node(name)
+
+    def _match_endpoints(self) -> None:
+        """Enter in the world who else is there, publishes and subscribes."""
+        self.world.know_far_nodes(one.node for one in self.graph.entities(NODE))
+        there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION))
+        for entity in self.endpoints.keys() - there:
+            del self.endpoints[entity]
+        for entity in self._removals.keys() - there:
+            self._removals.pop(entity)()
+        for entity in there - self._removals.keys():
+            self._removals[entity] = self.world.endpoints.add(self.far_endpoint(entity))
+
+    def _name_topics(self) -> None:
+        """Name others' topics, so that they are among the world's topics.
+
+        Those that no process has any more, here or there, are forgotten again.
+        """
+        ours = {kind.interface__ for kind in values.TOPICS}
+        for entity in self.graph.entities(PUBLISHER):
+            known = entity.ros_type not in ours or entity.name in self.world.topics()
+            if not known and is_plain(entity.name):
+                self.world.name_topic(entity.name, INTERFACES.message(entity.ros_type))
+        for topic in tuple(self.world.topics().values()):
+            others = self.graph.entities(PUBLISHER, SUBSCRIPTION, name=topic.name)
+            if topic.is_far and not topic.near_subscribers and not others:
+                self.world.remove_topic(topic.name)
+
+    def _refresh_topics(self) -> None:
+        for bridge in self._bridges.values():
+            bridge.refresh()
+
+    def _carry_topics(self) -> None:
+        topics = self.world.topics()
+        for name in self._bridges.keys() - topics.keys():
+            self._bridges.pop(name).close()
+        for name in topics.keys() - self._bridges.keys():
+            topic = topics[name]
+            if not is_plain(name) or self._is_part_of_our_action(name):
+                continue
+            if topic.kind is TransformMessage:
+                made = StaticBridge if name == "tf_static" else TransformBridge
+                self._bridges[name] = made(self, topic)
+            elif issubclass(topic.kind, Message):
+                try:
+                    self._bridges[name] = TopicBridge(self, topic)
+                except MalformedMessage as error:
+                    self.say_once(f"type {name}", f"'{name}' stays inside this process: {error}.")
+
+    def _match_servers(self) -> None:
+        if self.options.read_only:
+            return
+        offers: dict[str, Offer[Any]] = {**self.world.services(), **self.world.actions()}
+        own = {
+            name: offer
+            for name, offer in offers.items()
+            if not offer.is_remote and is_plain(name) and not self._is_part_of_our_action(name)
+        }
+        for name, (offer, server) in list(self._servers.items()):
+            if own.get(name) is not offer:
+                del self._servers[name]
+                server.close()
+        for name in sorted(own.keys() - self._servers.keys()):
+            offer = own[name]
+            if hasattr(offer.kind, "Goal"):
+                self._servers[name] = offer, ActionServer(self, offer.node, name, offer.kind)
+                self._warn_of_rival(name, f"{name}/_action/send_goal")
+            elif hasattr(offer.kind, "Request"):
+                self._servers[name] = offer, ServiceServer(self, offer.node, name, offer.kind)
+                self._warn_of_rival(name, name)
+
+    def _is_part_of_our_action(self, name: str) -> bool:
+        """Whether a name is one that ROS 2 makes of an action, which is offered as a whole."""
+        action, found, _ = name.partition("/_action/")
+        offer = self.world.actions().get(action) if found else None
+        return offer is not None and not offer.is_remote
+
+    def _match_clients(self) -> None:
+        if self.options.read_only:
+            return
+        wanted: dict[str, GraphEntity] = {}
+        for entity in self.graph.entities(SERVER):
+            action, found, part = entity.name.partition("/_action/")
+            if not found and INTERFACES.has(entity.ros_type):
+                wanted[entity.name] = entity
+            elif part == "send_goal" and INTERFACES.has(entity.ros_type.removesuffix("_SendGoal")):
+                wanted[action] = entity
+        for name, client in list(self._clients.items()):
+            if name not in wanted or not self._is_offered(name, remote=True):
+                del self._clients[name]
+                client.close()
+        for name, entity in wanted.items():
+            taken = name in self._clients or self._is_offered(name, remote=False)
+            if taken or not is_plain(name):
+                continue
+            made = ServiceClient if name == entity.name else ActionClient
+            self._clients[name] = made(self, name, entity)
+
+    def _is_offered(self, name: str, *, remote: bool) -> bool:
+        """Whether a service or an action of that name is answered here, or elsewhere."""
+        offers = (self.world.services().get(name), self.world.actions().get(name))
+        return any(offer is not None and offer.is_remote is remote for offer in offers)
+
+    def _warn_of_rival(self, name: str, served: str) -> None:
+        for rival in self.graph.entities(SERVER, name=served):
+            process = self.graph.process(rival.session)
+            # Of two the second says so.
+            if process is None or process.since < self._since:
+                self.say_once(
+                    "rival",
+                    f"{process or f'node {rival.node!r}'} serves '{name}' too: two hosts of the "
+                    "same turtles mix their transforms. Leave one of them, or give this one "
+                    "a --domain of its own.",
+                )
+
+    # Keeping up with the others
+
+    def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
+        """Keep up with what came or went; None where only another domain was heard of."""
+        if found is None:
+            self._mention_foreign_domains()
+        elif isinstance(found, Process):
+            (self._came if there else self._left)(found)
+        else:
+            if not there and found.kind == PUBLISHER and found.name == "tf":
+                self._count_departure(found.session)
+            self._match_soon()
+
+    def _match_soon(self) -> None:
+        """Reconcile soon: changes come in crowds, and one look serves them all."""
+        self._senders.clear()
+        self._reconcile_soon()
+
+    def _reconcile_soon(self) -> None:
+        if not self._reconciling and self._loop is not None:
+            self._reconciling = True
+            self._loop.call_soon(self._reconcile)
+
+    def _came(self, process: Process) -> None:
+        is_only_host = process.role is Role.HOST and len(hosts(self.graph.processes())) == 1
+        if is_only_host and self.departures > self._forgotten:
+            # Another world under the same names, perhaps by another clock: what is known of
+            # the way things moved in the one before would only be in its way.
+            self._forgotten = self.departures
+            self.world.buffer.clear()
+            self.world.log.warn(NAME, f"{process} hosts now.")
+        elif process.since >= self._since:
+            self.world.log.info(NAME, f"{process} has joined.")
+
+    def _left(self, process: Process) -> None:
+        if process.role is Role.GUEST:
+            self.world.log.info(NAME, f"{process} has left.")
+            return
+        self._count_departure(process.session)
+        hosted = ", which hosted," if process.role is Role.HOST else ""
+        self.world.log.warn(NAME, f"{process}{hosted} has left; what it sent stays as it was.")
+
+    def _count_departure(self, session: str) -> None:
+        """Count a process once the last is gone of what it showed, in whatever order that goes.
+
+        A node may leave a process that stays, and what is not a tftool shows no process.
+        """
+        senders = self.graph.entities(PUBLISHER, name="tf")
+        stays = self.graph.process(session) or any(one.session == session for one in senders)
+        self.departures += not stays
+
+    def _mention_foreign_domains(self) -> None:
+        for domain in self.graph.foreign_domains:
+            self.say_once(
+                f"domain {domain}",
+                f"Another process talks in domain {domain}; this is domain {self.options.domain} "
+                f"and hears nothing of it. To join: --domain {domain}.",
+            )
+
+
+def is_plain(name: str) -> bool:
+    """Whether a name can be a ROS topic's; others do not travel."""
+    return len(name) < 250 and _PLAIN.fullmatch(name) is not None

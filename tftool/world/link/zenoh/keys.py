@@ -1,0 +1,327 @@
+"""What things are called in zenoh: types and their hashes, keys, tokens, attachments.
+
+The names are those of ROS 2 over zenoh (`rmw_zenoh`), so that a ROS 2 node can be
+at the other end.
+"""
+
+import hashlib
+import re
+import struct
+from dataclasses import dataclass
+from typing import Final
+
+from tftool.base.errors import MalformedMessage
+from tftool.base.stamps import Stamp
+from tftool.messages import hashes
+from tftool.messages.classes import INTERFACES
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.link.graph import CLIENT, NODE, SERVER, GraphEntity, Process, Role
+
+TYPE_HASHES: Final = {
+    "action_msgs/msg/GoalStatusArray": (
+        "RIHS01_6c1684b00f177d37438febe6e709fc4e2b0d4248dca4854946f9ed8b30cda83e"
+    ),
+    "action_msgs/srv/CancelGoal": (
+        "RIHS01_573d8b0a534451d7bc2ac8c5ffde8ac14b8593b7001175d0cd6516dcbeb8689a"
+    ),
+    "geometry_msgs/msg/Twist": (
+        "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
+    ),
+    "rcl_interfaces/srv/GetParameters": (
+        "RIHS01_bf9803d5c74cf989a5de3e0c2e99444599a627c7ff75f97b8c05b01003675cbc"
+    ),
+    "rcl_interfaces/srv/SetParameters": (
+        "RIHS01_56eed9a67e169f9cb6c1f987bc88f868c14a8fc9f743a263bc734c154015d7e0"
+    ),
+    "std_srvs/srv/Empty": "RIHS01_5888399dedec5ccc85ea6451949fd2c9f97bfdf963f9a588821639fcd31b5d19",
+    "tf2_msgs/msg/TFMessage": (
+        "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
+    ),
+    "turtlesim/action/RotateAbsolute_FeedbackMessage": (
+        "RIHS01_301a2a4ed96af28a40155e14dadf0c48eee5decaecd755be05ccda8144ca40b3"
+    ),
+    "turtlesim/action/RotateAbsolute_GetResult": (
+        "RIHS01_684206c4ffebeeab6f2134b42024d89cee3f496ad695eef4789ff0dc020c9f84"
+    ),
+    "turtlesim/action/RotateAbsolute_SendGoal": (
+        "RIHS01_0b9b876a15971456fbad2c7f0665c9879a41bb3fcba31a9015180a830f0ca84f"
+    ),
+    "turtlesim/msg/Color": (
+        "RIHS01_74492579ec0d734707aede0e742ab76c55ac50d3ff917381e5163624cb657fe5"
+    ),
+    "turtlesim/msg/Pose": "RIHS01_739beba26bcba6920404ba722b7b8321348512f92ea5be235c47251940dd8aa9",
+    "turtlesim/srv/Kill": "RIHS01_81c7c9131a0802f384e515fbd04867f8da57abaa83ee3a0ec76e39091e54bbc3",
+    "turtlesim/srv/SetPen": (
+        "RIHS01_45ca246c7258172a89a58856037d6b4489eb46a18f1d8ee1988c018ef46fcfce"
+    ),
+    "turtlesim/srv/Spawn": (
+        "RIHS01_a71be24836f772debd6187dc8618cc47700d2602c7a3e2228bad67a8f5fd27b4"
+    ),
+    "turtlesim/srv/TeleportAbsolute": (
+        "RIHS01_139aa0f215e25dc085067f070adb3ef65cf3c92d201f5cb750d51ca9322166b6"
+    ),
+    "turtlesim/srv/TeleportRelative": (
+        "RIHS01_6e9e54cb05e1a789f982bf8c93d27fc899cee099746c4ea8c7cb64e8a90297d6"
+    ),
+}
+"""Hashes (RIHS01) of what every session carries; a test computes them from the definitions."""
+
+LIVELINESS: Final = "@ros2_lv"
+OURS: Final = "@tftool"
+
+_CODES: Final = {NODE: "NN", PUBLISHER: "MP", SUBSCRIPTION: "MS", SERVER: "SS", CLIENT: "SC"}
+_KINDS: Final = {code: kind for kind, code in _CODES.items()}
+
+_BEST_EFFORT, _TRANSIENT_LOCAL, _KEEP_ALL = "2", "1", "2"
+
+
+_PROCESS = re.compile(
+    rf"{re.escape(OURS)}/(?P<domain>\d{{1,9}})/(?P<session>[0-9a-f]{{1,32}})/"
+    r"(?P<since>\d{1,19})/(?P<pid>\d{1,9})/(?P<role>host|source|guest)/(?P<command>\w{1,64})",
+    re.ASCII,
+)
+
+
+# Types and keys
+
+
+def type_hash(ros_type: str) -> str:
+    """The hash of a type.
+
+    Raises:
+        InputError: If its definition is not known.
+    """
+    return TYPE_HASHES.get(ros_type) or hashes.type_hash(INTERFACES, ros_type)
+
+
+def dds_name(ros_type: str) -> str:
+    """A type as keys write it: "tf2_msgs/msg/TFMessage" is `tf2_msgs::msg::dds_::TFMessage_`."""
+    parts = ros_type.split("/")
+    # What `ros_name` could not read goes back as it came.
+    return f"{parts[0]}::{parts[1]}::dds_::{parts[2]}_" if len(parts) == 3 else ros_type
+
+
+def ros_name(dds_type: str) -> str:
+    """A type as people write it; what is not a DDS name comes back as it is."""
+    parts = dds_type.split("::")
+    if len(parts) != 4 or parts[2] != "dds_" or not parts[3].endswith("_"):
+        return dds_type
+    return f"{parts[0]}/{parts[1]}/{parts[3][:-1]}"
+
+
+def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
+    """The key that a topic's messages, or a service's requests, travel under.
+
+    Args:
+        domain: Number of the ROS domain.
+        name: Of the topic or service.
+        ros_type: Its type.
+        its_hash: The hash that the other side has for the type, which may be of another
+            release; ours if "".
+    """
+    return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/{its_hash or type_hash(ros_type)}"
+
+
+def any_hash_key(domain: int, name: str, ros_type: str) -> str:
+    """The same for reading: Humble writes no hash, and hashes of other releases may differ."""
+    return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
+
+
+def quality(stated: Quality) -> str:
+    """A quality of service as tokens write it; defaults are left empty."""
+    reliability = "" if stated.is_reliable else _BEST_EFFORT
+    durability = _TRANSIENT_LOCAL if stated.is_latched else ""
+    history = _KEEP_ALL if stated.keeps_all else ""
+    return f"{reliability}:{durability}:{history},{stated.depth}:,:,:,,"
+
+
+def read_quality(text: str) -> Quality:
+    """The quality of service that a token tells; what is left out or unheard of is default."""
+    parts = [*text.split(":"), "", "", ""]
+    history, _, depth = parts[2].partition(",")
+    return Quality(
+        int(depth) if depth.isascii() and depth.isdigit() and len(depth) < 10 else Quality().depth,
+        is_reliable=parts[0] != _BEST_EFFORT,
+        is_latched=parts[1] == _TRANSIENT_LOCAL,
+        keeps_all=history == _KEEP_ALL,
+    )
+
+
+# Tokens
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A liveliness token of rmw_zenoh, which shows one thing of the graph.
+
+    Attributes:
+        domain: Number of the ROS domain.
+        session: Whose zenoh session it is, in hexadecimal.
+        node_id: Number of the node within the session.
+        entity_id: Number of this thing within the session; of a node, its own.
+        kind: What it is, one of `graph.KINDS`.
+        node: The node's name, with its namespace, without the leading slash.
+        name: The topic's or service's name without the leading slash; of a node, "".
+        ros_type: Its type, "tf2_msgs/msg/TFMessage"; of a node, "".
+        type_hash: The hash of the type; "" for ours, and of a node.
+        quality: Its quality of service as written; of a node, "".
+    """
+
+    domain: int
+    session: str
+    node_id: int
+    entity_id: int
+    kind: str
+    node: str
+    name: str = ""
+    ros_type: str = ""
+    type_hash: str = ""
+    quality: str = ""
+
+    def key(self) -> str:
+        """The key that is shown."""
+        namespace, _, node = self.node.rpartition("/")
+        parts = [
+            LIVELINESS,
+            str(self.domain),
+            self.session,
+            str(self.node_id),
+            str(self.entity_id),
+            _CODES[self.kind],
+            "%",
+            _mangle("/" + namespace),
+            node,
+        ]
+        if self.kind != NODE:
+            parts += [
+                _mangle("/" + self.name),
+                dds_name(self.ros_type),
+                self.type_hash or type_hash(self.ros_type),
+                self.quality,
+            ]
+        return "/".join(parts)
+
+
+def parse_token(key: str) -> GraphEntity | Process | None:
+    """What a token tells; None when it is not one that we can read."""
+    if key.startswith(f"{OURS}/"):
+        return _parse_process(key)
+    parts = key.split("/")
+    if len(parts) not in (9, 13) or parts[0] != LIVELINESS:
+        return None
+    _, domain, session, node_id, entity_id, code, _, namespace, node, *endpoint = parts
+    numbers = (domain, node_id, entity_id)
+    if not all(number.isascii() and number.isdigit() and len(number) < 19 for number in numbers):
+        return None
+    kind = _KINDS.get(code)
+    if kind is None or (kind == NODE) != (not endpoint):
+        return None
+    name, dds_type, type_hash, qos = endpoint or ("", "", "", "")
+    return GraphEntity(
+        kind,
+        int(domain),
+        session,
+        f"{_unmangle(namespace)}/{node}".strip("/"),
+        _unmangle(name).strip("/"),
+        ros_name(dds_type),
+        read_quality(qos) if endpoint else Quality(),
+        gid_of(key),
+        type_hash,
+    )
+
+
+def process_key(process: Process) -> str:
+    """The key of the token that shows a tftool."""
+    command = re.sub(r"\W", "_", process.command, flags=re.ASCII)[:64] or "_"
+    facts = f"{process.session}/{process.since}/{process.pid}/{process.role.value}"
+    return f"{OURS}/{process.domain}/{facts}/{command}"
+
+
+def _parse_process(key: str) -> Process | None:
+    found = _PROCESS.fullmatch(key)
+    if found is None:
+        return None
+    return Process(
+        int(found["domain"]),
+        found["session"],
+        int(found["since"]),
+        int(found["pid"]),
+        Role(found["role"]),
+        found["command"],
+    )
+
+
+def _mangle(name: str) -> str:
+    return name.replace("/", "%")
+
+
+def _unmangle(name: str) -> str:
+    return name.replace("%", "/")
+
+
+# Attachments
+
+
+@dataclass(frozen=True, slots=True)
+class Attachment:
+    """What travels beside a payload.
+
+    Attributes:
+        sequence: Number of the message, or of the question that is answered.
+        stamp: When it was sent, by the sender's clock.
+        gid: Who sent it, 16 bytes.
+    """
+
+    sequence: int
+    stamp: Stamp
+    gid: bytes
+
+    def encode(self) -> bytes:
+        """Its bytes."""
+        return _ATTACHMENT.pack(self.sequence, self.stamp, 16, self.gid)
+
+
+_ATTACHMENT = struct.Struct("<qqB16s")
+_NUMBERS = struct.Struct("<q")
+_NAMED = (b"\x0fsequence_number", b"\x10source_timestamp", b"\x0asource_gid")
+
+
+def parse_attachment(raw: bytes) -> Attachment:
+    """What stands beside a payload, in today's form or in the named one of early Jazzy.
+
+    Raises:
+        MalformedMessage: If it is neither.
+    """
+    if len(raw) == _ATTACHMENT.size:
+        sequence, stamp, length, gid = _ATTACHMENT.unpack(raw)
+        if length == 16:
+            return Attachment(sequence, stamp, gid)
+    elif raw.startswith(_NAMED[0]):
+        return _named_attachment(raw)
+    raise MalformedMessage("attachment", f"{len(raw)} bytes are not number, stamp and sender")
+
+
+def _named_attachment(raw: bytes) -> Attachment:
+    numbers = []
+    position = 0
+    for name in _NAMED[:2]:
+        value = position + len(name)
+        if raw[position:value] != name or len(raw) < value + 8:
+            raise MalformedMessage("attachment", f"it lacks its {name[1:].decode()}")
+        numbers.append(_NUMBERS.unpack_from(raw, value)[0])
+        position = value + 8
+    # The sender's bytes come with their number in front.
+    rest = raw[position:]
+    name = _NAMED[2] + b"\x10"
+    gid = rest[len(name) :]
+    if not rest.startswith(name) or len(gid) != 16:
+        raise MalformedMessage("attachment", "it lacks its source_gid")
+    return Attachment(numbers[0], numbers[1], gid)
+
+
+def gid_of(token: str) -> bytes:
+    """The 16 bytes that stand for a publisher, made from its token.
+
+    ROS 2 makes them from the token too, by another hash; only equality counts.
+    """
+    return hashlib.blake2b(token.encode(), digest_size=16).digest()

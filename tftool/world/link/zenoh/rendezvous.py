@@ -1,0 +1,354 @@
+"""Where the processes of one machine find each other: a folder only its owner may enter.
+
+Every member of a session has a socket there, named after itself. Who comes later
+connects to all that answer and sweeps away those whose process is gone, so there is
+no daemon, and no process whose death matters. A lock held while a process joins keeps two
+of them from both believing they are the first.
+
+Other users of the machine are kept out: sockets lie in folders of mode 700. A path that no
+socket can have is replaced by a short folder of the user's own, never by a port. Where the
+platform has no such sockets, ports of the loopback are guarded by a password in the folder.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import secrets
+import socket
+import stat
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.base.errors import LinkError, UsageError
+
+FOLDER_VARIABLE: Final = "TFTOOL_SESSION_DIR"
+"""Environment variable that names another folder: processes that share it find each other."""
+
+HAS_UNIX_SOCKETS: Final = sys.platform != "win32" and hasattr(socket, "AF_UNIX")
+
+USER: Final = "tftool"
+"""Who members of a folder say they are, where a password guards it."""
+
+PASSWORDS: Final = "members"
+"""The file of a folder that holds the password."""
+
+FRAMES: Final = ".frames"
+"""Files of a folder that list the frames a member knows, for completing command lines."""
+
+_MOST_FRAMES = 5_000
+_LONGEST_SOCKET_PATH = 100  # 107 on Linux, 103 on macOS
+LOCK_TRIES = 1500
+"""How often the lock is asked for: more than a busy machine takes to open a session."""
+
+_LOCK_PAUSE = 0.01
+_PROBE_TIMEOUT = 0.2
+_LONGEST_TEXT = 256
+_LONGEST_LIST = 2**24
+
+
+def folder(environment: Mapping[str, str] = os.environ) -> Path:
+    """The folder that holds the sessions of this user.
+
+    `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the
+    user's own beside other temporary files.
+
+    Raises:
+        UsageError: If `TFTOOL_SESSION_DIR` is a relative path: commands run in two folders
+            would each look in one of their own, and not find each other.
+    """
+    named = environment.get(FOLDER_VARIABLE)
+    if named:
+        if not Path(named).is_absolute():
+            raise UsageError(
+                f"{FOLDER_VARIABLE}={named!r:.80} is another folder wherever a command is run: "
+                "set it to an absolute path, or unset it."
+            )
+        return Path(named)
+    runtime = environment.get("XDG_RUNTIME_DIR")
+    if runtime and Path(runtime).is_absolute():
+        return Path(runtime) / "tftool"
+    owner = str(os.getuid()) if hasattr(os, "getuid") else environment.get("USERNAME", "user")
+    return Path(tempfile.gettempdir()) / f"tftool-{owner}"
+
+
+def has_members(domain: int, home: Path | None = None) -> bool:
+    """Whether some process waits to be joined; looks without touching anything."""
+    place = _fitting((folder() if home is None else home) / str(domain))
+    with contextlib.suppress(OSError):
+        return next(_living(place, sweep=False), None) is not None
+    return False
+
+
+def frames_known(domain: int, home: Path | None = None) -> list[str]:
+    """The frames that living members of the session on this machine know, sorted.
+
+    Read from the lists that members keep; opens no session.
+    """
+    place = _fitting((folder() if home is None else home) / str(domain))
+    found: set[str] = set()
+    with contextlib.suppress(OSError):
+        members = {_member(Path(endpoint)) for endpoint, _ in _living(place, sweep=False)}
+        for path in place.glob(f"*{FRAMES}"):
+            if _member(path) in members:
+                with contextlib.suppress(ValueError, RecursionError):
+                    listed = json.loads(_content_of(path, _LONGEST_LIST))
+                    if isinstance(listed, list):
+                        found.update(name for name in listed if isinstance(name, str))
+    return sorted(found)
+
+
+def _member(path: Path) -> str:
+    """Whose file it is, or whose socket."""
+    return path.name.partition(".")[0]
+
+
+class Rendezvous:
+    """One process's place among the others of its machine and domain.
+
+    Attributes:
+        folder: Where the members' sockets are.
+        endpoint: Where this process listens, as zenoh writes it.
+        password: What members of this folder know; "" where sockets keep others out.
+        others: Where the others listen that were alive when `enter` looked, and their
+            process numbers.
+    """
+
+    def __init__(self, domain: int, home: Path | None = None) -> None:
+        """Choose a place; nothing is touched before `enter`."""
+        self.folder = _fitting((folder() if home is None else home) / str(domain))
+        self.endpoint = ""
+        self.password = ""
+        self.others: dict[str, int] = {}
+        self._name = f"{os.getpid()}-{secrets.token_hex(4)}"
+        self._lock: Any = None
+
+    def enter(self) -> None:
+        """Take the lock, sweep away what the dead left, and find a place.
+
+        `settle` gives the lock back.
+
+        Raises:
+            LinkError: If there is no folder that is the user's own, or no socket can be there.
+        """
+        if HAS_UNIX_SOCKETS and not _holds_sockets(self.folder):
+            raise LinkError(
+                f"no session can meet in {self.folder}: the path of a socket there would be longer "
+                f"than {_LONGEST_SOCKET_PATH} bytes or hold one of '?#;='; name another folder in "
+                f"{FOLDER_VARIABLE}"
+            )
+        _make_private(self.folder.parent)
+        _make_private(self.folder)
+        try:
+            self._take_lock()
+            self.others = dict(_living(self.folder))
+            self.endpoint = self._place()
+        except OSError as error:
+            self.settle()
+            raise LinkError(_unusable(self.folder, error)) from error
+
+    def settle(self) -> None:
+        """Give the lock back: others may look now."""
+        if self._lock is not None:
+            self._lock.close()
+            self._lock = None
+
+    def tell_frames(self, names: Sequence[str]) -> None:
+        """List the frames this process knows, for `frames_known`; a list that fails is left out."""
+        path = self.folder / f"{self._name}{FRAMES}"
+        fresh = path.with_name(f"{self._name}.new")
+        with contextlib.suppress(OSError):
+            fresh.write_text(json.dumps(names[:_MOST_FRAMES]), encoding="utf-8")
+            fresh.replace(path)
+
+    def leave(self) -> None:
+        """Take away what this process put here."""
+        self.settle()
+        for path in self.folder.glob(f"{self._name}.*"):
+            with contextlib.suppress(OSError):
+                path.unlink()
+
+    def __enter__(self) -> "Rendezvous":
+        self.enter()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.leave()
+
+    def _take_lock(self) -> None:
+        # Kept open: the system takes the lock back when the process dies, however it does.
+        self._lock = open(self.folder / "lock", "a+b")  # noqa: SIM115
+        pause = threading.Event()
+        for _ in range(LOCK_TRIES):
+            if _try_lock(self._lock):
+                return
+            pause.wait(_LOCK_PAUSE)
+        # The process that holds it is stopped in mid-step; to wait for ever would be worse than a
+        # second host in the rarest of cases.
+
+    def _place(self) -> str:
+        if HAS_UNIX_SOCKETS:
+            return f"unixsock-stream/{self.folder / self._name}.sock"
+        self.password = _password_in(self.folder)
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+        # Port numbers are filed as sockets are: by name, and swept the same way.
+        (self.folder / f"{self._name}.port").write_text(str(port))
+        return f"tcp/127.0.0.1:{port}"
+
+
+def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
+    """Endpoints and process numbers of those who answer; files of the others are swept away."""
+    for path in sorted(folder.iterdir()):
+        if path.suffix == ".sock":
+            if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):
+                yield f"unixsock-stream/{path}", _pid_of(path)
+            elif sweep:
+                _sweep(path, path.with_name(f"{path.name}.lock"))
+        elif path.suffix == FRAMES:
+            if sweep and not any(path.with_suffix(one).exists() for one in (".sock", ".port")):
+                _sweep(path)
+        elif path.suffix == ".port":
+            port = _port_in(path)
+            if port and _answers(socket.AF_INET, ("127.0.0.1", port)):
+                yield f"tcp/127.0.0.1:{port}", _pid_of(path)
+            elif sweep:
+                _sweep(path)
+
+
+def _make_private(path: Path) -> None:
+    """Make a folder that only its owner may enter, or see that it is one.
+
+    Raises:
+        LinkError: If it cannot be made, or others may enter it.
+    """
+    try:
+        path.mkdir(mode=0o700, parents=True, exist_ok=True)
+        facts = os.lstat(path)
+    except OSError as error:
+        raise LinkError(_unusable(path, error)) from error
+    if sys.platform == "win32":
+        return
+    if not stat.S_ISDIR(facts.st_mode) or facts.st_uid != os.getuid():
+        raise LinkError(
+            f"{path} is not a folder of yours, so no session can meet there; "
+            f"name another one in {FOLDER_VARIABLE}"
+        )
+    if facts.st_mode & 0o077:
+        raise LinkError(
+            f"other users may enter {path} (mode {facts.st_mode & 0o777:03o}), so no session can "
+            f"meet there; chmod 700 it, or name another folder in {FOLDER_VARIABLE}"
+        )
+
+
+def _unusable(path: Path, error: OSError) -> str:
+    return (
+        f"no session can meet in {path}: {error.strerror or error}; "
+        f"name another folder in {FOLDER_VARIABLE}"
+    )
+
+
+def _fitting(place: Path) -> Path:
+    """The folder for a place: itself, or where no socket can be there, a short one instead.
+
+    All processes that share the place find the same one.
+    """
+    if not HAS_UNIX_SOCKETS or _holds_sockets(place):
+        return place
+    name = hashlib.sha256(os.fsencode(place.parent)).hexdigest()[:16]
+    return Path("/tmp") / f"tftool-{os.getuid()}-{name}" / place.name
+
+
+def _holds_sockets(folder: Path) -> bool:
+    """Whether a socket's path in a folder is short enough, and plain in a zenoh endpoint."""
+    longest = len(os.fsencode(folder)) + len("/4194304-01234567.sock")
+    return longest <= _LONGEST_SOCKET_PATH and not set("?#;=") & set(str(folder))
+
+
+def _password_in(folder: Path) -> str:
+    """The password of a folder's members, made by the first of them (under the lock)."""
+    file = folder / PASSWORDS
+    known = _text_of(file).partition(":")[2]
+    if known:
+        return known
+    password = secrets.token_hex(32)
+    with open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as fresh:
+        fresh.write(f"{USER}:{password}\n")
+    return password
+
+
+def is_stopped(pid: int) -> bool:
+    """Whether a process of this machine does not run: stopped, ended, or not to be seen here."""
+    try:
+        facts = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return True
+    # The state stands behind the command's name, which may hold anything.
+    return facts.rpartition(")")[2].split()[:1] not in (["R"], ["S"], ["D"])
+
+
+def _answers(family: int, address: Any) -> bool:
+    """Whether a process listens there; one that is stopped counts."""
+    with socket.socket(family, socket.SOCK_STREAM) as probe:
+        probe.settimeout(_PROBE_TIMEOUT)
+        try:
+            probe.connect(address)
+        except (ConnectionRefusedError, FileNotFoundError):
+            return False
+        except OSError:
+            # A full queue, a time-out: a process is there, too busy to answer.
+            return True
+    return True
+
+
+def _pid_of(path: Path) -> int:
+    """The process that a file is of; 0 where its name does not say."""
+    pid = path.name.partition("-")[0]
+    return int(pid) if pid.isascii() and pid.isdigit() and len(pid) < 20 else 0
+
+
+def _port_in(path: Path) -> int:
+    text = _text_of(path)
+    return int(text) if text.isascii() and text.isdigit() and 0 < int(text) < 65536 else 0
+
+
+def _text_of(path: Path) -> str:
+    """What a small file holds."""
+    return _content_of(path, _LONGEST_TEXT).decode("ascii", "replace").strip()
+
+
+def _content_of(path: Path, longest: int) -> bytes:
+    """A file's first bytes; none of what is no plain file, a pipe say, which would hold us up."""
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
+    try:
+        with open(os.open(path, flags), "rb") as file:
+            plain = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
+            return file.read(longest) if plain else b""
+    except OSError:
+        return b""
+
+
+def _sweep(*paths: Path) -> None:
+    for path in paths:
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
+def _try_lock(file: Any) -> bool:
+    try:
+        if sys.platform == "win32":
+            import msvcrt
+
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        else:
+            import fcntl
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True

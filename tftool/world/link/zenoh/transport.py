@@ -1,0 +1,332 @@
+"""A zenoh session whose callbacks arrive on our event loop: the one file that talks to zenoh."""
+
+import asyncio
+import contextlib
+import sys
+import threading
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
+
+from tftool.base.errors import LinkError
+from tftool.messages.layouts import LARGEST
+from tftool.world.endpoints import Quality
+from tftool.world.link.inbox import Inbox
+from tftool.world.link.link_options import Reach
+from tftool.world.link.outbox import Outbox
+from tftool.world.link.zenoh.settings import Local, import_zenoh, open_zenoh
+
+
+class Sample(NamedTuple):
+    """A message that came in, and what stood beside it."""
+
+    payload: bytes
+    attachment: bytes
+
+
+class Query:
+    """A request that came in and waits for its answer."""
+
+    __slots__ = ("_query", "attachment", "payload")
+
+    def __init__(self, query: Any, arrived: Sample) -> None:
+        self.payload, self.attachment = arrived
+        self._query = query
+
+    def answer(self, payload: bytes, attachment: bytes) -> None:
+        """Reply, once."""
+        # Who asked may be gone by now.
+        with contextlib.suppress(Exception):
+            self._query.reply(self._query.key_expr, payload, attachment=attachment)
+        self._query.drop()
+
+    def refuse(self, reason: str) -> None:
+        """Say that there will be no answer."""
+        with contextlib.suppress(Exception):
+            self._query.reply_err(reason.encode())
+        self._query.drop()
+
+
+class KeyPublisher:
+    """Where messages of one key go out."""
+
+    def __init__(self, publisher: Any, outbox: Outbox, *, keeps: bool) -> None:
+        self._publisher = publisher
+        self._outbox = outbox
+        self._keeps = keeps
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether a message would reach a subscriber, or be kept for late ones."""
+        return self._keeps or bool(self._publisher.matching_status.matching)
+
+    def put(self, payload: bytes, attachment: bytes) -> None:
+        """Send one message.
+
+        Raises:
+            LinkError: If the session is closed.
+        """
+        send = partial(self._publisher.put, payload, attachment=attachment)
+        self._outbox.put(send, len(payload))
+
+    def close(self) -> None:
+        """Send no more, once everything before is sent."""
+        with contextlib.suppress(LinkError):
+            self._outbox.put(self._publisher.undeclare)
+
+
+class Wire:
+    """An open zenoh session.
+
+    Attributes:
+        zid: Its name, in hexadecimal.
+        oversized: Messages that were larger than what we read.
+    """
+
+    def __init__(self, reach: Reach, local: Local) -> None:
+        """Open the session; other threads' callbacks wait until `start`.
+
+        Args:
+            reach: What to open beyond this machine.
+            local: Where this machine's processes meet.
+
+        Raises:
+            LinkError: If zenoh is missing, or an endpoint cannot be used.
+        """
+        self._zenoh = import_zenoh()
+        self._session = open_zenoh(self._zenoh, reach, local)
+        self.zid = str(self._session.zid())
+        self.oversized = 0
+        self._inbox = Inbox()
+        self._outbox = Outbox()
+
+    @property
+    def lost(self) -> int:
+        """Messages that were dropped because too many waited to be taken in."""
+        return self._inbox.lost
+
+    def start(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Let callbacks run on `loop` from now on."""
+        self._inbox.start(loop)
+
+    def close(self) -> None:
+        """Send what still waits, and close the session; nothing is called any more."""
+        self._inbox.close()
+        self._outbox.close()
+        with contextlib.suppress(Exception):
+            self._session.close()
+
+    @property
+    def neighbours(self) -> frozenset[str]:
+        """The sessions this one is directly connected to."""
+        info = self._session.info
+        return frozenset(str(zid) for zid in [*info.peers_zid(), *info.routers_zid()])
+
+    @property
+    def reached(self) -> frozenset[str]:
+        """The endpoints at the other end of its connections."""
+        return frozenset(str(link.dst) for link in self._session.info.links())
+
+    # Messages
+
+    def publisher(self, key: str, quality: Quality) -> KeyPublisher:
+        """Declare that messages of `key` go out.
+
+        Args:
+            key: The key, without wildcards.
+            quality: Whether they may be lost, and how many are kept for those who come late.
+        """
+        congestion, reliability = self._zenoh.CongestionControl, self._zenoh.Reliability
+        reliable = quality.is_reliable
+        options = {
+            "congestion_control": congestion.BLOCK if reliable else congestion.DROP,
+            "reliability": reliability.RELIABLE if reliable else reliability.BEST_EFFORT,
+            # At once: by default zenoh waits up to a millisecond for company.
+            "express": True,
+            "allowed_destination": self._zenoh.Locality.REMOTE,
+        }
+        if not quality.is_latched:
+            publisher = self._session.declare_publisher(key, **options)
+            return KeyPublisher(publisher, self._outbox, keeps=False)
+        import zenoh.ext as advanced
+
+        kept = sys.maxsize if quality.keeps_all else max(1, quality.depth)
+        publisher = advanced.declare_advanced_publisher(
+            self._session,
+            key,
+            cache=advanced.CacheConfig(max_samples=kept),
+            publisher_detection=True,
+            **options,
+        )
+        return KeyPublisher(publisher, self._outbox, keeps=True)
+
+    def subscriber(
+        self, key: str, on_message: Callable[[Sample], object], *, is_latched: bool = False
+    ) -> Callable[[], None]:
+        """Have `on_message` called with what comes in; call what is returned to stop.
+
+        Args:
+            key: The key, wildcards allowed.
+            on_message: Called on the loop.
+            is_latched: Whether to ask for what was sent before.
+        """
+
+        def arrived(sample: Any) -> None:
+            self._take(sample, on_message)
+
+        handler = self._handler(arrived)
+        remote = self._zenoh.Locality.REMOTE
+        if not is_latched:
+            subscriber = self._session.declare_subscriber(key, handler, allowed_origin=remote)
+        else:
+            import zenoh.ext as advanced
+
+            subscriber = advanced.declare_advanced_subscriber(
+                self._session,
+                key,
+                handler,
+                allowed_origin=remote,
+                history=advanced.HistoryConfig(detect_late_publishers=True),
+            )
+        return _undeclare(subscriber)
+
+    def _take(self, sample: Any, on_message: Callable[[Sample], object]) -> None:
+        """Hand a sample over, its size checked first (on a thread of zenoh's)."""
+        if sample.kind != self._zenoh.SampleKind.PUT:
+            return
+        size = len(sample.payload)
+        attachment = sample.attachment
+        if size > LARGEST or (attachment is not None and len(attachment) > 4096):
+            self.oversized += 1
+            return
+        arrived = Sample(
+            sample.payload.to_bytes(),
+            b"" if attachment is None else attachment.to_bytes(),
+        )
+        self._inbox.put(on_message, arrived, size)
+
+    # Questions
+
+    def server(self, key: str, on_query: Callable[[Query], object]) -> Callable[[], None]:
+        """Have `on_query` called with every request; call what is returned to stop."""
+
+        def asked(query: Any) -> None:
+            payload, attachment = query.payload, query.attachment
+            size = 0 if payload is None else len(payload)
+            if size > LARGEST or (attachment is not None and len(attachment) > 4096):
+                self.oversized += 1
+                query.drop()
+                return
+            arrived = Sample(
+                b"" if payload is None else payload.to_bytes(),
+                b"" if attachment is None else attachment.to_bytes(),
+            )
+            self._inbox.put(on_query, Query(query, arrived), size)
+
+        return _undeclare(self._session.declare_queryable(key, self._handler(asked), complete=True))
+
+    async def ask(self, key: str, payload: bytes, attachment: bytes, *, timeout: float) -> bytes:
+        """Send a request and wait for the answer.
+
+        Args:
+            key: The service's key.
+            payload: The request.
+            attachment: What travels beside it.
+            timeout: Seconds to wait.
+
+        Raises:
+            LinkError: If no server answers, or the answer is a refusal.
+        """
+        answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
+        silent = f"no server answered within {timeout:g} s, or it has left"
+
+        def settle(outcome: bytes | str) -> None:
+            if answer.done():
+                return
+            if isinstance(outcome, bytes):
+                answer.set_result(outcome)
+            else:
+                answer.set_exception(LinkError(outcome))
+
+        def replied(reply: Any) -> None:
+            if reply.ok is not None and len(reply.ok.payload) <= LARGEST:
+                found = reply.ok.payload.to_bytes()
+                # Dropped where too much waits: the client gets an error when all replies are in.
+                self._inbox.put(settle, found, len(found))
+            elif reply.err is not None:
+                reason = reply.err.payload.to_bytes()[:500].decode(errors="replace")
+                # So zenoh itself says that the time is over.
+                silence = reason == "Timeout"
+                self._inbox.put(settle, silent if silence else f"it was refused: {reason}")
+
+        def over() -> None:
+            self._inbox.put(settle, silent)
+
+        zenoh = self._zenoh
+        query = zenoh.CancellationToken()
+        self._session.get(
+            key,
+            zenoh.handlers.Callback(replied, over, indirect=False),
+            payload=payload,
+            attachment=attachment,
+            target=zenoh.QueryTarget.ALL_COMPLETE,
+            consolidation=zenoh.ConsolidationMode.NONE,
+            timeout=timeout,
+            cancellation_token=query,
+        )
+        try:
+            return await answer
+        except asyncio.CancelledError:
+            # Else it stays open for its whole time, up to an hour. Not on the loop: it waits
+            # for a reply that is being taken in.
+            with contextlib.suppress(LinkError):
+                self._outbox.put(query.cancel)
+            raise
+
+    # Tokens
+
+    def token(self, key: str) -> Callable[[], None]:
+        """Show `key` to all sessions until what is returned is called, or this process ends."""
+        return _undeclare(self._session.liveliness().declare_token(key))
+
+    def tokens(self, key: str, timeout: float = 1.0) -> list[str]:
+        """The tokens that are there now; waits for the answers of all connected sessions."""
+        found: list[str] = []
+        over = threading.Event()
+
+        def replied(reply: Any) -> None:
+            if reply.ok is not None:
+                found.append(str(reply.ok.key_expr))
+
+        # Not zenoh's own queue: it holds 256 replies, and what this session knows already is
+        # put there before any could be taken from it.
+        handler = self._zenoh.handlers.Callback(replied, over.set, indirect=False)
+        self._session.liveliness().get(key, handler, timeout=timeout)
+        over.wait(2 * timeout)
+        return found
+
+    def watch_tokens(
+        self, key: str, on_token: Callable[[tuple[str, bool]], object]
+    ) -> Callable[[], None]:
+        """Have `on_token` called with (token, whether it is there now) at every change."""
+
+        def changed(sample: Any) -> None:
+            there = sample.kind == self._zenoh.SampleKind.PUT
+            self._inbox.put(on_token, (str(sample.key_expr), there))
+
+        return _undeclare(
+            self._session.liveliness().declare_subscriber(key, self._handler(changed), history=True)
+        )
+
+    # Helpers
+
+    def _handler(self, callback: Callable[[Any], None]) -> Any:
+        return self._zenoh.handlers.Callback(callback, indirect=False)
+
+
+def _undeclare(declared: Any) -> Callable[[], None]:
+    def stop() -> None:
+        with contextlib.suppress(Exception):
+            declared.undeclare()
+
+    return stop

@@ -1,0 +1,92 @@
+"""What nodes have to say, kept for screens and handed to listeners."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from tftool.base.listeners import Listeners, Report
+from tftool.base.stamps import NANOSECONDS, Stamp
+
+Level = Literal["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]
+
+LEVELS: tuple[Level, ...] = get_args(Level)
+"""From what hardly matters to what ends everything."""
+
+PROBLEMS: tuple[Level, ...] = ("WARN", "ERROR", "FATAL")
+"""The levels of what a user should hear of, from any node."""
+
+
+@dataclass(frozen=True, slots=True)
+class LogRecord:
+    """One line of a log.
+
+    Attributes:
+        stamp: When it was said, by the world's clock.
+        level: How much it matters.
+        node: Who said it.
+        text: What was said. It may hold strangers' names: escape it where it is shown.
+        program: The program whose node it is, where several are told apart: two of them may
+            have nodes of one name.
+    """
+
+    stamp: Stamp
+    level: Level
+    node: str
+    text: str
+    program: str = ""
+
+    def __str__(self) -> str:
+        """The line as ROS 2's console shows it; a logger's name has dots for a node's slashes."""
+        second, rest = divmod(self.stamp, NANOSECONDS)
+        logger = self.node.replace("/", ".")
+        return f"[{self.level}] [{second}.{rest:09d}] [{logger}]: {self.text}"
+
+
+class Log:
+    """The last thousand lines, and the listeners that get each as it comes."""
+
+    def __init__(
+        self, now: Callable[[], Stamp], keep: int = 1000, report: Report | None = None
+    ) -> None:
+        """Begin empty.
+
+        Args:
+            now: Gives the stamp of a line.
+            keep: How many lines are kept.
+            report: Takes what a listener raises; see `Listeners`.
+        """
+        self.records: deque[LogRecord] = deque(maxlen=keep)
+        self._now = now
+        self._listeners: Listeners[LogRecord] = Listeners(report)
+
+    def listen(
+        self, callback: Callable[[LogRecord], object], owner: str = ""
+    ) -> Callable[[], None]:
+        """Have `callback` called with every line to come; call what is returned to stop.
+
+        What it raises is reported under the name of its `owner`.
+        """
+        return self._listeners.add(callback, owner)
+
+    def debug(self, node: str, text: str) -> None:
+        """Say something that helps to find a fault."""
+        self.add("DEBUG", node, text)
+
+    def info(self, node: str, text: str) -> None:
+        """Say what happens."""
+        self.add("INFO", node, text)
+
+    def warn(self, node: str, text: str) -> None:
+        """Say what is odd."""
+        self.add("WARN", node, text)
+
+    def error(self, node: str, text: str) -> None:
+        """Say what went wrong."""
+        self.add("ERROR", node, text)
+
+    def add(self, level: Level, node: str, text: str, *, program: str = "") -> None:
+        """Keep a line and hand it on."""
+        record = LogRecord(self._now(), level, node, text, program)
+        self.records.append(record)
+        self._listeners.call(record)

@@ -1,0 +1,205 @@
+"""A node: one coroutine, `run`, in a world, waiting only through the world's clock."""
+
+import asyncio
+from collections.abc import AsyncIterator, Callable, Coroutine
+from typing import Any, ClassVar, TypeVar
+
+from tftool.base.stamps import Duration, Stamp, as_seconds, seconds, whole
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.world.clock import Clock, Phase
+from tftool.world.endpoints import TF, TF_STATIC, USUAL, Quality
+from tftool.world.parameters import Parameters, Value
+from tftool.world.resident import Resident
+from tftool.world.world import TopicPublisher, TransformMessage, World
+
+T = TypeVar("T")
+
+CATCH_UP = 5
+"""How many late ticks of a timer are made up for before it slips."""
+
+LATE = seconds(1.0)
+"""From how far behind a timer on it is said."""
+
+
+class Node(Resident):
+    """Override `run`, and wait by `every` or the clock.
+
+    Attributes:
+        world: Where it lives.
+        name: Its name, in logs and as the authority of what it broadcasts.
+        rank: Its place among the nodes of the world, in the order in which they joined.
+        phase: Its place within an instant.
+    """
+
+    phase: ClassVar[Phase] = Phase.CONSUME
+
+    def __init__(self, world: World, name: str) -> None:
+        """Join `world` as `name`.
+
+        Raises:
+            TftoolError: If a node of that name is there.
+        """
+        self.world = world
+        self.name = name
+        self.rank = 0
+        self.parameters = Parameters(name)
+        self._stops: list[Callable[[], None]] = []
+        self._publishers: dict[str, TopicPublisher[Any]] = {}
+        world.add(self)
+
+    @property
+    def clock(self) -> Clock:
+        """The world's clock."""
+        return self.world.clock
+
+    @property
+    def buffer(self) -> Buffer:
+        """The world's buffer."""
+        return self.world.buffer
+
+    async def run(self) -> None:
+        """What the node does; it ends when this returns."""
+
+    def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
+        """Run something beside `run`, as a part of this node.
+
+        It may outlast `run`, and is cancelled when the node leaves or the world ends. What it
+        raises is the failure of this node.
+
+        Returns:
+            The task; its result is None where the work has failed.
+
+        Raises:
+            TftoolError: If the world does not run.
+        """
+        return self.world.start_soon(self, work)
+
+    async def every(self, period: Duration, *, immediately: bool = False) -> AsyncIterator[Stamp]:
+        """The moments of a timer, on an integer grid from now on.
+
+        The first is one period from now, as a ROS timer's. On the wall clock a late
+        node gets a few missed ticks made up for, then the grid slips; a second is said, once.
+
+        Args:
+            period: Nanoseconds between two moments.
+            immediately: Whether the first moment is now.
+
+        Raises:
+            TypeError: If the period is not a whole number.
+            ValueError: If it is not positive.
+        """
+        period = whole(period)
+        if period <= 0:
+            raise ValueError(f"a timer's period must be positive, not {period} ns")
+        due = self.clock.now() if immediately else self.clock.now() + period
+        slipped = False
+        while True:
+            await self.clock.sleep_until(due, self.phase, self.rank)
+            # A clock set from outside may have fallen back meanwhile: the grid restarts there.
+            due = min(due, self.clock.now())
+            missed = (self.clock.now() - due) // period
+            if missed > CATCH_UP:
+                due += missed * period
+                # A short hitch is nothing a person can do anything about.
+                if not slipped and missed * period >= LATE:
+                    slipped = True
+                    self.warn(
+                        f"is {as_seconds(missed * period):.1f} s behind its own timer: "
+                        "the computer was too busy, or stopped it; what it missed it leaves out"
+                    )
+            yield due
+            due += period
+
+    # Talking
+
+    def publish(self, topic: str, value: Any) -> None:
+        """Publish on a topic, made with the value's type if it is new."""
+        publisher = self._publishers.get(topic)
+        if publisher is None or publisher.kind is not type(value):
+            publisher = self.publisher(topic, type(value))
+        publisher.publish(value)
+
+    def publisher(self, topic: str, kind: type[T], quality: Quality = USUAL) -> TopicPublisher[T]:
+        """Become a publisher of a topic, until this node ends, before there is a value."""
+        publisher = self.world.publisher(self.name, topic, kind, quality)
+        self._publishers[topic] = publisher
+        self._until_end(publisher.close)
+        return publisher
+
+    def subscribe(
+        self,
+        topic: str,
+        kind: type[T],
+        callback: Callable[[T], object],
+        quality: Quality = USUAL,
+    ) -> Callable[[], None]:
+        """Have `callback` called with every value; if it raises, this node has failed.
+
+        A latched subscription gets what latched publishers sent before, too.
+        """
+        return self._until_end(self.world.subscribe(self.name, topic, kind, callback, quality))
+
+    def serve(
+        self, name: str, handler: Callable[[Any], Any], kind: Any = None, *, shares: bool = False
+    ) -> Callable[[], None]:
+        """Answer a service until this node ends; the arguments are those of `World.serve`."""
+        return self._until_end(self.world.serve(name, handler, kind, node=self.name, shares=shares))
+
+    def serve_action(
+        self, name: str, accept: Callable[[Any], None], kind: Any = None
+    ) -> Callable[[], None]:
+        """Take an action's goals until this node ends; `kind` is as in `serve`."""
+        return self._until_end(self.world.serve_action(name, accept, kind, node=self.name))
+
+    async def call(self, service: str, request: Any) -> Any:
+        """Ask a service and wait for its answer."""
+        return await self.world.call(service, request)
+
+    def broadcast(self, *transforms: TransformStamped) -> bool:
+        """Put transforms into the buffer, under this node's name; whether it took them all."""
+        if "tf" not in self._publishers:
+            self.publisher("tf", TransformMessage, TF)
+        return self.world.broadcast(transforms, self.name)
+
+    def broadcast_static(self, *transforms: TransformStamped) -> bool:
+        """Put transforms that hold for all time into the buffer; whether it took them all."""
+        if "tf_static" not in self._publishers:
+            self.publisher("tf_static", TransformMessage, TF_STATIC)
+        return self.world.broadcast(transforms, self.name, static=True)
+
+    def info(self, text: str) -> None:
+        """Log what happens."""
+        self.world.log.info(self.name, text)
+
+    def warn(self, text: str) -> None:
+        """Log what is odd."""
+        self.world.log.warn(self.name, text)
+
+    def error(self, text: str) -> None:
+        """Log what went wrong."""
+        self.world.log.error(self.name, text)
+
+    # Settings
+
+    def declare_parameter(self, name: str, default: Value) -> Value:
+        """Make a setting known with its default."""
+        return self.parameters.declare(name, default)
+
+    def get_parameter(self, name: str) -> Value:
+        """A setting as it stands."""
+        return self.parameters[name]
+
+    def set_parameter(self, name: str, value: Value) -> None:
+        """Change a setting; see `Parameters.set`."""
+        self.parameters.set(name, value)
+
+    def close(self) -> None:
+        """Withdraw every subscription and service; the supervisor calls it at the end."""
+        while self._stops:
+            self._stops.pop()()
+        self._publishers.clear()
+
+    def _until_end(self, stop: Callable[[], None]) -> Callable[[], None]:
+        self._stops.append(stop)
+        return stop

@@ -1,0 +1,138 @@
+"""The tutorial's follower: look where the leader is, steer there, once a period."""
+
+from tftool.base.errors import TransformException, UsageError
+from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.motion import pursuit
+from tftool.geometry.motion.pid import Gains
+from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_values import Spawn
+from tftool.world.node import Node
+from tftool.world.nodes.broadcasters import require_period
+from tftool.world.nodes.spawn import Spawning
+from tftool.world.nodes.turtle import require_turtle_name
+from tftool.world.world import World
+
+TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
+"""Where the tutorial's follower starts: x, y, heading."""
+
+
+class Follower(Node):
+    """Spawn a turtle and steer it towards a frame by lookups.
+
+    With a delay it goes where the leader was that long ago: the follower now, the
+    leader then, and a frame in between that stands still.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        name: str,
+        *,
+        leader: str = "turtle1",
+        follower: str = "turtle2",
+        period: Duration = seconds(1),
+        delay: Duration = 0,
+        fixed_frame: str | None = "world",
+        distance_gains: Gains = pursuit.TUTORIAL_DISTANCE,
+        bearing_gains: Gains = pursuit.TUTORIAL_BEARING,
+        dead_band: float = 0.0,
+        speed_limit: float | None = None,
+        stale_after: Duration | None = None,
+        spawn: tuple[float, float, float] | None = TUTORIAL_SPAWN,
+    ) -> None:
+        """Join the world.
+
+        Args:
+            world: Where to live.
+            name: The node's name.
+            leader: The frame to follow.
+            follower: The turtle to steer; its frame has its name.
+            period: Nanoseconds between two commands.
+            delay: How long ago, in nanoseconds, the leader is looked for.
+            fixed_frame: The frame that carries the question over the delay; None asks
+                where both were back then, which steers by the follower's own past.
+            distance_gains: From metres to m/s.
+            bearing_gains: From radians to rad/s.
+            dead_band: Metres within which the leader counts as reached.
+            speed_limit: In m/s; None for none.
+            stale_after: Stop when the newest common data is older than this many
+                nanoseconds; None follows old data, as tf2's tutorial does.
+            spawn: x, y and heading to spawn the follower at; None if it is there.
+
+        Raises:
+            UsageError: If a name, a time or a gain cannot be.
+        """
+        require_turtle_name(follower)
+        if leader == follower:
+            raise UsageError(f"'{follower}' cannot follow itself: name another leader")
+        if delay < 0:
+            raise UsageError(f"a delay must be 0 s or more, not {as_seconds(delay):g} s")
+        if stale_after is not None and stale_after <= 0:
+            raise UsageError(
+                f"a limit for stale data must be longer than 0 s, not {as_seconds(stale_after):g} s"
+            )
+        self.period = require_period(period)
+        self.law = pursuit.Law(distance_gains, bearing_gains, dead_band, speed_limit)
+        super().__init__(world, name)
+        self.leader, self.follower = leader, follower
+        self.delay, self.fixed_frame = delay, fixed_frame
+        self.stale_after = stale_after
+        self._spawning = None if spawn is None else Spawning(self, Spawn(*spawn, follower))
+        self._memory = pursuit.FRESH
+        self._stale = False
+
+    async def run(self) -> None:
+        """Follow until the end."""
+        self.publisher(f"{self.follower}/cmd_vel", Twist2D)
+        async for now in self.every(self.period):
+            if self._spawning is None or self._spawning.step():
+                self._follow(now)
+
+    def _follow(self, now: Stamp) -> None:
+        try:
+            self_from_leader = self._look(now)
+        except TransformException as refusal:
+            self._memory = pursuit.FRESH
+            self.info(f"Could not transform {self.follower} to {self.leader}: {refusal}")
+            return
+        if self._too_old(self_from_leader.stamp, now):
+            return
+        goal = self_from_leader.transform.translation
+        command, self._memory = pursuit.steer(
+            self.law, self._memory, goal.x, goal.y, as_seconds(self.period)
+        )
+        self.publish(f"{self.follower}/cmd_vel", command)
+
+    def _look(self, now: Stamp) -> TransformStamped:
+        if self.delay == 0:
+            return self.buffer.lookup_transform(self.follower, self.leader, LATEST)
+        then = now - self.delay
+        if self.fixed_frame is None:
+            return self.buffer.lookup_transform(self.follower, self.leader, then)
+        return self.buffer.lookup_transform_full(
+            self.follower, LATEST, self.leader, then, self.fixed_frame
+        )
+
+    def _too_old(self, stamp: Stamp, now: Stamp) -> bool:
+        """Whether to stand still because of the data's age; says so when that changes.
+
+        A question about a given moment is refused where data is missing; only the
+        latest can be old unnoticed. Statics, stamped 0, never are.
+        """
+        if self.stale_after is None or self.delay != 0 or stamp == LATEST:
+            return False
+        age = now - stamp
+        stale = age > self.stale_after
+        if stale and not self._stale:
+            self._memory = pursuit.FRESH
+            self.warn(
+                f"What is known of {self.leader} seen from {self.follower} is "
+                f"{as_seconds(age):.3f} s old, the limit is {as_seconds(self.stale_after):g} s: "
+                "stopping until there is something newer"
+            )
+            self.publish(f"{self.follower}/cmd_vel", Twist2D())
+        elif self._stale and not stale:
+            self.info(f"There is newer data of {self.leader}: following again")
+        self._stale = stale
+        return stale

@@ -1,0 +1,205 @@
+"""A robot as the frames of a real one show it: map, odom, base_link, laser_link.
+
+Where it truly is, only these nodes know. Odometry adds up small errors and
+drifts; localisation corrects it now and then, so odom jumps in the map; a laser
+sees one point of a wall, which therefore stays put in the map and wanders in
+odom.
+"""
+
+import math
+from typing import ClassVar
+
+from tftool.base.errors import TransformException
+from tftool.base.stamps import Duration, as_seconds, seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.motion.twist import Twist2D
+from tftool.geometry.motion.unicycle import Placement
+from tftool.geometry.planar import transform_from_pose
+from tftool.geometry.rigid import Transform
+from tftool.messages.turtle_values import Pose2D
+from tftool.world.clock import Phase
+from tftool.world.node import Node
+from tftool.world.nodes.broadcasters import require_period
+from tftool.world.world import World
+
+TRUTH = "ground_truth"
+"""The topic on which the robot's true pose in the map travels."""
+
+
+class RobotOdometry(Node):
+    """Drive a robot, and broadcast where its wheels believe it is: odom to base_link.
+
+    Publishes the true pose on `ground_truth`, and listens to `<base>/cmd_vel`.
+    """
+
+    phase: ClassVar[Phase] = Phase.SIMULATE
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "odometry",
+        *,
+        odom: str = "odom",
+        base: str = "base_link",
+        start: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        speed: float = 0.5,
+        turn_rate: float = 0.25,
+        scale_error: float = 0.02,
+        turn_error: float = 0.01,
+        period: Duration = seconds(0.02),
+    ) -> None:
+        """Join the world.
+
+        Args:
+            world: Where to live.
+            name: The node's name.
+            odom: The frame odometry is given in; at the start it lies on the map.
+            base: The robot's frame.
+            start: x, y and heading in the map at the start.
+            speed: In m/s, until a command says otherwise.
+            turn_rate: In rad/s, until a command says otherwise.
+            scale_error: Share by which the wheels overrate a distance.
+            turn_error: Turn rate in rad/s that the wheels see on top of the true one
+                while the robot moves.
+            period: Nanoseconds between two broadcasts.
+        """
+        super().__init__(world, name)
+        self.odom, self.base = odom, base
+        self.period = require_period(period)
+        self.scale_error, self.turn_error = scale_error, turn_error
+        self.truth = Placement(*start)
+        self.believed = Placement(*start)
+        self._twist = Twist2D(speed, turn_rate)
+
+    async def run(self) -> None:
+        """Drive until the end."""
+        self.subscribe(f"{self.base}/cmd_vel", Twist2D, self._on_command)
+        step = as_seconds(self.period)
+        first = True
+        async for now in self.every(self.period, immediately=True):
+            if not first:
+                self._drive(step)
+            first = False
+            x, y, theta = self.truth
+            self.publish(TRUTH, Pose2D(x, y, theta, self._twist.linear_x, self._twist.angular_z))
+            self.broadcast(
+                TransformStamped(now, self.odom, self.base, transform_from_pose(*self.believed))
+            )
+
+    def _on_command(self, twist: Twist2D) -> None:
+        if math.isfinite(twist.linear_x) and math.isfinite(twist.angular_z):
+            self._twist = twist
+        else:
+            self.warn(f"Ignoring a velocity command that is not finite: {twist}")
+
+    def _drive(self, step: float) -> None:
+        speed, turn = self._twist.linear_x, self._twist.angular_z
+        error = self.turn_error if speed or turn else 0.0
+        self.truth = _moved(self.truth, speed * step, turn * step)
+        self.believed = _moved(
+            self.believed, speed * (1.0 + self.scale_error) * step, (turn + error) * step
+        )
+
+
+class MapCorrection(Node):
+    """Broadcast map to odom; now and then it is put right, and jumps."""
+
+    phase: ClassVar[Phase] = Phase.BROADCAST
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "localization",
+        *,
+        map_frame: str = "map",
+        odom: str = "odom",
+        base: str = "base_link",
+        correct_every: Duration = seconds(2),
+        period: Duration = seconds(0.1),
+    ) -> None:
+        """Join the world; `correct_every` and `period` are in nanoseconds."""
+        super().__init__(world, name)
+        self.map_frame, self.odom, self.base = map_frame, odom, base
+        self.correct_every = require_period(correct_every)
+        self.period = require_period(period)
+        self._truth: Pose2D | None = None
+
+    async def run(self) -> None:
+        """Correct until the end."""
+        self.subscribe(TRUTH, Pose2D, self._on_truth)
+        map_from_odom = Transform.identity()
+        due = self.clock.now() + self.correct_every
+        async for now in self.every(self.period, immediately=True):
+            if now >= due:
+                map_from_odom = self._corrected() or map_from_odom
+                due += self.correct_every
+            self.broadcast(TransformStamped(now, self.map_frame, self.odom, map_from_odom))
+
+    def _on_truth(self, truth: Pose2D) -> None:
+        self._truth = truth
+
+    def _corrected(self) -> Transform | None:
+        if self._truth is None:
+            return None
+        try:
+            odom_from_base = self.buffer.lookup_transform(self.odom, self.base).transform
+        except TransformException as refusal:
+            self.warn(f"Cannot correct the map: {refusal}")
+            return None
+        return _pose_of(self._truth) @ odom_from_base.inverse()
+
+
+class LaserPoint(Node):
+    """Broadcast one point of a wall as the laser sees it: laser_link to laser_point.
+
+    Nothing is broadcast before the laser's place on the robot is known.
+    """
+
+    phase: ClassVar[Phase] = Phase.BROADCAST
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "laser",
+        *,
+        landmark: tuple[float, float, float] = (3.0, 1.0, 0.2),
+        base: str = "base_link",
+        laser: str = "laser_link",
+        child: str = "laser_point",
+        period: Duration = seconds(0.1),
+    ) -> None:
+        """Join the world; `landmark` is the point in the map, in metres."""
+        super().__init__(world, name)
+        self.landmark = landmark
+        self.base, self.laser, self.child = base, laser, child
+        self.period = require_period(period)
+        self._truth: Pose2D | None = None
+
+    async def run(self) -> None:
+        """Measure until the end."""
+        self.subscribe(TRUTH, Pose2D, self._on_truth)
+        async for now in self.every(self.period, immediately=True):
+            if self._truth is None or not self.buffer.can_transform(self.base, self.laser):
+                continue
+            base_from_laser = self.buffer.lookup_transform(self.base, self.laser).transform
+            map_from_laser = _pose_of(self._truth) @ base_from_laser
+            seen = map_from_laser.inverse().apply(self.landmark)
+            self.broadcast(TransformStamped(now, self.laser, self.child, Transform(seen)))
+
+    def _on_truth(self, truth: Pose2D) -> None:
+        self._truth = truth
+
+
+def _pose_of(truth: Pose2D) -> Transform:
+    return transform_from_pose(truth.x, truth.y, truth.theta)
+
+
+def _moved(start: Placement, distance: float, turned: float) -> Placement:
+    """Along an arc, exactly: the error is to come from the wheels, not from the step."""
+    middle = start.theta + turned / 2
+    chord = distance * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
+    return Placement(
+        start.x + chord * math.cos(middle),
+        start.y + chord * math.sin(middle),
+        start.theta + turned,
+    )

@@ -1,0 +1,103 @@
+"""The message filter's demonstration: points that wait until they can be placed."""
+
+import asyncio
+from typing import Any
+
+from tftool.base.errors import TransformException
+from tftool.base.stamps import Duration, seconds
+from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_values import PointStamped, Pose2D, Spawn
+from tftool.world.node import Node
+from tftool.world.nodes.broadcasters import require_period
+from tftool.world.nodes.spawn import Spawning
+from tftool.world.nodes.turtle import require_turtle_name
+from tftool.world.world import World
+
+POINT_TOPIC = "turtle_point_stamped"
+
+QUEUE_LENGTH = 100
+"""How many points wait at most; one more drops the oldest."""
+
+
+class MessageBroadcaster(Node):
+    """Spawn a turtle, drive it in a circle, and publish where it is as stamped points."""
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "turtle_tf2_message_broadcaster",
+        *,
+        turtle: str = "turtle3",
+        frame_id: str = "world",
+        spawn: tuple[float, float, float] = (4.0, 2.0, 0.0),
+        period: Duration = seconds(1),
+    ) -> None:
+        """Join the world; `period` is that of the start-up machine."""
+        require_turtle_name(turtle)
+        super().__init__(world, name)
+        self.turtle, self.frame_id = turtle, frame_id
+        self.period = require_period(period)
+        self._spawning = Spawning(self, Spawn(*spawn, turtle))
+
+    async def run(self) -> None:
+        """Start up, then react to every pose."""
+        async for _ in self.every(self.period):
+            if self._spawning.step():
+                break
+        self.subscribe(f"{self.turtle}/pose", Pose2D, self._on_pose)
+
+    def _on_pose(self, pose: Pose2D) -> None:
+        self.publish(f"{self.turtle}/cmd_vel", Twist2D(1.0, 1.0))
+        self.publish(
+            f"{self.turtle}/{POINT_TOPIC}",
+            PointStamped(self.clock.now(), self.frame_id, pose.x, pose.y, 0.0),
+        )
+
+
+class PointDrawer(Node):
+    """Say where each point is in a frame, as soon as that frame is known at its stamp."""
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "turtle_tf2_pose_drawer",
+        *,
+        target_frame: str = "turtle1",
+        turtle: str = "turtle3",
+        patience: Duration = seconds(1),
+    ) -> None:
+        """Join the world; `patience` is how long a point waits at most."""
+        super().__init__(world, name)
+        self.target_frame, self.turtle = target_frame, turtle
+        self.patience = require_period(patience)
+        # A dict keeps the order in which they came.
+        self._waiting: dict[asyncio.Task[Any], None] = {}
+
+    async def run(self) -> None:
+        """Listen until the end."""
+        self.subscribe(f"{self.turtle}/{POINT_TOPIC}", PointStamped, self._on_point)
+        await asyncio.Event().wait()
+
+    def _on_point(self, point: PointStamped) -> None:
+        if not point.frame_id:
+            return
+        if len(self._waiting) >= QUEUE_LENGTH:
+            oldest = next(iter(self._waiting))
+            del self._waiting[oldest]
+            oldest.cancel()
+        task = self.start_soon(self._place(point))
+        self._waiting[task] = None
+        task.add_done_callback(lambda done: self._waiting.pop(done, None))
+
+    async def _place(self, point: PointStamped) -> None:
+        try:
+            found = await self.world.wait_for_transform(
+                self.target_frame, point.frame_id, point.stamp, timeout=self.patience
+            )
+        except TransformException as refusal:
+            self.warn(f"Failure {refusal}")
+        else:
+            x, y, z = found.transform.apply((point.x, point.y, point.z))
+            self.info(
+                f"Point of {self.turtle} in frame of {self.target_frame}: x:{x:f} y:{y:f} z:{z:f}"
+            )

@@ -1,0 +1,221 @@
+"""What a world's topics carry, handed to a recording as it comes."""
+
+from collections.abc import Callable, Collection
+from functools import partial
+from typing import Any, Final, Protocol
+
+from tftool.base.errors import InputError, MalformedMessage
+from tftool.buffer.sample import TransformStamped
+from tftool.messages.classes import Message
+from tftool.messages.codec import Codec, codec
+from tftool.messages.transforms import encode_transforms
+from tftool.recordings.channel import Channel
+from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
+from tftool.world.clock import Clock, pace_of
+from tftool.world.endpoints import PUBLISHER
+from tftool.world.link.seam import Arrived
+from tftool.world.link.session import Link
+from tftool.world.topics import Topic
+from tftool.world.world import TransformMessage, World
+
+FRAMES: Final = ("tf", "tf_static")
+"""Topics that are always recorded."""
+
+
+class Taker(Protocol):
+    """What is given every message."""
+
+    def take(self, channel: Channel, log_time: int, payload: bytes, transforms: int = 0) -> None:
+        """Take one message, and how many transforms are in it."""
+
+
+class Recorder:
+    """Records topics of a world; of a session that was joined, the bytes as they travel.
+
+    Attributes:
+        topics: Names of the topics that are recorded so far.
+        left_out: Topics that cannot be, and why.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        taker: Taker,
+        *,
+        link: Link | None = None,
+        names: Collection[str] = (),
+        everything: bool = False,
+        clock: Clock | None = None,
+    ) -> None:
+        """Begin to listen to the transforms.
+
+        Args:
+            world: Whose topics.
+            taker: What is given every message.
+            link: What has joined the world to the session it is a guest of; None for a world
+                of this process.
+            names: Other topics, without a leading slash.
+            everything: Whether to record all there are.
+            clock: By which messages are received; the world's own pace if None.
+        """
+        self._world = world
+        self._taker = taker
+        self._link = link
+        self._names = frozenset(name.strip("/") for name in names)
+        self._everything = everything
+        self._clock = clock or pace_of(world.clock)
+        self._stops: list[Callable[[], object]] = []
+        self._channels: dict[tuple[str, str, str], Channel] = {}
+        self._failure: Exception | None = None
+        self._inner: set[str] = set()  # what only this process has
+        self.topics: set[str] = set()
+        self.left_out: dict[str, str] = {}
+        if link is None:
+            self._begin_here()
+            self._stops.append(world.watch(self._find_topics, "recorder"))
+        else:
+            for name in FRAMES:
+                self._listen(link, name, TRANSFORMS, is_latched=name == "tf_static")
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Take in topics that have come up; call it now and then.
+
+        Raises:
+            InputError: If a message could not be taken.
+        """
+        if self._failure is not None:
+            raise self._failure
+        self._find_topics()
+
+    def _find_topics(self) -> None:
+        if self._link is not None:
+            for entity in self._link.graph.entities(PUBLISHER):
+                if self._is_wanted(entity.name):
+                    latched = entity.quality.is_latched
+                    self._listen(self._link, entity.name, entity.ros_type, is_latched=latched)
+            return
+        for name, topic in tuple(self._world.topics().items()):
+            if self._is_wanted(name):
+                self._subscribe(name, topic)
+
+    @property
+    def missing(self) -> list[str]:
+        """Topics that were named, and have not come up."""
+        return sorted(self._names - self.topics - set(self.left_out))
+
+    def close(self) -> None:
+        """Listen no more."""
+        for stop in self._stops:
+            stop()
+        self._stops.clear()
+
+    def _is_wanted(self, name: str) -> bool:
+        if name in self.topics or name in self.left_out or name in self._inner:
+            return False
+        return self._everything or name in self._names
+
+    # This process's world
+
+    def _begin_here(self) -> None:
+        world = self._world
+        by_node: dict[str, list[TransformStamped]] = {}
+        authorities = {
+            one.frame: one.authority or ""
+            for one in world.buffer.snapshot(world.clock.now()).frames
+        }
+        for sample in world.static_transforms():
+            by_node.setdefault(authorities.get(sample.child_frame_id, ""), []).append(sample)
+        for node, samples in by_node.items():
+            self._put_transforms("tf_static", TransformMessage(tuple(samples), node))
+        for name, topic in zip(FRAMES, (world.tf, world.tf_static), strict=True):
+            self.topics.add(name)
+            self._stops.append(topic.subscribe(partial(self._transforms, name), "recorder"))
+
+    def _transforms(self, name: str, message: TransformMessage) -> None:
+        self._guarded(lambda: self._put_transforms(name, message))
+
+    def _put_transforms(self, name: str, message: TransformMessage) -> None:
+        channel = self._channel(name, TRANSFORMS, message.authority)
+        payload = encode_transforms(message.transforms)
+        self._taker.take(channel, self._clock.now(), payload, len(message.transforms))
+
+    def _subscribe(self, name: str, topic: Topic[Any]) -> None:
+        try:
+            if not issubclass(topic.kind, Message):
+                if name not in self._names:
+                    self._inner.add(name)
+                    return
+                raise InputError("it is nothing that travels between processes")
+            channel = self._channel(name, topic.kind.interface__, "")
+            writer = codec(topic.kind)
+        except InputError as error:
+            self.left_out[name] = str(error).rstrip(".")
+            return
+        self.topics.add(name)
+        self._stops.append(topic.subscribe(partial(self._value, channel, writer), "recorder"))
+
+    def _value(self, channel: Channel, kind: Codec, value: Any) -> None:
+        def put() -> None:
+            try:
+                payload = kind.encode(value)
+            except MalformedMessage as error:
+                self.left_out.setdefault(channel.topic.strip("/"), str(error))
+                return
+            self._taker.take(channel, self._clock.now(), payload)
+
+        self._guarded(put)
+
+    # A session's
+
+    def _listen(self, link: Link, name: str, ros_type: str, *, is_latched: bool) -> None:
+        try:
+            self._channel(name, ros_type, "")
+            stop = link.middleware.listen(
+                name, ros_type, partial(self._arrived, link, name, ros_type), is_latched=is_latched
+            )
+        except InputError as error:
+            self.left_out[name] = str(error).rstrip(".")
+            return
+        self.topics.add(name)
+        self._stops.append(stop)
+
+    def _arrived(self, link: Link, name: str, ros_type: str, message: Arrived) -> None:
+        def put() -> None:
+            node = link.authority(message.sender, name)
+            channel = self._channel(name, ros_type, node)
+            payload = message.payload
+            count = 0
+            if ros_type == TRANSFORMS and len(payload) >= 8:
+                count = int.from_bytes(payload[4:8], "little")
+            self._taker.take(channel, self._clock.now(), payload, count)
+
+        self._guarded(put)
+
+    def _guarded(self, put: Callable[[], None]) -> None:
+        """Keep a failure for the next call: an exception in a listener is only reported."""
+        if self._failure is not None:
+            return
+        try:
+            put()
+        except InputError as error:
+            self._failure = error
+
+    def _channel(self, name: str, ros_type: str, node: str) -> Channel:
+        """A channel for each publisher: so it stays known who sent what."""
+        key = name, ros_type, node
+        found = self._channels.get(key)
+        if found is None:
+            plain = ros2_channel(f"/{name}", ros_type, static=name == "tf_static")
+            metadata = plain.metadata
+            if node:
+                metadata += (("callerid", f"/{node.strip('/')}"),)
+            found = self._channels[key] = Channel(
+                plain.topic,
+                plain.type,
+                plain.encoding,
+                plain.schema_encoding,
+                plain.definition,
+                metadata,
+            )
+        return found

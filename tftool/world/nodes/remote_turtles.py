@@ -1,0 +1,175 @@
+"""Turtles of a simulator in another process, as far as that tells of them."""
+
+import asyncio
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, Final
+
+from tftool.base.errors import TftoolError
+from tftool.base.stamps import Stamp, seconds
+from tftool.messages.classes import INTERFACES
+from tftool.messages.parameter_values import value_of
+from tftool.messages.turtle_messages import message_class
+from tftool.messages.turtle_values import BACKGROUND, Color, Pose2D
+from tftool.world.endpoints import PUBLISHER
+from tftool.world.node import Node
+from tftool.world.nodes.drawings import SERVICE, FarDrawing
+from tftool.world.nodes.trail import Segment, Trail
+from tftool.world.nodes.turtle import PEN_COLOR, PEN_WIDTH
+from tftool.world.nodes.turtlesim import BACKGROUND_PARAMETERS
+from tftool.world.world import World
+
+SILENT: Final = seconds(1)
+"""A turtle that sends no pose for so long is gone, or its simulator is."""
+
+MOST: Final = 50
+"""How many turtles are subscribed to at most: each sends 62 poses a second."""
+
+PERIOD: Final = seconds(0.05)
+"""How often the simulator is asked for new strokes while a turtle moves."""
+
+RESTING: Final = seconds(0.5)
+"""How often it is asked for its background, and while no turtle moves for strokes."""
+
+PATIENCE: Final = 2.0
+"""Seconds an answer may take."""
+
+_POSE: Final = "/pose"
+
+
+@dataclass(slots=True)
+class FarTurtle:
+    """What is known of a turtle elsewhere.
+
+    Attributes:
+        name: Its name.
+        pose: The pose it sent last.
+        heard: When that came.
+        wall_hits: How often it met the wall, which no topic tells.
+    """
+
+    name: str
+    pose: Pose2D
+    heard: Stamp
+    wall_hits: int = 0
+
+
+class FarTurtles(Node):
+    """A simulator as it is seen from another process: drawn as the simulator is.
+
+    The background is asked of the node that sends the poses, by its parameters; the strokes of
+    the pens too, where it is a simulator of ours. Topics of ROS 2's own turtlesim tell no pen:
+    there the trail is what turtles drew since the first look if all have the pen they begin with.
+
+    Attributes:
+        trail: What the pens drew.
+        background: The field's colour.
+        revision: A number that changes whenever the picture does.
+    """
+
+    is_shown: ClassVar[bool] = False
+
+    def __init__(self, world: World, name: str = "far_turtles") -> None:
+        """Look at the turtles that are there or come, the first fifty of them."""
+        super().__init__(world, name)
+        self.trail = Trail()
+        self.background: Color = BACKGROUND
+        self.revision = 0
+        self._known: dict[str, FarTurtle] = {}
+        self._listened_to: set[str] = set()
+        self._drawing = FarDrawing(self.trail)
+        # Turtles whose strokes their simulator tells.
+        self._told: frozenset[str] = frozenset()
+        self._until_end(world.watch(self._look, name))
+        self._look()
+
+    @property
+    def turtles(self) -> Mapping[str, FarTurtle]:
+        """Every turtle that is heard of by its name, in the order of the names."""
+        since = self.world.clock.now() - SILENT
+        there = {name: one for name, one in sorted(self._known.items()) if one.heard >= since}
+        return MappingProxyType(there)
+
+    async def run(self) -> None:
+        """Ask the simulator for what no topic tells."""
+        asked, drawn = -RESTING, -1
+        async for now in self.every(PERIOD, immediately=True):
+            simulator = self._simulator()
+            is_due = now >= asked + RESTING
+            if is_due:
+                asked = now
+                await self._ask_background(simulator)
+            if is_due or self.revision != drawn or not self._drawing.is_whole:
+                drawn = self.revision
+                await self._ask_strokes(simulator)
+
+    def _simulator(self) -> str:
+        """The node that sends the poses of the first turtle; "" where that is not known."""
+        return next(filter(None, map(self._sender, self.turtles)), "")
+
+    def _sender(self, turtle: str) -> str:
+        """The node that sends the poses of a turtle; "" where that is not known."""
+        return next((one.node for one in self.world.endpoints.of(turtle + _POSE, PUBLISHER)), "")
+
+    async def _ask_background(self, simulator: str) -> None:
+        kind: Any = INTERFACES.find("rcl_interfaces", "srv", "GetParameters")
+        request = kind.Request(names=list(BACKGROUND_PARAMETERS))
+        told = await self._ask(f"{simulator}/get_parameters", request)
+        channels = [] if told is None else [value_of(one) for one in told.values]
+        if len(channels) == 3 and all(type(one) is int for one in channels):
+            background = Color(*(min(max(one, 0), 255) for one in channels))
+            if background != self.background:
+                self.background = background
+                self.revision += 1
+
+    async def _ask_strokes(self, simulator: str) -> None:
+        request = self._drawing.request()
+        told = await self._ask(f"{simulator}/{SERVICE}", request)
+        if told is None:
+            self._told = frozenset()
+        else:
+            self._told = frozenset(one for one in self.turtles if self._sender(one) == simulator)
+            self._drawing.take(told)
+
+    async def _ask(self, service: str, request: Any) -> Any:
+        """The answer; None where there is none, as from another release or after it has left."""
+        if not self.world.has_service(service):
+            return None
+        try:
+            async with asyncio.timeout(PATIENCE):
+                return await self.world.call(service, request)
+        except (TftoolError, TimeoutError):
+            return None
+
+    def _look(self) -> None:
+        pose = message_class(Pose2D)
+        for name, topic in tuple(self.world.topics().items()):
+            if len(self._listened_to) >= MOST:
+                return
+            if name.endswith(_POSE) and topic.kind is pose and name not in self._listened_to:
+                turtle = name.removesuffix(_POSE)
+                # Noted first: to subscribe may call this again.
+                self._listened_to.add(name)
+                poses = self.world.value_topic(topic, Pose2D)
+                self._until_end(poses.subscribe(self._taker(turtle), self.name))
+
+    def _taker(self, name: str) -> Callable[[Pose2D], None]:
+        def take(pose: Pose2D) -> None:
+            now = self.world.clock.now()
+            turtle = self._known.get(name)
+            if turtle is None or turtle.heard < now - SILENT:
+                if not self.turtles and not self._told:
+                    # The first, or the first of another simulator, on an empty sheet.
+                    self.trail.wipe()
+                self._known[name] = FarTurtle(name, pose, now)
+                self.revision += 1
+                return
+            before, turtle.pose, turtle.heard = turtle.pose, pose, now
+            if pose != before:
+                self.revision += 1
+            if (pose.x, pose.y) != (before.x, before.y) and name not in self._told:
+                ends = (before.x, before.y, pose.x, pose.y)
+                self.trail.draw(Segment(*ends, PEN_COLOR, PEN_WIDTH))
+
+        return take

@@ -1,0 +1,174 @@
+"""The topics, services and the action of one turtle of the simulator."""
+
+import math
+from collections.abc import Awaitable, Callable
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.geometry.motion.twist import Twist2D
+from tftool.geometry.motion.unicycle import FIELD, Placement, float32_finite
+from tftool.messages.turtle_values import (
+    Color,
+    Pose2D,
+    RotateAbsolute,
+    Rotated,
+    SetPen,
+    Spawn,
+    TeleportAbsolute,
+    TeleportRelative,
+)
+from tftool.world.doors import ValueGoal
+from tftool.world.nodes.tick_queue import MOST_WAITING, TickQueue
+from tftool.world.nodes.turtle import Say, Turtle
+from tftool.world.world import World
+
+
+class TurtlePorts:
+    """A turtle's topics, services and action; what comes in waits for the next tick.
+
+    Attributes:
+        pose: Where its poses go.
+        color: Where the readings of its colour sensor go.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        node: str,
+        prefix: str,
+        turtle: Turtle,
+        queue: TickQueue,
+        say: Say,
+        is_holonomic: Callable[[], bool],
+    ) -> None:
+        """Open them all.
+
+        Args:
+            world: Where.
+            node: The simulator's name.
+            prefix: Put before the turtle's name; empty, or ends with a slash.
+            turtle: Whose.
+            queue: Where work waits for the next tick.
+            say: Takes log lines.
+            is_holonomic: Tells whether linear.y of a command counts now.
+        """
+        self._world, self._prefix, self._turtle = world, f"{prefix}{turtle.name}/", turtle
+        self._queue, self._say, self._is_holonomic = queue, say, is_holonomic
+        self._gone = False
+        self._told: Stamp | None = None
+        self.pose = world.publisher(node, f"{self._prefix}pose", Pose2D)
+        self.color = world.publisher(node, f"{self._prefix}color_sensor", Color)
+        for publisher in (self.pose, self.color):
+            world.topic(publisher.name, publisher.kind)
+        self._stops = [
+            self.pose.close,
+            self.color.close,
+            world.subscribe(node, f"{self._prefix}cmd_vel", Twist2D, self._on_command),
+            *(
+                world.serve(self._prefix + name, handler, kind, node=node, shares=True)
+                for name, handler, kind in (
+                    ("teleport_absolute", self._on_teleport_absolute, TeleportAbsolute),
+                    ("teleport_relative", self._on_teleport_relative, TeleportRelative),
+                    ("set_pen", self._on_set_pen, SetPen),
+                )
+            ),
+            world.serve_action(
+                f"{self._prefix}rotate_absolute",
+                self._on_rotate,
+                RotateAbsolute,
+                node=node,
+                shares=True,
+            ),
+        ]
+
+    def close(self) -> None:
+        """Close them all, and abort a goal that is under way."""
+        for stop in self._stops:
+            stop()
+        self._stops.clear()
+        self._gone = True
+        self._turtle.leave()
+
+    def remove_topics(self) -> None:
+        """Forget the topics without a subscriber; the next turtle of that name uses the others."""
+        for what in ("pose", "color_sensor", "cmd_vel"):
+            topic = self._world.topics().get(self._prefix + what)
+            if topic is not None and not topic.subscribers:
+                self._world.remove_topic(topic.name)
+
+    def _on_command(self, twist: Twist2D) -> None:
+        if all(map(math.isfinite, (twist.linear_x, twist.linear_y, twist.angular_z))):
+            if not self._queue.put(
+                lambda tick: self._turtle.command(twist, self._is_holonomic(), tick, self._say)
+            ):
+                self._ignore(f": {MOST_WAITING} wait for the next tick already")
+        else:
+            self._ignore(f" that is not finite: {twist}")
+
+    def _ignore(self, why: str) -> None:
+        now = self._world.clock.now()
+        # A broken sender sends many: logged once a second.
+        if self._told is None or now - self._told >= NANOSECONDS:
+            self._told = now
+            self._say("WARN", f"Ignoring a velocity command for [{self._turtle.name}]{why}")
+
+    def _on_teleport_absolute(self, request: TeleportAbsolute) -> Awaitable[None]:
+        x, y, theta = requested_placement(request)
+        # Above the field means the top edge, without a word; the other sides meet the wall.
+        there = Placement(x, min(y, FIELD), theta)
+        return self._queue.ask(lambda _: self._turtle.teleport(lambda _: there))
+
+    def _on_teleport_relative(self, request: TeleportRelative) -> Awaitable[None]:
+        linear = float32_finite(request.linear, "linear")
+        angular = float32_finite(request.angular, "angular")
+
+        def there(place: Placement) -> Placement:
+            theta = place.theta + angular
+            return Placement(
+                place.x + math.cos(theta) * linear, place.y + math.sin(theta) * linear, theta
+            )
+
+        return self._queue.ask(lambda _: self._turtle.teleport(there))
+
+    def _on_set_pen(self, request: SetPen) -> Awaitable[None]:
+        color = Color(
+            require_byte(request.r, "r"), require_byte(request.g, "g"), require_byte(request.b, "b")
+        )
+        width, off = require_byte(request.width, "width"), bool(require_byte(request.off, "off"))
+        return self._queue.ask(lambda _: self._turtle.set_pen(color, width, off))
+
+    def _on_rotate(self, goal: ValueGoal) -> None:
+        goal.request = RotateAbsolute(float32_finite(goal.request.theta, "theta"))
+
+        def rotate(_: Stamp) -> None:
+            if self._gone:
+                goal.finish("aborted", Rotated(0.0))
+            else:
+                self._turtle.rotate(goal, self._say)
+
+        if not self._queue.put(rotate):
+            goal.finish("aborted", Rotated(0.0))
+
+
+def requested_placement(request: Spawn | TeleportAbsolute) -> Placement:
+    """Round a request's x, y and theta to 32 bits.
+
+    Raises:
+        UsageError: If one of them is NaN, infinite or too large for that.
+    """
+    return Placement(
+        float32_finite(request.x, "x"),
+        float32_finite(request.y, "y"),
+        float32_finite(request.theta, "theta"),
+    )
+
+
+def require_byte(value: int, what: str) -> int:
+    """Give a channel's value back, or refuse it by name.
+
+    Raises:
+        UsageError: If it is not a whole number from 0 to 255.
+    """
+    if not (isinstance(value, int) and 0 <= value <= 255):
+        raise UsageError(f"{what} must be a whole number from 0 to 255, not {value!r}")
+    return int(value)

@@ -1,0 +1,163 @@
+"""turtle_teleop_key: arrow keys drive a turtle, eight letters round F turn it."""
+
+import asyncio
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Literal
+
+from tftool.base.errors import TftoolError
+from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_values import KeyPress, RotateAbsolute
+from tftool.world.doors import Goal
+from tftool.world.node import Node
+from tftool.world.nodes.turtle import require_turtle_name
+from tftool.world.world import World
+
+BANNER = (
+    "Reading from keyboard",
+    "---------------------------",
+    "Use arrow keys to move the turtle.",
+    "Use g|b|v|c|d|e|r|t keys to rotate to absolute orientations. 'f' to cancel a rotation.",
+    "'q' to quit.",
+)
+"""What teleop prints at its start, line by line."""
+
+SCALE_LINEAR = 2.0
+"""Speed of the arrow keys in m/s, unless a parameter says otherwise."""
+
+SCALE_ANGULAR = 2.0
+"""Turn rate of the arrow keys in rad/s, unless a parameter says otherwise."""
+
+MOST_SENDING = 100
+"""How many goals may be on their way to the simulator; further keys are ignored meanwhile."""
+
+Action = Literal["cmd_vel", "rotate", "cancel", "quit"]
+
+
+@dataclass(frozen=True, slots=True)
+class KeyMeaning:
+    """What a key does.
+
+    Attributes:
+        action: Drive, turn to a heading, give the turning up, or quit.
+        linear: For `cmd_vel`: the share of scale_linear, from -1 to 1.
+        angular: For `cmd_vel`: the share of scale_angular, from -1 to 1.
+        theta: For `rotate`: the heading in radians.
+        meaning: A word or two for a help line.
+    """
+
+    action: Action
+    meaning: str
+    linear: float = 0.0
+    angular: float = 0.0
+    theta: float = 0.0
+
+
+KEYS: Mapping[str, KeyMeaning] = MappingProxyType(
+    {
+        "up": KeyMeaning("cmd_vel", "forward", linear=1.0),
+        "down": KeyMeaning("cmd_vel", "back", linear=-1.0),
+        "left": KeyMeaning("cmd_vel", "turn left", angular=1.0),
+        "right": KeyMeaning("cmd_vel", "turn right", angular=-1.0),
+        "g": KeyMeaning("rotate", "east", theta=0.0),
+        "t": KeyMeaning("rotate", "north-east", theta=0.7854),
+        "r": KeyMeaning("rotate", "north", theta=1.5708),
+        "e": KeyMeaning("rotate", "north-west", theta=2.3562),
+        "d": KeyMeaning("rotate", "west", theta=3.1416),
+        "c": KeyMeaning("rotate", "south-west", theta=-2.3562),
+        "v": KeyMeaning("rotate", "south", theta=-1.5708),
+        "b": KeyMeaning("rotate", "south-east", theta=-0.7854),
+        "f": KeyMeaning("cancel", "cancel a rotation"),
+        "q": KeyMeaning("quit", "quit"),
+    }
+)
+"""Every key that does something. The letters form a ring round F on a keyboard."""
+
+
+class Teleop(Node):
+    """Turn keys into commands for a turtle; one press is one message.
+
+    Keys come from `press` and from the topic `keys`. Stopping is the simulator's
+    timeout. Parameters, read at every press: scale_linear, scale_angular.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "teleop_turtle",
+        *,
+        turtle: str = "turtle1",
+        scale_linear: float = SCALE_LINEAR,
+        scale_angular: float = SCALE_ANGULAR,
+    ) -> None:
+        """Join the world.
+
+        Args:
+            world: Where to live.
+            name: The node's name.
+            turtle: The turtle to drive; a simulator's namespace may stand in front.
+            scale_linear: Speed of the arrow keys in m/s.
+            scale_angular: Turn rate of the arrow keys in rad/s.
+
+        Raises:
+            UsageError: If `turtle` cannot be a turtle's name.
+        """
+        for part in turtle.split("/"):
+            require_turtle_name(part)
+        super().__init__(world, name)
+        self.turtle = turtle
+        self.declare_parameter("scale_linear", float(scale_linear))
+        self.declare_parameter("scale_angular", float(scale_angular))
+        self._goal: Goal | None = None
+        self._sending = 0
+        self._quit = asyncio.Event()
+
+    async def run(self) -> None:
+        """Take keys from the topic `keys` until one says to quit."""
+        self.publisher(f"{self.turtle}/cmd_vel", Twist2D)
+        stop = self.subscribe("keys", KeyPress, lambda pressed: self.press(pressed.key))
+        try:
+            await self._quit.wait()
+        finally:
+            stop()
+
+    def press(self, key: str) -> Action | None:
+        """Do what a key says.
+
+        Args:
+            key: "up", "down", "left", "right" or a letter of either case.
+
+        Returns:
+            The kind of what was done; None for a key that does nothing.
+        """
+        meaning = KEYS.get(key.lower())
+        if meaning is None:
+            return None
+        if meaning.action == "cmd_vel":
+            linear = meaning.linear * float(self.get_parameter("scale_linear"))
+            angular = meaning.angular * float(self.get_parameter("scale_angular"))
+            # Nothing plus nothing: a key that does not turn must not send minus zero.
+            self.publish(f"{self.turtle}/cmd_vel", Twist2D(linear + 0.0, angular + 0.0))
+        elif meaning.action == "rotate":
+            # Keys come from a topic as well, and its publisher may never pause.
+            if self._sending < MOST_SENDING:
+                self._sending += 1
+                self.start_soon(self._rotate(meaning.theta))
+        elif meaning.action == "cancel":
+            # Without a goal, or when it has ended by now, there is nothing to cancel.
+            if self._goal is not None:
+                self._goal.cancel()
+        else:
+            self._quit.set()
+        return meaning.action
+
+    async def _rotate(self, theta: float) -> None:
+        try:
+            self._goal = await self.world.send_goal(
+                f"{self.turtle}/rotate_absolute", RotateAbsolute(theta)
+            )
+        except TftoolError as refusal:
+            self.warn(f"{self.turtle} cannot be turned: {refusal}")
+        finally:
+            self._sending -= 1

@@ -1,0 +1,285 @@
+"""turtlesim: the field, its turtles, and every service, topic and action they have."""
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import ClassVar
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import Stamp
+from tftool.geometry.motion.unicycle import CENTRE, TICK, Placement
+from tftool.messages.turtle_values import BACKGROUND, Clear, Color, Kill, Reset, Spawn, Spawned
+from tftool.world.clock import Phase
+from tftool.world.log import Level
+from tftool.world.node import Node
+from tftool.world.nodes.drawings import DrawingService
+from tftool.world.nodes.parameter_services import ParameterServices
+from tftool.world.nodes.tick_queue import TickQueue
+from tftool.world.nodes.trail import Segment, Trail
+from tftool.world.nodes.turtle import Turtle, require_turtle_name, shown
+from tftool.world.nodes.turtle_ports import TurtlePorts, requested_placement, require_byte
+from tftool.world.parameters import Value
+from tftool.world.world import World
+
+MOST_TURTLES = 1000
+"""How many turtles there may be at once: every one is updated at every tick."""
+
+BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
+
+
+class Turtlesim(Node):
+    """The turtle simulator, on a grid of 16 ms.
+
+    Whatever arrives (commands, services, goals) waits for the next tick; then every
+    turtle is updated once, in the order of the names. Topics of a turtle: `pose` out
+    at every tick, `cmd_vel` in, `color_sensor` out at every tick while it
+    has subscribers. Services: spawn, kill, clear, reset, and of each turtle
+    teleport_absolute, teleport_relative, set_pen. Action of each turtle: rotate_absolute.
+
+    Parameters: background_r, background_g, background_b (0 to 255), holonomic.
+
+    Attributes:
+        trail: What the pens drew.
+        revision: A number that changes whenever the picture does.
+    """
+
+    phase: ClassVar[Phase] = Phase.SIMULATE
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "turtlesim",
+        *,
+        holonomic: bool = False,
+        background: Color = BACKGROUND,
+        turtles: Sequence[Spawn] = (),
+        namespace: str = "",
+    ) -> None:
+        """Join the world.
+
+        Args:
+            world: Where to live.
+            name: The node's name.
+            holonomic: Whether linear.y of a command counts.
+            background: Colour of the field.
+            turtles: Further turtles to start with; turtle1 is always there.
+            namespace: Put before the name of every topic, service and action.
+
+        Raises:
+            UsageError: If a channel of `background` is not from 0 to 255.
+        """
+        super().__init__(world, name)
+        self.trail = Trail()
+        self.revision = 0
+        for parameter, value in zip(
+            BACKGROUND_PARAMETERS, (background.r, background.g, background.b), strict=True
+        ):
+            self.declare_parameter(parameter, require_byte(value, parameter))
+        self.declare_parameter("holonomic", holonomic)
+        self.parameters.on_change(self._repaint)
+        self._prefix = f"{namespace.strip('/')}/" if namespace.strip("/") else ""
+        self._initial = tuple(turtles)
+        self._turtles: dict[str, Turtle] = {}
+        self._ports: dict[str, TurtlePorts] = {}
+        self._counter = 0
+        self._queue = TickQueue(world.clock)
+
+    # What others may see
+
+    @property
+    def turtles(self) -> Mapping[str, Turtle]:
+        """Every turtle by its name, in the order of the names; to be read only."""
+        return MappingProxyType(self._turtles)
+
+    @property
+    def background(self) -> Color:
+        """The field's colour as the parameters say now, held within 0 to 255."""
+        r, g, b = (
+            min(max(int(self.get_parameter(name)), 0), 255) for name in BACKGROUND_PARAMETERS
+        )
+        return Color(r, g, b)
+
+    def color_under(self, name: str) -> Color:
+        """What the colour sensor of a turtle reads at this moment.
+
+        Raises:
+            KeyError: If there is no such turtle.
+        """
+        place = self._turtles[name].place
+        return self.trail.color_at(place.x, place.y)
+
+    def set_parameter(self, name: str, value: Value) -> None:
+        """Change a parameter.
+
+        Raises:
+            UsageError: If there is no such parameter, or it takes other values.
+        """
+        if name in BACKGROUND_PARAMETERS and type(value) is int:
+            require_byte(value, name)
+        super().set_parameter(name, value)
+
+    # Living
+
+    async def run(self) -> None:
+        """Simulate until the end."""
+        # Two simulators in one world carry their namespace in their names as well.
+        name = self.name.removeprefix(self._prefix)
+        self.info(f"Starting turtlesim with node name /{self._prefix}{name}")
+        there = self.world.services().get(f"{self._prefix}spawn")
+        if there is not None and not there.is_remote:
+            # As in ROS 2 both move on one cmd_vel, and one of them answers services.
+            self.warn(
+                f"'{there.node}' answers the services here already: give this simulator a "
+                "namespace of its own (-r __ns:=/sim2), or the two share every topic"
+            )
+        for service, handler, kind in (
+            ("spawn", self._on_spawn, Spawn),
+            ("kill", self._on_kill, Kill),
+            ("clear", self._on_clear, Clear),
+            ("reset", self._on_reset, Reset),
+        ):
+            self.serve(self._prefix + service, handler, kind, shares=True)
+        ParameterServices(self)
+        DrawingService(self, self.trail)
+        start = self.clock.now()
+        self._turtles, self._counter = {}, 0
+        self._spawn(Placement(CENTRE, CENTRE, 0.0), "", start)
+        for one in self._initial:
+            self._spawn(requested_placement(one), one.name, start)
+
+        first = True
+        async for now in self.every(TICK, immediately=True):
+            self._queue.deliver(now)
+            if first:
+                # turtlesim's first tick moves no turtle; the start is published all the same.
+                first = False
+                for name, turtle in self._turtles.items():
+                    self._ports[name].pose.publish(turtle.pose)
+            else:
+                self._update(now)
+
+    def close(self) -> None:
+        """Withdraw everything, and refuse the requests that still wait.
+
+        The turtles stay where they are, for a look at the end.
+        """
+        for ports in self._ports.values():
+            ports.close()
+        self._ports.clear()
+        self._queue.close(f"simulator '{self.name}' has left")
+        super().close()
+
+    def _update(self, now: Stamp) -> None:
+        for name, turtle in tuple(self._turtles.items()):
+            ports = self._ports.get(name)
+            if ports is None:  # a subscriber of a pose removed the simulator
+                return
+            before = turtle.pose
+            stroke = turtle.update(now, self._say, self._draw)
+            ports.pose.publish(turtle.pose)
+            if ports.color.subscribers:
+                ports.color.publish(self.color_under(name))
+            if stroke is not None:
+                self.trail.draw(stroke)
+            if turtle.pose is not before:
+                self.revision += 1
+
+    # Turtles come and go
+
+    def _spawn(self, place: Placement, name: str, now: Stamp) -> str:
+        """Make a turtle; the empty string says that the name was refused."""
+        if not name:
+            name = self._next_name()
+        elif name in self._turtles:
+            self.error(f"A turtle named [{name}] already exists")
+            return ""
+        refusal = self._refusal(name)
+        if refusal:
+            self.error(f"No turtle was spawned: {refusal}")
+            return ""
+        turtle = Turtle(name, place, now)
+        # Kept in the order of the names: that is the order of updates and of drawing.
+        self._turtles = dict(sorted({**self._turtles, name: turtle}.items()))
+        self._ports[name] = TurtlePorts(
+            self.world, self.name, self._prefix, turtle, self._queue, self._say, self._is_holonomic
+        )
+        self.revision += 1
+        self.info(
+            f"Spawning turtle [{name}] at x=[{place.x:f}], y=[{place.y:f}], theta=[{place.theta:f}]"
+        )
+        return name
+
+    def _refusal(self, name: str) -> str:
+        """Why there can be no further turtle of that name; empty when there can."""
+        if len(self._turtles) >= MOST_TURTLES:
+            return f"there are {MOST_TURTLES} already, kill one first"
+        try:
+            require_turtle_name(name)
+        except UsageError as refusal:
+            return str(refusal)
+        return ""
+
+    def _next_name(self) -> str:
+        while True:
+            self._counter += 1
+            name = f"turtle{self._counter}"
+            if name not in self._turtles:
+                return name
+
+    def _remove(self, name: str) -> None:
+        del self._turtles[name]
+        ports = self._ports.pop(name)
+        ports.close()
+        ports.remove_topics()
+        self.revision += 1
+
+    # What is asked of the simulator
+
+    async def _on_spawn(self, request: Spawn) -> Spawned:
+        place = requested_placement(request)
+        return await self._queue.ask(lambda tick: Spawned(self._spawn(place, request.name, tick)))
+
+    async def _on_kill(self, request: Kill) -> None:
+        def kill(_: Stamp) -> None:
+            if request.name in self._turtles:
+                self._remove(request.name)
+            else:
+                self.error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
+
+        await self._queue.ask(kill)
+
+    async def _on_clear(self, _: Clear) -> None:
+        def clear(_: Stamp) -> None:
+            self.info("Clearing turtlesim.")
+            self._wipe()
+
+        await self._queue.ask(clear)
+
+    async def _on_reset(self, _: Reset) -> None:
+        def reset(tick: Stamp) -> None:
+            self.info("Resetting turtlesim.")
+            for name in list(self._turtles):
+                self._remove(name)
+            self._counter = 0
+            self._spawn(Placement(CENTRE, CENTRE, 0.0), "", tick)
+            self._wipe()
+
+        await self._queue.ask(reset)
+
+    # Little things
+
+    def _is_holonomic(self) -> bool:
+        return bool(self.get_parameter("holonomic"))
+
+    def _wipe(self) -> None:
+        self.trail.wipe()
+        self.revision += 1
+
+    def _repaint(self, name: str, value: Value) -> None:
+        self.revision += 1
+
+    def _draw(self, segment: Segment) -> None:
+        self.trail.draw(segment)
+        self.revision += 1
+
+    def _say(self, level: Level, text: str) -> None:
+        self.world.log.add(level, self.name, text)

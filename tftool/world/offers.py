@@ -1,0 +1,92 @@
+"""What a world knows of the services and actions that are served."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, Generic, TypeVar
+
+from tftool.base.errors import TftoolError
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Offer(Generic[T]):
+    """A service or an action.
+
+    Attributes:
+        take: What answers requests, or takes goals.
+        kind: The ROS class of the service or action. None where it is not stated; it stays inside
+            the process then, and takes anything.
+        node: The node that answers, "" where it is not stated.
+        is_remote: Whether another process answers; a server here takes its place.
+    """
+
+    take: T
+    kind: Any = None
+    node: str = ""
+    is_remote: bool = False
+
+
+class NamedOffers(Generic[T]):
+    """Services, or actions, by name: who answers each, and who does from when that leaves.
+
+    Attributes:
+        by_name: Who answers, read-only.
+    """
+
+    def __init__(self, what: str, changed: Callable[[], object]) -> None:
+        """Begin with none.
+
+        Args:
+            what: What they are: "service", "action".
+            changed: Called when one comes or goes.
+        """
+        self._what = what
+        self._changed = changed
+        self._first: dict[str, Offer[T]] = {}
+        self._next: dict[str, list[Offer[T]]] = {}
+        self.by_name: Mapping[str, Offer[T]] = MappingProxyType(self._first)
+
+    def add(self, name: str, offer: Offer[T], *, shares: bool) -> Callable[[], None]:
+        """Take one more in; call what is returned to take it out.
+
+        Args:
+            name: What it is called.
+            offer: Who answers.
+            shares: Whether another of this process may have that name already.
+
+        Raises:
+            TftoolError: If another has, and it may not.
+        """
+        name = name.removeprefix("/")
+        if name in self._first and not self._first[name].is_remote:
+            if not shares:
+                raise TftoolError(f"{self._what} '{name}' is served already")
+            self._next.setdefault(name, []).append(offer)
+        else:
+            self._first[name] = offer
+            self._changed()
+
+        def stop() -> None:
+            later = [one for one in self._next.pop(name, ()) if one is not offer]
+            leads = self._first.get(name) is offer
+            if leads:
+                del self._first[name]
+                if later:
+                    self._first[name] = later.pop(0)
+            if later:
+                self._next[name] = later
+            if leads:
+                self._changed()
+
+        return stop
+
+    def get(self, name: str) -> Offer[T] | None:
+        """Who answers; None where none does."""
+        return self._first.get(name.removeprefix("/"))
+
+    def count(self, name: str) -> int:
+        """How many would answer in turn."""
+        plain = name.removeprefix("/")
+        return (plain in self._first) + len(self._next.get(plain, ()))

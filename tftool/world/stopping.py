@@ -1,0 +1,334 @@
+"""Stopping a run, whatever its nodes do.
+
+A thread of its own takes the signals and watches the loop, because a node that never awaits
+keeps the loop from doing either. The first signal cancels the run; what has not returned after
+two seconds is named; the second signal ends the process. A run with an end by its own clock is
+ended in the same way when a node holds up the loop beyond it.
+"""
+
+import asyncio
+import contextlib
+import os
+import signal
+import socket
+import sys
+import threading
+import weakref
+from collections.abc import Callable, Iterable
+from types import FrameType
+from typing import Any, Final
+
+from tftool.base.errors import is_users_file
+from tftool.base.listeners import Listeners
+
+PATIENCE: Final = 2.0
+"""Real seconds a node may take to return, once it was asked to."""
+
+STANDSTILL: Final = 20.0
+"""Real seconds a node may hold up simulated time, in a run that is to end by that time."""
+
+INTERRUPTED: Final = 130
+FAILED: Final = 1
+"""Exit statuses of a process that is ended while a node still runs."""
+
+_SIGNALS: Final = (signal.SIGINT, signal.SIGTERM)
+_MOST_NAMED = 3
+_LEAVE_SCREEN = (
+    b"\x1b[<u\x1b[?1000l\x1b[?1003l\x1b[?1015l\x1b[?1006l\x1b[?1004l\x1b[?2004l\x1b[?1049l\x1b[?25h"
+)
+
+
+class Overdue(BaseException):
+    """Raised inside a node that holds up the loop beyond the end of the run.
+
+    Not an `Exception`, so that a node that catches those and goes on is ended, too.
+    """
+
+
+class Stopper:
+    """What ends one run of an event loop.
+
+    Attributes:
+        interrupted: Whether a signal has come.
+    """
+
+    def __init__(
+        self,
+        loop: asyncio.AbstractEventLoop,
+        task: "asyncio.Task[Any]",
+        now: Callable[[], float],
+        on_interrupt: Callable[[], object],
+        when_killed: Listeners[()],
+    ) -> None:
+        """Take the signals, where this is the main thread.
+
+        Args:
+            loop: The loop that runs, on the calling thread.
+            task: What the first signal cancels.
+            now: Real seconds that pass.
+            on_interrupt: Called at the first signal, at once, on any thread.
+            when_killed: Called before the process is ended while the loop still runs.
+        """
+        self.interrupted = False
+        self._loop = loop
+        self._task = task
+        self._now = now
+        self._on_interrupt = on_interrupt
+        self._when_killed = when_killed
+        self._loop_thread = threading.get_ident()
+        self._over = False
+        self._interrupted_at: float | None = None
+        self._deadline: float | None = None
+        self._standstill: float | None = None
+        self._asked_at: float | None = None
+        self._raised_at: float | None = None
+        self._thread: threading.Thread | None = None
+        self._inbox, self._outbox = socket.socketpair()
+        self._outbox.setblocking(False)
+        self._handlers: dict[signal.Signals, Any] = {}
+        self._wakeup_fd = -1
+        self._terminal = _terminal_settings()
+        if threading.current_thread() is threading.main_thread():
+            self._wakeup_fd = signal.set_wakeup_fd(self._outbox.fileno(), warn_on_full_buffer=False)
+            for number in _SIGNALS:
+                self._handlers[number] = signal.signal(number, _pass_over)
+            self._begin()
+
+    def limit(self, deadline: float | None, standstill: float | None = None) -> None:
+        """Say when the run is to end, or that it has ended by itself.
+
+        Args:
+            deadline: Real seconds from now until the end; None for no end in real time.
+            standstill: Real seconds for which a node may hold up the loop; None for any.
+        """
+        self._deadline = None if deadline is None else self._now() + deadline
+        self._standstill = standstill
+        self._asked_at = self._raised_at = None
+        if deadline is not None or standstill is not None:
+            self._begin()
+            self._poke()
+
+    def close(self) -> None:
+        """Give the signals back to their former handlers."""
+        self._over = True
+        for number, before in self._handlers.items():
+            if before is not None:
+                signal.signal(number, before)
+        if self._handlers:
+            signal.set_wakeup_fd(self._wakeup_fd)
+        if self._thread is not None:
+            self._poke()
+            self._thread.join()
+        self._inbox.close()
+        self._outbox.close()
+
+    def _begin(self) -> None:
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._watch, name="stopper", daemon=True)
+            self._thread.start()
+
+    def _poke(self) -> None:
+        with contextlib.suppress(BlockingIOError):
+            self._outbox.send(b"\0")
+
+    # On the thread of its own
+
+    def _watch(self) -> None:
+        while not self._over:
+            self._inbox.settimeout(self._pause())
+            try:
+                received = self._inbox.recv(64)
+            except TimeoutError:
+                received = b""
+            for number in received:
+                if number in _SIGNALS:
+                    self._caught()
+                elif number:
+                    # Another signal: its handler runs once the loop's thread wakes up.
+                    self._ask(_nothing)
+            if not self._over:
+                self._look()
+
+    def _pause(self) -> float | None:
+        """Real seconds until there may be something to do without a signal."""
+        waits = []
+        if self._interrupted_at is not None:
+            waits.append(self._interrupted_at + PATIENCE - self._now())
+        if self._deadline is not None:
+            waits.append(self._deadline - self._now())
+        if self._asked_at is not None or self._raised_at is not None:
+            waits.append(PATIENCE / 4)
+        if self._standstill is not None:
+            waits.append(self._standstill / 4)
+        waits = [wait for wait in waits if wait > 0.0]
+        return min(waits) + 0.01 if waits else None
+
+    def _caught(self) -> None:
+        if self.interrupted:
+            self._kill(INTERRUPTED)
+        self.interrupted = True
+        self._interrupted_at = self._now()
+        self._on_interrupt()
+        self._ask(self._task.cancel)
+
+    def _look(self) -> None:
+        now = self._now()
+        if self._interrupted_at is not None and now >= self._interrupted_at + PATIENCE:
+            self._interrupted_at = None
+            for name in self._not_returned():
+                _say(f"{name} has not returned for {PATIENCE:g} s; Ctrl-C again ends it")
+        if self._raised_at is not None:
+            if now >= self._raised_at + PATIENCE:
+                for name in self._not_returned():
+                    _say(f"{name} has not returned after the end of the run, which ends it")
+                self._kill(FAILED)
+            return
+        due = self._deadline is not None and now >= self._deadline
+        if self._asked_at is None:
+            if due or self._standstill is not None:
+                self._asked_at = now
+                self._ask(self._answered)
+            return
+        patience = PATIENCE if due else self._standstill
+        if patience is not None and now >= self._asked_at + patience:
+            self._raised_at = now
+            import ctypes  # takes as long as all of this module
+
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                ctypes.c_ulong(self._loop_thread), ctypes.py_object(Overdue)
+            )
+
+    def _answered(self) -> None:
+        """Note, on the loop's thread, that the loop runs."""
+        self._asked_at = self._raised_at = None
+
+    def _ask(self, callback: Callable[[], object]) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop has been closed
+            self._loop.call_soon_threadsafe(callback)
+
+    def _not_returned(self) -> list[str]:
+        """The nodes that still run, each with its line: the one that holds the loop, or all."""
+        current = asyncio.current_task(self._loop)
+        if current is not None:
+            frame = sys._current_frames().get(self._loop_thread)
+            return [f"{_title(current)}{_in_brackets(_line(_stack(frame)))}"]
+        try:
+            tasks = [task for task in asyncio.all_tasks(self._loop) if _is_node(task)]
+        except RuntimeError:  # they come and go faster than they can be listed
+            tasks = []
+        names = sorted(f"{_title(task)}{_in_brackets(line_of_task(task))}" for task in tasks)
+        return names[:_MOST_NAMED] or ["the run"]
+
+    def _kill(self, status: int) -> None:
+        """End the process, with the terminal as it was."""
+        self._when_killed.call()
+        if self._terminal is not None:
+            import termios
+
+            with contextlib.suppress(termios.error):
+                termios.tcsetattr(0, termios.TCSANOW, self._terminal)
+        os._exit(status)
+
+
+def leave_screen() -> None:
+    """Take a full-screen app off the terminal, for `Clock.when_killed`.
+
+    The alternate screen, the hidden cursor, and the reports of the mouse, of the focus and of
+    pasted text are undone.
+    """
+    for number in (2, 1):
+        if os.isatty(number):
+            with contextlib.suppress(OSError):
+                os.write(number, _LEAVE_SCREEN)
+            return
+
+
+def node_task_name(name: str) -> str:
+    """What a node's tasks are called, by which they are told apart from others."""
+    return f"node '{name}'"
+
+
+def abandon(task: "asyncio.Task[Any]") -> None:
+    """Let go of a task that does not heed its cancellation: nothing waits for it any more."""
+    _abandoned.add(task)
+    # asyncio's own way not to complain about it when the loop is closed.
+    task._log_destroy_pending = False  # type: ignore[attr-defined]
+
+
+def leftovers(loop: asyncio.AbstractEventLoop) -> "set[asyncio.Task[Any]]":
+    """The tasks of a loop that are not done and not abandoned."""
+    return {task for task in asyncio.all_tasks(loop) if task not in _abandoned}
+
+
+_abandoned: "weakref.WeakSet[asyncio.Task[Any]]" = weakref.WeakSet()
+
+
+def _is_node(task: "asyncio.Task[Any]") -> bool:
+    return task.get_name().startswith("node '")
+
+
+def _title(task: "asyncio.Task[Any]") -> str:
+    return task.get_name() if _is_node(task) else "the run"
+
+
+def _stack(frame: FrameType | None) -> Iterable[tuple[str, int]]:
+    """The files and lines of a stack, innermost first."""
+    while frame is not None:
+        yield frame.f_code.co_filename, frame.f_lineno
+        frame = frame.f_back
+
+
+def line_of_task(task: "asyncio.Task[Any]") -> str:
+    """The line of a user's code at which a task waits, as "busy.py:10"; "" where there is none."""
+    return _line(_awaiting(task))
+
+
+def _awaiting(task: "asyncio.Task[Any]") -> list[tuple[str, int]]:
+    """The files and lines at which a task waits, innermost first."""
+    found = []
+    waiting: Any = task.get_coro()
+    while waiting is not None:
+        frame = getattr(waiting, "cr_frame", None) or getattr(waiting, "ag_frame", None)
+        if frame is not None:
+            found.append((frame.f_code.co_filename, frame.f_lineno))
+        waiting = getattr(waiting, "cr_await", None) or getattr(waiting, "ag_await", None)
+    return found[::-1]
+
+
+def _line(lines: Iterable[tuple[str, int]]) -> str:
+    """The innermost line of a user's code, "" where there is none."""
+    for file, line in lines:
+        if is_users_file(file):
+            return f"{os.path.basename(file)}:{line}"
+    return ""
+
+
+def _in_brackets(line: str) -> str:
+    return f" ({line})" if line else ""
+
+
+def _say(sentence: str) -> None:
+    # Not by sys.stderr: the thread that is held up may be writing there.
+    text = "".join(one if one.isprintable() else "?" for one in sentence)
+    with contextlib.suppress(OSError):
+        os.write(2, f"tftool: {text}\n".encode(errors="backslashreplace"))
+
+
+def _terminal_settings() -> Any:
+    """How the terminal on stdin is set; None where there is none."""
+    try:
+        import termios
+
+        return termios.tcgetattr(0)
+    except (ImportError, OSError, ValueError):
+        return None
+    except Exception:  # termios.error, which is no OSError
+        return None
+
+
+def _pass_over(number: int, frame: FrameType | None) -> None:
+    """Do nothing: what came was written to the socket as well."""
+
+
+def _nothing() -> None:
+    """Wake the loop."""

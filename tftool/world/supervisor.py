@@ -1,0 +1,207 @@
+"""Start nodes, stop them, report the first failure."""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from typing import Any, TypeVar
+
+from tftool.base.errors import NodeFailed, TftoolError, line_of
+from tftool.base.stamps import Stamp
+from tftool.world.clock import Clock, Phase
+from tftool.world.resident import Resident, Supervision
+from tftool.world.stopping import PATIENCE, Overdue, abandon, line_of_task, node_task_name
+from tftool.world.world import World
+
+T = TypeVar("T")
+
+
+async def live(world: World, *, until: Stamp | None = None) -> None:
+    """Let a world's nodes run until an end is reached.
+
+    The end is `until` (everything due in that instant still happens), `world.stop()`,
+    or, without `until`, the return of the last node. Whatever still runs then is
+    cancelled, and its `finally` waited for.
+
+    Args:
+        world: Whose nodes to run, those that join later included.
+        until: The last moment to live through.
+
+    Raises:
+        NodeFailed: If a node raised; the first one is named, its error is the cause.
+        BrokenPipeError: If the reader of what a listener prints has gone.
+    """
+    supervisor = _Supervisor(world.clock, until is not None)
+    world.supervise(supervisor)
+    if until is not None:
+        world.clock.limit(until)
+    end = None if until is None else world.clock.timer(until, Phase.END)
+    if end is not None:
+        end.add_done_callback(lambda _: supervisor.stop())
+    try:
+        for node in list(world.nodes):
+            supervisor.start(node)
+        await supervisor.over
+    finally:
+        if end is not None:
+            end.cancel()
+        world.failure = supervisor.failure
+        # A node that starts something on its way out, or fails there, is supervised as well.
+        await supervisor.cancel()
+        world.supervise(None)
+        world.clock.limit(None)
+        world.failure = supervisor.failure
+        # Asked last: a node may also fail on its way out, of a run that was cancelled, too.
+        if supervisor.failure is not None:
+            raise supervisor.failure
+    if supervisor.error is not None:
+        raise supervisor.error
+
+
+async def beside(
+    work: Coroutine[Any, Any, T],
+    helper: Coroutine[Any, Any, object],
+    on_cancel: Callable[[], object] | None = None,
+) -> T:
+    """Do some work while a helper runs, and end the helper with it.
+
+    A helper that returns early is no reason to end the work.
+
+    Args:
+        work: What to do.
+        helper: What runs meanwhile; it begins first.
+        on_cancel: Called when both are to be cancelled from outside, before either is.
+
+    Returns:
+        What the work returns.
+
+    Raises:
+        Exception: What the helper raises, which ends the work, or what the work raises; a
+            failure of either on its way out included.
+    """
+    loop = asyncio.get_running_loop()
+    helping = loop.create_task(helper)
+    working = loop.create_task(work)
+    both = {helping, working}
+    try:
+        await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+        if not working.done():
+            helping.result()
+            await asyncio.wait({working})
+    except asyncio.CancelledError:
+        if on_cancel is not None:
+            on_cancel()
+        raise
+    finally:
+        for task in both:
+            task.cancel()
+        await asyncio.gather(*both, return_exceptions=True)
+        for task in (helping, working):
+            # A failure on the way out counts even where the work itself was cancelled.
+            if task.done() and not task.cancelled() and (error := task.exception()) is not None:
+                raise error
+    return working.result()
+
+
+class _Supervisor(Supervision):
+    """The tasks of the nodes of one run.
+
+    Attributes:
+        over: Done when the run is to end.
+        failure: The first node that failed.
+        error: What else ended the run.
+    """
+
+    def __init__(self, clock: Clock, has_end: bool) -> None:
+        self._clock = clock
+        self.over: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self.failure: NodeFailed | None = None
+        self.error: Exception | None = None
+        self._has_end = has_end
+        self._is_ending = False
+        self._nodes: list[Resident] = []
+        self._tasks: dict[asyncio.Task[Any], Resident] = {}
+
+    def start(self, resident: Resident) -> None:
+        self._nodes.append(resident)
+        self._start(resident, self._run(resident))
+
+    def start_soon(
+        self, resident: Resident, work: Coroutine[Any, Any, T]
+    ) -> "asyncio.Task[T | None]":
+        task = self._start(resident, self._guarded(resident, work))
+        # Cancelled before its first step, it would never have been awaited.
+        task.add_done_callback(lambda _: work.close())
+        return task
+
+    def end(self, resident: Resident) -> None:
+        if resident in self._nodes:
+            self._nodes.remove(resident)
+        for task, owner in self._tasks.items():
+            if owner is resident:
+                task.cancel()
+        resident.close()
+
+    def stop(self) -> None:
+        if not self.over.done():
+            self.over.set_result(None)
+
+    def fail(self, resident: Resident, error: BaseException, what: str = "") -> None:
+        if self.failure is None:
+            self.failure = NodeFailed(resident.name, error, what)
+            self.failure.__cause__ = error
+        self.stop()
+
+    def _has_not_returned(self, resident: Resident, error: BaseException, line: str) -> None:
+        line = f" ({line})" if line else ""
+        what = f"has not returned {PATIENCE:g} s after the end of the run{line}"
+        self.fail(resident, error, what)
+
+    def end_by(self, error: Exception) -> None:
+        self.error = self.error or error
+        self.stop()
+
+    async def cancel(self) -> None:
+        """Cancel what still runs, and wait for it."""
+        self._is_ending = True
+        while self._tasks:
+            tasks = list(self._tasks)
+            for task in tasks:
+                task.cancel()
+            for task in await self._clock.wait_for_end(tasks):
+                self._has_not_returned(self._tasks[task], Overdue(), line_of_task(task))
+                abandon(task)
+            # Those that were just started are looked at in the next round.
+            for task in tasks:
+                self._tasks.pop(task, None)
+        for resident in self._nodes:
+            resident.close()
+
+    def _start(self, resident: Resident, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T]":
+        task = asyncio.get_running_loop().create_task(work, name=node_task_name(resident.name))
+        self._tasks[task] = resident
+        # Not by a `finally` in it: one that leaves as it comes never gets so far as to begin.
+        task.add_done_callback(self._ended)
+        return task
+
+    async def _run(self, resident: Resident) -> None:
+        try:
+            await self._guarded(resident, resident.run())
+        except asyncio.CancelledError:
+            if resident in self._nodes and not self._is_ending:
+                self.fail(resident, TftoolError("it awaited something that was cancelled"))
+            raise
+
+    async def _guarded(self, resident: Resident, work: Coroutine[Any, Any, T]) -> T | None:
+        """Await some work of a node; what it raises is the failure of that node."""
+        try:
+            return await work
+        except Overdue as overdue:
+            self._has_not_returned(resident, overdue, line_of(overdue, users_only=True))
+        except (Exception, SystemExit) as error:
+            self.fail(resident, error)
+        return None
+
+    def _ended(self, task: "asyncio.Task[Any]") -> None:
+        # What it subscribed to goes on: many nodes only listen.
+        self._tasks.pop(task, None)
+        if not self._tasks and not self._has_end:
+            self.stop()

@@ -1,0 +1,300 @@
+"""Typed streams inside one process, and the questions that want an answer.
+
+Delivery is a direct call: `publish` has called every subscriber, in the order they
+subscribed, when it returns.
+"""
+
+import asyncio
+import itertools
+from collections import deque
+from collections.abc import AsyncIterator, Awaitable, Callable
+from dataclasses import dataclass
+from typing import Any, Generic, Literal, NamedTuple, TypeVar
+
+from tftool.base.listeners import Listeners, Report
+from tftool.world.endpoints import Endpoint
+
+T = TypeVar("T")
+
+Status = Literal["succeeded", "aborted", "canceled"]
+
+
+class Unmade(NamedTuple):
+    """A value on a topic of messages, whose message is made when it is first asked for.
+
+    Between nodes of ours it never is: to make every pose a message costs a fifth of a world.
+
+    Attributes:
+        value: The value.
+        pack: Makes the message of it.
+    """
+
+    value: Any
+    pack: Callable[[Any], Any]
+
+
+class Topic(Generic[T]):
+    """A named stream of values of one type that keeps its latest value.
+
+    Attributes:
+        name: The topic's name, without a leading slash.
+        kind: The type every value has.
+        count: How many values were published.
+        held: The value published last, as it was published.
+        on_demand: Called when a subscriber comes or goes; None without a link.
+        sender: The publisher of the value that is being delivered; None when not known.
+        relay: What carries values to other processes, told last; None without a link.
+        far_subscribers: How many listen in other processes.
+        is_far: Whether it is here only to be listed: other processes have it, and it was not
+            asked for by its name here.
+        is_removed: Whether the world has forgotten it: another one may have its name by now.
+        readers: How many subscribers take messages and no `Unmade`.
+    """
+
+    __slots__ = (
+        "_subscribers",
+        "count",
+        "far_subscribers",
+        "held",
+        "is_far",
+        "is_removed",
+        "kind",
+        "name",
+        "on_demand",
+        "readers",
+        "relay",
+        "sender",
+    )
+
+    def __init__(self, name: str, kind: type[T], report: Report | None = None) -> None:
+        """Begin without a value; `report` takes what subscribers raise, see `Listeners`."""
+        self.name = name
+        self.kind = kind
+        self.held: T | Unmade | None = None
+        self.readers = 0
+        self.count = 0
+        self.on_demand: Callable[[], object] | None = None
+        self.sender: Endpoint | None = None
+        self.relay: Callable[[T], object] | None = None
+        self.far_subscribers = 0
+        self.is_far = False
+        self.is_removed = False
+        self._subscribers: Listeners[T] = Listeners(report)
+
+    @property
+    def latest(self) -> T | None:
+        """The value published last, None before the first."""
+        if isinstance(self.held, Unmade):
+            self.held = self.held.pack(self.held.value)
+        made: Any = self.held
+        return made  # type: ignore[no-any-return]
+
+    def publish(self, value: T, sender: Endpoint | None = None) -> None:
+        """Keep `value` and tell every subscriber at once, and who sent it if that is known.
+
+        Raises:
+            TypeError: If `value` is not of the topic's kind.
+        """
+        if not isinstance(value, self.kind):
+            raise TypeError(
+                f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
+            )
+        self.tell(value, sender)
+
+    def tell(self, value: "T | Unmade", sender: Endpoint | None = None) -> None:
+        """Publish what is known to be of the topic's kind.
+
+        It may be `Unmade` where there are no `readers`, and no relay.
+        """
+        self.held = value
+        self.count += 1
+        told: Any = value
+        relay = self.relay
+        before, self.sender = self.sender, sender
+        try:
+            self._subscribers.call(told)
+            if relay is not None:
+                relay(told)
+        finally:
+            self.sender = before
+
+    def subscribe(
+        self, callback: Callable[[T], object], owner: str = "", *, takes_unmade: bool = False
+    ) -> Callable[[], None]:
+        """Have `callback` called with every value to come; call what is returned to stop.
+
+        What it raises is reported under the name of its `owner`, and does not reach the
+        publisher. One that takes `Unmade` as well keeps messages from being made for it.
+        """
+        withdraw = self._subscribers.add(callback, owner)
+        self.readers += not takes_unmade
+        is_there = True
+        if self.on_demand is not None:
+            self.on_demand()
+
+        def stop() -> None:
+            nonlocal is_there
+            if is_there:
+                is_there = False
+                self.readers -= not takes_unmade
+                withdraw()
+                if self.on_demand is not None:
+                    self.on_demand()
+
+        return stop
+
+    @property
+    def subscribers(self) -> int:
+        """How many listen at the moment, those in other processes included."""
+        return len(self._subscribers.registered) + self.far_subscribers
+
+    @property
+    def near_subscribers(self) -> int:
+        """How many listen in this process."""
+        return len(self._subscribers)
+
+    def stream(self, depth: int = 100) -> AsyncIterator[T]:
+        """Values to come, one by one; a reader slower than `depth` values loses the oldest."""
+        return streamed(self.subscribe, depth)
+
+
+async def streamed(
+    subscribe: Callable[[Callable[[T], object]], Callable[[], None]], depth: int
+) -> AsyncIterator[T]:
+    """What a subscription brings, one by one; a reader slower than `depth` loses the oldest."""
+    waiting: deque[T] = deque(maxlen=depth)
+    arrived = asyncio.Event()
+
+    def keep(value: T) -> None:
+        waiting.append(value)
+        arrived.set()
+
+    stop = subscribe(keep)
+    try:
+        while True:
+            while waiting:
+                yield waiting.popleft()
+            arrived.clear()
+            await arrived.wait()
+    finally:
+        stop()
+
+
+Handler = Callable[[Any], Any | Awaitable[Any]]
+"""Answers a service's request, now or when awaited."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalResult:
+    """How an action ended.
+
+    Attributes:
+        status: "succeeded", "aborted" or "canceled".
+        value: The action's result.
+    """
+
+    status: Status
+    value: Any
+
+
+_NUMBERS = itertools.count(1)
+
+
+def new_goal_id() -> bytes:
+    """Sixteen bytes for a goal; they are counted, so that two runs are the same run."""
+    return next(_NUMBERS).to_bytes(16, "big")
+
+
+class GoalHandle:
+    """One goal of an action, as both its client and its server hold it.
+
+    Attributes:
+        request: What was asked for.
+        cancel_requested: Whether the client wants it stopped, and the server agreed.
+        feedback: The last feedback, None before the first.
+        on_cancel: Called when the client wants it stopped, for a server that decides about that
+            by `decide_cancel`; None for one that always agrees.
+        decided: Whether the server takes the goal, once it has decided; None for one that
+            takes every goal.
+        patience: Seconds to wait for the server of another process to take the goal or a
+            cancellation; None for as long as it takes.
+        goal_id: Its sixteen bytes.
+        feeds: Who is given each feedback.
+    """
+
+    def __init__(
+        self,
+        request: Any,
+        on_feedback: Callable[[Any], object] | None = None,
+        patience: float | None = None,
+        goal_id: bytes | None = None,
+    ) -> None:
+        self.request = request
+        self.goal_id = goal_id or new_goal_id()
+        self.feeds = [] if on_feedback is None else [on_feedback]
+        self.cancel_requested = False
+        self.feedback: Any = None
+        self.on_cancel: Callable[[], object] | None = None
+        self.decided: asyncio.Future[bool] | None = None
+        self.patience = patience
+        self._cancellation: asyncio.Future[bool] | None = None
+        self._result: asyncio.Future[GoalResult] = asyncio.get_running_loop().create_future()
+
+    # The client's side.
+
+    def cancel(self) -> None:
+        """Ask the server to stop.
+
+        Does nothing once the goal has ended, or while a cancellation is considered or accepted;
+        a server that refused is asked again.
+        """
+        considered = self._cancellation is not None and not self._cancellation.done()
+        if self.done or self.cancel_requested or considered:
+            return
+        self._cancellation = asyncio.get_running_loop().create_future()
+        if self.on_cancel is None:
+            self.decide_cancel(True)
+        else:
+            self.on_cancel()
+
+    async def cancellation(self) -> bool:
+        """Wait for what the server says to the last cancellation; whether it agrees."""
+        return self._cancellation is not None and await asyncio.shield(self._cancellation)
+
+    async def result(self) -> GoalResult:
+        """Wait for the end."""
+        return await asyncio.shield(self._result)
+
+    @property
+    def done(self) -> bool:
+        """Whether the goal has ended."""
+        return self._result.done()
+
+    @property
+    def ended(self) -> GoalResult | None:
+        """How it ended; None while it is under way."""
+        return self._result.result() if self.done else None
+
+    # The server's side.
+
+    def publish_feedback(self, value: Any) -> None:
+        """Tell the client how far it is."""
+        self.feedback = value
+        for feed in self.feeds:
+            feed(value)
+
+    def decide_cancel(self, accepted: bool) -> None:
+        """Say whether the goal will be stopped; the first answer to a cancellation counts."""
+        if self._cancellation is not None and not self._cancellation.done():
+            self.cancel_requested = accepted
+            self._cancellation.set_result(accepted)
+
+    def finish(self, status: Status, value: Any) -> None:
+        """End the goal; the first end counts."""
+        if not self.done:
+            self.decide_cancel(status == "canceled")
+            self._result.set_result(GoalResult(status, value))
+
+
+Acceptor = Callable[[Any], None]
+"""Takes a goal over; it ends it with `finish`."""

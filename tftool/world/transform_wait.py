@@ -1,0 +1,125 @@
+"""Await a transform, with a deadline on the clock's time.
+
+Nothing is polled: the buffer's own requests wake a waiter from inside the set that
+makes its transform possible.
+"""
+
+import asyncio
+
+from tftool.base.errors import (
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+from tftool.base.stamps import Duration, Stamp, whole
+from tftool.buffer.buffer import NEVER, Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.world.clock import Clock, Phase
+
+
+async def wait_for_transform(
+    buffer: Buffer,
+    clock: Clock,
+    target_frame: str,
+    source_frame: str,
+    time: Stamp = 0,
+    timeout: Duration | None = None,
+) -> TransformStamped:
+    """The transform as soon as it can be given.
+
+    Args:
+        buffer: Where it will appear.
+        clock: Whose time the deadline is measured on.
+        target_frame: Frame the answer is expressed in.
+        source_frame: Frame whose pose is asked for.
+        time: The moment asked about; 0 for the latest common time.
+        timeout: How long to wait at most; None waits for ever.
+
+    Raises:
+        TimeoutException: If it could not be given in time; the cause is the refusal
+            that stood at the end.
+        InvalidArgumentException: If a name can never be asked for.
+        TransformException: If the moment has been forgotten and will not come back.
+        TypeError: If the moment or the timeout is not a whole number.
+    """
+    deadline = None if timeout is None else clock.now() + whole(timeout)
+    return await _wait(buffer, clock, target_frame, source_frame, time, deadline)
+
+
+async def wait_for_transform_full(
+    buffer: Buffer,
+    clock: Clock,
+    target_frame: str,
+    target_time: Stamp,
+    source_frame: str,
+    source_time: Stamp,
+    fixed_frame: str,
+    timeout: Duration | None = None,
+) -> TransformStamped:
+    """The transform between two moments, through a fixed frame, as soon as it can be given.
+
+    Raises as `wait_for_transform` does, and LookupException at once if all three frames
+    are one that is unknown.
+    """
+    deadline = None if timeout is None else clock.now() + whole(timeout)
+    while True:
+        await _wait(buffer, clock, fixed_frame, source_frame, source_time, deadline)
+        await _wait(buffer, clock, target_frame, fixed_frame, target_time, deadline)
+        try:
+            return buffer.lookup_transform_full(
+                target_frame, target_time, source_frame, source_time, fixed_frame
+            )
+        except (InvalidArgumentException, LookupException):
+            # A frame to itself is given whatever its name, here names are checked as well:
+            # to ask again would never come to an end.
+            raise
+        except TransformException:
+            # The first half was forgotten while the second was waited for.
+            continue
+
+
+async def _wait(
+    buffer: Buffer, clock: Clock, target: str, source: str, time: Stamp, deadline: Stamp | None
+) -> TransformStamped:
+    try:
+        return buffer.lookup_transform(target, source, time)
+    except InvalidArgumentException:
+        raise
+    except TransformException:
+        pass
+
+    answer: asyncio.Future[TransformStamped] = asyncio.get_running_loop().create_future()
+
+    def answered(handle: int, available: bool) -> None:
+        # Looked up inside the set that made it possible: a moment later it may be gone.
+        if answer.done():
+            return
+        try:
+            answer.set_result(buffer.lookup_transform(target, source, time))
+        except TransformException as refusal:
+            answer.set_exception(refusal)
+
+    def expired(timer: "asyncio.Future[None]") -> None:
+        if answer.done() or timer.cancelled():
+            return
+        try:
+            answer.set_result(buffer.lookup_transform(target, source, time))
+        except TransformException as refusal:
+            late = "Timed out waiting for transform"
+            answer.set_exception(
+                TimeoutException(late, target=target, source=source, refusal=refusal)
+            )
+
+    handle = buffer.request(answered, target, source, time)
+    if handle in (0, NEVER):
+        return buffer.lookup_transform(target, source, time)
+    timer = None if deadline is None else clock.timer(deadline, Phase.WATCH)
+    if timer is not None:
+        timer.add_done_callback(expired)
+    try:
+        return await answer
+    finally:
+        buffer.cancel(handle)
+        if timer is not None:
+            timer.cancel()

@@ -1,0 +1,732 @@
+"""The world nodes live in: one clock, one buffer, topics, services, actions, a log."""
+
+import asyncio
+import inspect
+import math
+from collections import deque
+from collections.abc import Callable, Coroutine, Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, Generic, TypeVar, cast
+
+from tftool.base.errors import LinkError, NodeFailed, TftoolError
+from tftool.base.listeners import Listeners, listener_text
+from tftool.base.stamps import CACHE_TIME, Duration, Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.messages import turtle_messages as values
+from tftool.world import transform_wait as waiting
+from tftool.world.clock import Clock
+from tftool.world.doors import Goal, ValueGoal, ValueTopic, accepting, serving
+from tftool.world.endpoints import (
+    PUBLISHER,
+    SUBSCRIPTION,
+    USUAL,
+    Endpoint,
+    Endpoints,
+    Quality,
+    Role,
+)
+from tftool.world.log import Log
+from tftool.world.memory_limit import MemoryBound, allowed
+from tftool.world.offers import NamedOffers, Offer
+from tftool.world.resident import Resident, Supervision
+from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic, Unmade
+
+T = TypeVar("T")
+
+MOST_REFUSALS = 1_000
+"""How many kinds of what the buffer refuses are told apart while they are counted."""
+
+PATIENCE = 5.0
+"""Seconds that nodes of ours wait for an answer from another process."""
+
+
+@dataclass(frozen=True, slots=True)
+class TransformMessage:
+    """What travels on topics `tf` and `tf_static`: transforms and who sent them."""
+
+    interface__: ClassVar[str] = "tf2_msgs/msg/TFMessage"
+
+    transforms: tuple[TransformStamped, ...]
+    authority: str
+
+
+def _transform_message(sent: tuple[tuple[TransformStamped, ...], str]) -> TransformMessage:
+    return TransformMessage(*sent)
+
+
+class TopicPublisher(Generic[T]):
+    """What one node publishes on one topic.
+
+    Attributes:
+        name: The topic's name, without a leading slash.
+        kind: The type of every value.
+    """
+
+    __slots__ = ("_door", "_endpoint", "_topic", "_withdraw", "_world", "kind", "name")
+
+    def __init__(
+        self, world: "World", node: str, name: str, kind: type[T], quality: Quality
+    ) -> None:
+        self.name = name.removeprefix("/")
+        self.kind = kind
+        self._world = world
+        # Those of tf have a memory of their own.
+        latched = quality.is_latched and kind is not TransformMessage
+        self._endpoint, self._withdraw = world.enter(
+            PUBLISHER, node, self.name, kind, quality, keeps=latched
+        )
+        self._door: Topic[T] | ValueTopic[T] | None = None
+        self._topic: Topic[Any] | None = None
+
+    def publish(self, value: T) -> None:
+        """Publish a value; a topic that was removed meanwhile is created again."""
+        door = self._door
+        if door is None or self._topic is None or self._topic.is_removed:
+            door = self._open()
+        if self._endpoint is not None and self._endpoint.kept is not None:
+            carried = door.message_of(value) if isinstance(door, ValueTopic) else value
+            self._endpoint.kept.append(carried)
+        door.publish(value, self._endpoint)
+
+    @property
+    def subscribers(self) -> int:
+        """How many subscribe to the topic, those in other processes included."""
+        topic = self._topic
+        if topic is None or topic.is_removed:
+            return self._open().subscribers
+        return topic.subscribers
+
+    def _open(self) -> "Topic[T] | ValueTopic[T]":
+        """The topic as the world has it now."""
+        door = self._door = self._world.topic(self.name, self.kind)
+        self._topic = door.topic if isinstance(door, ValueTopic) else door
+        return door
+
+    def close(self) -> None:
+        """Publish no more: the node is no publisher of that topic any longer."""
+        self._withdraw()
+
+
+class World:
+    """Everything the nodes of one process share.
+
+    Attributes:
+        clock: Whose time everything here means.
+        buffer: What is known of frames.
+        memory: Keeps that within a number of bytes.
+        log: What the nodes said.
+        nodes: The nodes, in the order in which they joined.
+        endpoints: Which node publishes and subscribes what, of all processes.
+        far_nodes: Names of the nodes of other processes, in alphabetical order.
+        failure: The node that ended it by what it raised, as soon as that is known.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        buffer: Buffer | None = None,
+        *,
+        cache_time: Duration = CACHE_TIME,
+        max_bytes: int | None = None,
+    ) -> None:
+        """Make an empty world.
+
+        Args:
+            clock: Whose time everything here means.
+            buffer: What is known of frames already; empty when None.
+            cache_time: How far back an empty one remembers.
+            max_bytes: How many bytes the samples may take that come in; None for what is usual.
+        """
+        self.clock = clock
+        self.log = Log(clock.now, report=self.report)
+        self._is_reporting = False
+        self.buffer = buffer or Buffer(cache_time, log=self._log_buffer, report=self.report)
+        self.memory = MemoryBound(
+            self.buffer, lambda text: self.log.warn("buffer", text), max_bytes or allowed()
+        )
+        self.nodes: list[Resident] = []
+        self._joined = 0
+        self._topics: dict[str, Topic[Any]] = {}
+        self._doors: dict[str, ValueTopic[Any]] = {}
+        self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
+        self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
+        self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
+        # How often the buffer refused the same, by what it says.
+        self._refused: dict[str, int] = {}
+        self._statics: dict[str, dict[str, TransformStamped]] = {}
+        self._far_statics: dict[str, TransformStamped] = {}
+        self.far_nodes: tuple[str, ...] = ()
+        self.failure: NodeFailed | None = None
+        self._supervisor: Supervision | None = None
+        self._watchers: Listeners[()] = Listeners(self.report)
+        self.endpoints = Endpoints(self._changed, self.log.warn)
+        self.tf: Topic[TransformMessage] = self._topic("tf", TransformMessage)
+        self.tf_static: Topic[TransformMessage] = self._topic("tf_static", TransformMessage)
+
+    # Topics
+
+    def topic(self, name: str, kind: type[T]) -> Topic[T] | ValueTopic[T]:
+        """The topic of that name, made when it is first named.
+
+        Args:
+            name: Its name.
+            kind: A message's class, or one of our values, to publish and take values there.
+
+        Raises:
+            TftoolError: If it is there already and carries something else.
+        """
+        name = name.removeprefix("/")
+        door = self._doors.get(name)
+        if door is not None and door.kind is kind:
+            door.topic.is_far = False
+            return door
+        topic = self._topic(name, values.message_class(kind))
+        topic.is_far = False
+        return topic if topic.kind is kind else self.value_topic(topic, kind)
+
+    def name_topic(self, name: str, kind: type[Any]) -> None:
+        """List a topic that only other processes have, until it is asked for here."""
+        self._topic(name, kind).is_far = True
+
+    def _topic(self, name: str, kind: type[Any]) -> Topic[Any]:
+        topic = self._topics.get(name)
+        if topic is None:
+            topic = self._topics[name] = Topic(name, kind, self.report)
+            self._changed()
+        elif topic.kind is not kind:
+            carried, named = (
+                values.interface_name(one) or one.__name__ for one in (topic.kind, kind)
+            )
+            raise TftoolError(f"topic '{name}' carries {carried}, not {named}")
+        return topic
+
+    def value_topic(self, topic: Topic[Any], kind: type[T]) -> ValueTopic[T]:
+        """The door to a topic of messages for a type of our values."""
+        door = self._doors.get(topic.name)
+        if door is None or door.topic is not topic:
+            door = self._doors[topic.name] = ValueTopic(topic, kind)
+        return cast("ValueTopic[T]", door)
+
+    def publisher(
+        self, node: str, name: str, kind: type[T], quality: Quality = USUAL
+    ) -> TopicPublisher[T]:
+        """Enter a node as a publisher of a topic.
+
+        Args:
+            node: Its name.
+            name: The topic's name.
+            kind: The type of what it publishes.
+            quality: What it offers.
+        """
+        return TopicPublisher(self, node, name, kind, quality)
+
+    def subscribe(
+        self,
+        node: str,
+        name: str,
+        kind: type[T],
+        callback: Callable[[T], object],
+        quality: Quality = USUAL,
+    ) -> Callable[[], None]:
+        """Enter a node as a subscriber of a topic; call what is returned to stop.
+
+        Args:
+            node: Its name, under which a failure of the callback is reported.
+            name: The topic's name.
+            kind: The type of what is published there.
+            callback: Called with every value to come.
+            quality: What it asks for. A latched one gets at once what latched publishers of
+                this process sent before, and what those of others did as soon as it comes.
+        """
+        door = self.topic(name, kind)
+        topic: Topic[Any]
+        if isinstance(door, ValueTopic):
+            topic, callback = door.topic, door.taker(callback)
+        else:
+            topic = door
+        taken: Callable[[Any], object] = callback
+        deliver: Callable[[Any, Endpoint | None], object] | None = None
+        if quality.is_latched and kind is not TransformMessage:
+
+            def deliver(value: Any, _sender: Endpoint | None) -> object:
+                return callback(value)
+
+            def taken(value: Any) -> object:
+                # What other processes send comes by `deliver`.
+                sender = topic.sender
+                if sender is not None and sender.is_remote:
+                    return None
+                return callback(value)
+
+        # Entered first: the link shows a subscriber without a name for what is not.
+        _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality, deliver=deliver)
+        stop = topic.subscribe(taken, node, takes_unmade=isinstance(door, ValueTopic))
+        if deliver is not None:
+            for publisher in self.endpoints.of(topic.name, PUBLISHER):
+                for value in publisher.kept or ():
+                    deliver(value, publisher)
+
+        def both() -> None:
+            stop()
+            withdraw()
+
+        return both
+
+    def enter(
+        self,
+        role: Role,
+        node: str,
+        name: str,
+        kind: type[Any],
+        quality: Quality,
+        *,
+        keeps: bool = False,
+        deliver: Callable[[Any, Endpoint | None], object] | None = None,
+    ) -> tuple[Endpoint | None, Callable[[], None]]:
+        """Enter an end of a topic among the endpoints; what stays in the process has none.
+
+        Args:
+            role: Which end.
+            node: Whose.
+            name: The topic's name.
+            kind: The type of its values.
+            quality: What it offers, or asks for.
+            keeps: Whether a publisher keeps what it sent for late subscribers.
+            deliver: Takes what others sent a latched subscription before.
+
+        Returns:
+            The endpoint, and what takes it out again.
+        """
+        interface = str(getattr(kind, "interface__", ""))
+        if not interface:
+            return None, _nothing
+        kept: deque[Any] | None = deque(maxlen=max(1, quality.depth)) if keeps else None
+        endpoint = Endpoint(role, node, name, interface, quality, deliver=deliver, kept=kept)
+        return endpoint, self.endpoints.add(endpoint)
+
+    def topics(self) -> Mapping[str, Topic[Any]]:
+        """Every topic by its name, read-only."""
+        return MappingProxyType(self._topics)
+
+    def remove_topic(self, name: str) -> None:
+        """Forget a topic; what is published on a `Topic` still held reaches no new subscriber."""
+        name = name.removeprefix("/")
+        self._doors.pop(name, None)
+        topic = self._topics.pop(name, None)
+        if topic is not None:
+            topic.is_removed = True
+            self._changed()
+
+    # Services and actions
+
+    def serve(
+        self,
+        name: str,
+        handler: Handler,
+        kind: Any = None,
+        *,
+        node: str = "",
+        is_remote: bool = False,
+        shares: bool = False,
+    ) -> Callable[[], None]:
+        """Answer a service by `handler`; call what is returned to stop.
+
+        Args:
+            name: The service's name.
+            handler: Answers a request, now or when awaited.
+            kind: The service's ROS class, or our type of its requests: then the handler takes
+                and gives values. None for one that stays inside this process.
+            node: The node that answers.
+            is_remote: Whether it answers from another process.
+            shares: Whether another may serve that name already, as in ROS: who came first
+                answers, and the next one from when that leaves.
+
+        Raises:
+            TftoolError: If a node here serves that name already.
+        """
+        take = serving(handler, kind) if kind in values.SERVICES else handler
+        offer = Offer(take, values.interface_class(kind), node, is_remote)
+        return self._services.add(name, offer, shares=shares)
+
+    def has_service(self, name: str) -> bool:
+        """Whether any node answers that service."""
+        return self._services.get(name) is not None
+
+    def count_services(self, name: str) -> int:
+        """How many nodes here would answer that service in turn; another process counts as one."""
+        return self._services.count(name)
+
+    def services(self) -> Mapping[str, Offer[Handler]]:
+        """Every service by its name, read-only."""
+        return self._services.by_name
+
+    async def call(self, name: str, request: Any) -> Any:
+        """Ask a service and wait for its answer.
+
+        Args:
+            name: The service's name.
+            request: A message; or a value of ours, which is answered by a value, and which a
+                server of another process has `PATIENCE` to answer.
+
+        Raises:
+            TftoolError: If no node serves that name, or the request is of another type.
+            LinkError: If another process does not answer a value in time.
+        """
+        offer = self._services.get(name)
+        if offer is None:
+            raise TftoolError(f"no node serves '{name}'")
+        kind = offer.kind
+        if kind is not None:
+            _require(request, "Request", kind, f"service '{name}'")
+        if kind is None or type(request) not in values.SERVICES:
+            return await _awaited(offer.take(request))
+        message = values.as_message(request, kind.Request)
+        try:
+            async with asyncio.timeout(PATIENCE if offer.is_remote else None) as limit:
+                answer = await _awaited(offer.take(message))
+        except TimeoutError:
+            if not limit.expired():
+                raise
+            raise LinkError(
+                f"service '{name}': no server answered within {PATIENCE:g} s, or it has left"
+            ) from None
+        return values.as_value(answer, values.SERVICES[type(request)][1])
+
+    def serve_action(
+        self,
+        name: str,
+        accept: Acceptor,
+        kind: Any = None,
+        *,
+        node: str = "",
+        is_remote: bool = False,
+        shares: bool = False,
+    ) -> Callable[[], None]:
+        """Take goals of an action by `accept`; call what is returned to stop.
+
+        The arguments are those of `serve`.
+
+        Raises:
+            TftoolError: If a node here serves that action already.
+        """
+        take = accepting(accept, kind) if kind in values.ACTIONS else accept
+        offer = Offer(take, values.interface_class(kind), node, is_remote)
+        return self._actions.add(name, offer, shares=shares)
+
+    def actions(self) -> Mapping[str, Offer[Acceptor]]:
+        """Every action by its name, read-only."""
+        return self._actions.by_name
+
+    def watch_goals(
+        self, name: str, callback: Callable[[GoalHandle], object], owner: str = ""
+    ) -> Callable[[], None]:
+        """Have `callback` called with each goal of an action, before its server has it.
+
+        Call what is returned to stop; what it raises is reported as `watch` says.
+        """
+        return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
+
+    def hand_over(
+        self,
+        name: str,
+        goal: Any,
+        on_feedback: Callable[[Any], object] | None = None,
+        goal_id: bytes | None = None,
+    ) -> GoalHandle:
+        """Hand a goal in messages to an action's server; see `send_goal`."""
+        handle = GoalHandle(goal, on_feedback, goal_id=goal_id)
+        self._take_goal(name, self._server_for(name, goal), handle)
+        return handle
+
+    def _take_goal(self, name: str, offer: Offer[Acceptor], handle: GoalHandle) -> None:
+        if name in self._goal_watchers:
+            self._goal_watchers[name].call(handle)
+        offer.take(handle)
+
+    def _server_for(self, name: str, goal: Any) -> Offer[Acceptor]:
+        offer = self._actions.get(name)
+        if offer is None:
+            raise TftoolError(f"no node serves the action '{name}'")
+        if offer.kind is not None:
+            _require(goal, "Goal", offer.kind, f"action '{name}'")
+        return offer
+
+    async def send_goal(
+        self, name: str, goal: Any, on_feedback: Callable[[Any], object] | None = None
+    ) -> Goal:
+        """Hand a goal to an action's server.
+
+        Args:
+            name: The action's name.
+            goal: A message; or a value of ours, whose feedback and result are values then.
+            on_feedback: Called with each feedback.
+
+        Raises:
+            TftoolError: If no node serves that action, or the goal is of another type.
+        """
+        offer = self._server_for(name, goal)
+        kind = offer.kind
+        if kind is None or type(goal) not in values.ACTIONS:
+            handle = GoalHandle(goal, on_feedback)
+            self._take_goal(name, offer, handle)
+            return handle
+        said = values.ACTIONS[type(goal)][2]
+
+        def fed(feedback: Any) -> None:
+            if on_feedback is not None:
+                on_feedback(values.as_value(feedback, said))
+
+        handle = GoalHandle(values.as_message(goal, kind.Goal), fed, PATIENCE)
+        self._take_goal(name, offer, handle)
+        return ValueGoal(handle, type(goal))
+
+    def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
+        """Have `callback` called when a topic, service, action or node comes or goes.
+
+        It is called before the first value on a new topic. Call what is returned to stop.
+        What it raises is reported under the name of its `owner`.
+        """
+        return self._watchers.add(callback, owner)
+
+    def _changed(self) -> None:
+        self._watchers.call()
+
+    # Transforms
+
+    def broadcast(
+        self, transforms: Iterable[TransformStamped], authority: str, *, static: bool = False
+    ) -> bool:
+        """Put transforms into the buffer and publish them on `tf` or `tf_static`.
+
+        What the buffer refuses (and says why) goes no further. A static message always
+        holds all statics of its sender, the newest of each child, as a late listener
+        sees nothing but a sender's last message.
+
+        Returns:
+            Whether the buffer took them all.
+        """
+        sent = tuple(transforms)
+        if static:
+            held = self._statics.setdefault(authority, {})
+            accepted = self._store_static(sent, authority, held)
+            if accepted:
+                self.tf_static.publish(TransformMessage(tuple(held.values()), authority))
+        else:
+            put = self.buffer.set_transform
+            accepted = tuple([one for one in sent if put(one, authority)])
+            self.memory.note(len(accepted))
+            if accepted:
+                self._publish_tf(accepted, authority)
+        return len(accepted) == len(sent)
+
+    def _publish_tf(self, transforms: tuple[TransformStamped, ...], authority: str) -> None:
+        tf = self.tf
+        if tf.readers or tf.relay is not None:
+            tf.tell(TransformMessage(transforms, authority))
+        else:
+            tf.tell(Unmade((transforms, authority), _transform_message))
+
+    def receive_static(
+        self, transforms: Iterable[TransformStamped], authority: str
+    ) -> tuple[TransformStamped, ...]:
+        """Store the statics of another process's node, for late subscribers here as well.
+
+        Returns:
+            What the buffer took.
+        """
+        return self._store_static(transforms, authority, self._far_statics)
+
+    def _store_static(
+        self,
+        transforms: Iterable[TransformStamped],
+        authority: str,
+        held: dict[str, TransformStamped],
+    ) -> tuple[TransformStamped, ...]:
+        accepted = tuple(
+            one for one in transforms if self.buffer.set_transform_static(one, authority)
+        )
+        held.update((one.child_frame_id, one) for one in accepted)
+        return accepted
+
+    def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
+        """The static transforms of one sender here, or of all, in the order they became known."""
+        if authority is not None:
+            return tuple(self._statics.get(authority, {}).values())
+        held = [self._far_statics, *self._statics.values()]
+        return tuple(transform for one in held for transform in one.values())
+
+    async def wait_for_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Stamp = 0,
+        timeout: Duration | None = None,
+    ) -> TransformStamped:
+        """The transform as soon as it can be given; see `waiting.wait_for_transform`."""
+        return await waiting.wait_for_transform(
+            self.buffer, self.clock, target_frame, source_frame, time, timeout
+        )
+
+    async def wait_for_transform_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+        timeout: Duration | None = None,
+    ) -> TransformStamped:
+        """The transform between two moments; see `waiting.wait_for_transform_full`."""
+        return await waiting.wait_for_transform_full(
+            self.buffer,
+            self.clock,
+            target_frame,
+            target_time,
+            source_frame,
+            source_time,
+            fixed_frame,
+            timeout,
+        )
+
+    # Nodes
+
+    def add(self, node: Resident) -> None:
+        """Let a node join; in a world that lives already it starts at once.
+
+        Raises:
+            TftoolError: If a node of that name is here.
+        """
+        if any(other.name == node.name for other in self.nodes):
+            raise TftoolError(f"a node named '{node.name}' is here already")
+        node.rank = self._joined
+        self._joined += 1
+        self.nodes.append(node)
+        self._changed()
+        if self._supervisor is not None:
+            self._supervisor.start(node)
+
+    def start_soon(self, node: Resident, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
+        """Run something as a part of a node; see `Node.start_soon`.
+
+        Raises:
+            TftoolError: If the world does not run.
+        """
+        if self._supervisor is None:
+            work.close()
+            raise TftoolError(f"node '{node.name}' can start no work: its world does not run")
+        return self._supervisor.start_soon(node, work)
+
+    def free_name(self, wanted: str) -> str:
+        """A name no node has: the wanted one, or that with a number behind it."""
+        taken = {node.name for node in self.nodes}
+        name, number = wanted, 1
+        while name in taken:
+            number += 1
+            name = f"{wanted}_{number}"
+        return name
+
+    def remove(self, node: Resident) -> None:
+        """Stop a node and let it leave."""
+        if node in self.nodes:
+            self.nodes.remove(node)
+            self._changed()
+        if self._supervisor is not None:
+            self._supervisor.end(node)
+
+    def know_far_nodes(self, names: Iterable[str]) -> None:
+        """Note which nodes live in other processes."""
+        found = tuple(sorted(set(names)))
+        if found != self.far_nodes:
+            self.far_nodes = found
+            self._changed()
+
+    def node(self, name: str) -> Resident:
+        """The node of that name.
+
+        Raises:
+            TftoolError: If there is none.
+        """
+        for node in self.nodes:
+            if node.name == name:
+                return node
+        raise TftoolError(f"no node is named '{name}'")
+
+    def stop(self) -> None:
+        """End the run: `live` returns as soon as the current step is over."""
+        if self._supervisor is not None:
+            self._supervisor.stop()
+
+    def fail(self, node: Resident, error: BaseException) -> None:
+        """Report that a node raised outside its `run`, in a callback for example.
+
+        Raises:
+            BaseException: `error` itself, while the world does not run.
+        """
+        if self._supervisor is None:
+            raise error
+        self._supervisor.fail(node, error)
+
+    def report(self, owner: str, failure: Exception) -> None:
+        """Take what a listener raised: its owner has failed if it is a node, else the log tells.
+
+        Args:
+            owner: The name of the listener's owner.
+            failure: What it raised.
+
+        Raises:
+            Exception: `failure` itself, if the owner is a node and the world does not run.
+        """
+        for node in self.nodes:
+            if node.name == owner:
+                self.fail(node, failure)
+                return
+        if isinstance(failure, BrokenPipeError) and self._supervisor is not None:
+            # The reader of what a listener prints has gone: the run has no purpose any more.
+            self._supervisor.end_by(failure)
+        elif not self._is_reporting:
+            # A listener of the log that fails at every line fails at this one, too.
+            self._is_reporting = True
+            try:
+                self.log.error(owner or "world", listener_text("", failure))
+            finally:
+                self._is_reporting = False
+
+    def supervise(self, supervision: Supervision | None) -> None:
+        """Name who starts and stops nodes from now on (the supervisor's own call)."""
+        self._supervisor = supervision
+
+    def _log_buffer(self, level: str, text: str) -> None:
+        # A node whose samples are refused usually sends them at a high rate.
+        kind = text.partition(" because ")[0].partition(" at time ")[0]
+        if kind not in self._refused and len(self._refused) >= MOST_REFUSALS:
+            self._refused.clear()
+        count = self._refused[kind] = self._refused.get(kind, 0) + 1
+        if count > 1:
+            if math.log10(count) % 1:
+                return
+            text = f"{text} ({count} times so far)"
+        if level == "ERROR":
+            self.log.error("buffer", text)
+        else:
+            self.log.warn("buffer", text)
+
+
+def _nothing() -> None:
+    """Take nothing out."""
+
+
+async def _awaited(answer: Any) -> Any:
+    return await answer if inspect.isawaitable(answer) else answer
+
+
+def _require(asked: Any, part: str, kind: Any, what: str) -> None:
+    """Refuse what is not the request of a service's class, or the goal of an action's.
+
+    Raises:
+        TftoolError: If it is not.
+    """
+    if not values.is_part(asked, part, kind):
+        given = getattr(asked, "interface__", "") or type(asked).__name__
+        raise TftoolError(f"{what} is of type {kind.interface__}, which takes no {given}")
