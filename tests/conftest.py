@@ -2,10 +2,15 @@
 
 import os
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from tftool.app.main import main
+from tftool.commands.shared.connection import Connection, Providers
+from tftool.world.clock import SimClock
 
 # No test compares wall time, so hypothesis may not either; and a build machine draws the
 # same examples in every run, so that a red build means a change and not a lucky draw.
@@ -51,3 +56,58 @@ def by_memory(monkeypatch):
 
     monkeypatch.setitem(MIDDLEWARES, "memory", f"{MemoryMiddleware.__module__}:MemoryMiddleware")
     monkeypatch.setattr(MemoryMiddleware, "members", [])
+
+
+@dataclass(frozen=True)
+class Result:
+    status: int
+    out: str
+    err: str
+
+
+class Simulated(Providers):
+    """Worlds live on simulated time, from the end of their head start on, and unshared."""
+
+    def wall_clock(self, rate=1.0, *, head_start=0):
+        return SimClock()
+
+    def still_clock(self, epoch, now):
+        return SimClock(epoch)
+
+    def link(self, options):
+        return None
+
+
+@pytest.fixture
+def outside():
+    """Where the commands of a test have their clocks and links from: "providers"."""
+    return {"providers": None}
+
+
+@pytest.fixture
+def simulated(outside):
+    """Hosted worlds live on simulated time and unshared; a connection that sees to it."""
+    outside["providers"] = Simulated()
+    return Connection(providers=outside["providers"])
+
+
+@pytest.fixture
+def in_tutorial(monkeypatch):
+    """The working directory is the tutorial's workspace, and no ROS 2 is sourced."""
+    monkeypatch.chdir(Path(__file__).parent / "tutorial")
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+
+
+@pytest.fixture
+def tftool(outside, capsys, monkeypatch):
+    """The command: its words in, status, stdout and stderr out."""
+    monkeypatch.setenv("COLUMNS", "100")
+    monkeypatch.delenv("NO_COLOR", raising=False)
+
+    def run(*words):
+        status = main([str(word) for word in words], outside["providers"])
+        captured = capsys.readouterr()
+        return Result(status, captured.out, captured.err)
+
+    return run

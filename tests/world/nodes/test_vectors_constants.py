@@ -77,7 +77,7 @@ def test_a_section_that_is_gone_is_noticed():
 
 def test_every_section_is_read_by_the_module_that_claims_it():
     for section, module in TESTED_IN.items():
-        path = FILE.parent.parent.joinpath("nodes", f"{module}.py")
+        path = FILE.parents[1].joinpath("world/nodes", f"{module}.py")
         assert f'["{section}"]' in path.resolve().read_text(encoding="utf-8")
 
 

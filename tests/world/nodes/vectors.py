@@ -37,7 +37,7 @@ TESTED_IN = {
     "robot_chain": "test_vectors_transforms",
     "euler_to_quaternion": "test_vectors_transforms",
     "tree_statistics": "test_vectors_transforms",
-    "stale_fade": "../screens/browser/test_page",
+    "stale_fade": "../../screens/browser/test_page",
 }
 """Every section and the module that runs all of it, from this folder."""
 
