@@ -1,6 +1,7 @@
 """Names and modules that people import from where ROS 2 has them too."""
 
 import importlib
+import os
 import subprocess
 import sys
 
@@ -28,6 +29,12 @@ from tftool.ros.host.importing import ros_free
         ("launch_ros.actions.node", "Node"),
         ("launch_ros.actions.push_ros_namespace", "PushRosNamespace"),
         ("launch_ros.substitutions.find_package", "FindPackageShare"),
+        ("launch.launch_description", "LaunchDescription DeclareLaunchArgument LaunchContext"),
+        ("rclpy", "List Optional"),
+        ("rclpy.impl.rcutils_logger", "RcutilsLogger SkipFirst"),
+        ("tf2_ros.transform_listener", "DEFAULT_TF_TOPIC DEFAULT_STATIC_TF_TOPIC"),
+        ("ament_index_python.resources", "get_resource get_resources has_resource"),
+        ("rosidl_runtime_py.convert", "message_to_ordereddict message_to_yaml"),
     ],
 )
 def test_names_are_where_ros_has_them_too(module, names):
@@ -75,3 +82,36 @@ def test_our_own_modules_are_no_package_of_interfaces(ros_runtime):
 
     assert KIND.interface__.startswith("tftool_interfaces/srv/")
     assert "tftool" not in INTERFACES.packages()
+
+
+def test_messages_become_mappings_yaml_and_csv():
+    with ros_free():
+        from geometry_msgs.msg import PointStamped
+        from rosidl_runtime_py import (
+            message_to_csv,
+            message_to_ordereddict,
+            message_to_yaml,
+            set_message_fields,
+        )
+        from rosidl_runtime_py.utilities import get_message
+
+        message = get_message("geometry_msgs/msg/PointStamped")()
+        set_message_fields(message, {"header": {"frame_id": "map"}, "point": {"x": 1.5}})
+
+        assert isinstance(message, PointStamped)
+        assert message_to_ordereddict(message)["point"] == {"x": 1.5, "y": 0.0, "z": 0.0}
+        assert "frame_id: map" in message_to_yaml(message)
+        assert message_to_csv(message) == "0,0,map,1.5,0.0,0.0"
+
+
+def test_the_distribution_is_set_for_programs_and_is_no_sourced_ros(monkeypatch):
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
+    ask = (
+        "import os; from tftool.ros.host.importing import real_ros; "
+        "print(os.environ['ROS_DISTRO'], repr(real_ros()))"
+    )
+    with ros_free():
+        done = subprocess.run([sys.executable, "-c", ask], capture_output=True, text=True)
+
+    assert done.stdout == "jazzy ''\n"
+    assert "ROS_DISTRO" not in os.environ

@@ -504,3 +504,35 @@ def test_a_handlers_target_must_be_an_action():
         assert handler.handle(exited, None) == [action]
         with pytest.raises(TypeError, match="target_action of OnProcessExit must be an action"):
             OnProcessExit(target_action=3, on_exit=action)
+
+
+def test_a_python_file_that_imports_rclpy_runs_though_it_is_started_as_a_command(tmp_path):
+    (tmp_path / "talk.py").write_text(
+        "import sys\nimport rclpy\nrclpy.init()\nnode = rclpy.create_node('talk')\n"
+        "node.get_logger().info(f'ready {sys.argv[1:]}')\n"
+    )
+    done = described(
+        tmp_path, f"ExecuteProcess(cmd=['python3', {str(tmp_path / 'talk.py')!r}, 'now'])"
+    )
+
+    assert "process has finished cleanly" in done.said("talk.py-1")
+    assert done.failed == []
+
+
+def test_xacro_is_found_by_find_executable_without_ros(tmp_path):
+    (tmp_path / "box.urdf").write_text("<robot name='box'><link name='base'/></robot>")
+    done = described(
+        tmp_path,
+        "LogInfo(msg=Command([FindExecutable(name='xacro'), ' ', "
+        f"{str(tmp_path / 'box.urdf')!r}]))",
+    )
+
+    assert any("<link name='base'" in line for line in done.said("launch"))
+
+
+def test_launch_arguments_as_a_dictionary_are_refused_with_the_remedy(tmp_path):
+    with pytest.raises(TftoolError, match=r"pairs, not a dictionary: write .*\.items\(\)"):
+        described(
+            tmp_path,
+            "IncludeLaunchDescription('other.launch.py', launch_arguments={'speed': '2'})",
+        )

@@ -14,7 +14,7 @@ from functools import cache
 _TABLE = """
 rclpy: rclpy.core: init shutdown try_shutdown ok spin spin_once spin_until_future_complete
 rclpy: rclpy.core: create_node get_global_executor get_default_context logging
-rclpy: rclpy.core: InitContextManager Context
+rclpy: rclpy.core: InitContextManager Context List Optional TYPE_CHECKING
 rclpy: rclpy.parameters: Parameter
 rclpy: rclpy.signals: SignalHandlerOptions
 rclpy: rclpy.utilities: get_rmw_implementation_identifier
@@ -73,7 +73,7 @@ rclpy.callback_groups: rclpy.groups: ReentrantCallbackGroup
 rclpy.logging: rclpy.logging: get_logger LoggingSeverity set_logger_level initialize shutdown
 rclpy.logging: rclpy.logging: clear_config get_logging_directory _root_logger
 rclpy.logging: rclpy.logging: get_logger_effective_level get_logging_severity_from_string
-rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger
+rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger SkipFirst
 rclpy.impl.logging_severity: rclpy.logging: LoggingSeverity
 rclpy.parameter: rclpy.parameters: Parameter parameter_value_to_python get_parameter_value
 rclpy.parameter: rclpy.parameters: parameter_dict_from_yaml_file PARAMETER_SEPARATOR_STRING
@@ -162,7 +162,8 @@ tf2_ros.transform_listener: tf2_msgs/msg: TFMessage
 tf2_ros.buffer_interface: tf2.interface: BufferInterface
 tf2_ros.buffer_interface: tf2.registry: TransformRegistration ConvertRegistration TypeException
 tf2_ros.buffer_interface: tf2.registry: convert NotImplementedException
-tf2_ros.transform_listener: tf2.broadcasters: TransformListener
+tf2_ros.transform_listener: tf2.broadcasters: TransformListener DEFAULT_TF_TOPIC
+tf2_ros.transform_listener: tf2.broadcasters: DEFAULT_STATIC_TF_TOPIC
 tf2_ros.static_transform_listener: tf2.broadcasters: StaticTransformListener
 tf2_ros.transform_broadcaster: tf2.broadcasters: TransformBroadcaster
 tf2_ros.static_transform_broadcaster: tf2.broadcasters: StaticTransformBroadcaster
@@ -228,7 +229,10 @@ launch.frontend.parser: launch.exposing: Parser
 launch.frontend.expose: launch.exposing: expose_action expose_substitution
 launch.frontend.parse_substitution: launch.exposing: parse_substitution parse_if_substitutions
 launch.launch_context: launch.context: LaunchContext
-launch.launch_description: launch.description: LaunchDescription
+launch.launch_description: launch.description: LaunchDescription LaunchDescriptionEntity
+launch.launch_description: launch.action: Action
+launch.launch_description: launch.context: LaunchContext
+launch.launch_description: launch.settings: DeclareLaunchArgument
 launch.launch_description_source: launch.description: LaunchDescriptionSource
 launch.launch_description_sources: launch.description: PythonLaunchDescriptionSource
 launch.launch_description_sources: launch.description: AnyLaunchDescriptionSource
@@ -281,6 +285,14 @@ launch_ros.utilities: launch.scope: normalize_remap_rule normalize_remap_rules
 launch_ros.utilities: launch.scope: add_node_name get_node_name_count
 launch_ros.utilities: launch.parameters: normalize_parameters normalize_parameter_dict
 launch_ros.utilities: launch.parameters: evaluate_parameters evaluate_parameter_dict
+rosidl_runtime_py: rosidl_runtime: message_to_csv message_to_ordereddict message_to_yaml
+rosidl_runtime_py: rosidl_runtime: set_message_fields
+rosidl_runtime_py.convert: rosidl_runtime: message_to_csv message_to_ordereddict message_to_yaml
+rosidl_runtime_py.convert: rosidl_runtime: get_message_slot_types
+rosidl_runtime_py.set_message: rosidl_runtime: set_message_fields
+rosidl_runtime_py.utilities: rosidl_runtime: get_action get_interface get_message get_service
+ament_index_python: launch.packages: get_resource get_resources has_resource
+ament_index_python.resources: launch.packages: get_resource get_resources has_resource
 ament_index_python: launch.packages: get_package_share_directory get_package_prefix
 ament_index_python: launch.packages: get_package_share_path PackageNotFoundError
 ament_index_python: launch.packages: get_packages_with_prefixes

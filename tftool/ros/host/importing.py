@@ -21,9 +21,16 @@ from tftool.ros.host import fibers, import_table
 from tftool.ros.host.missing_names import missing_module, missing_name
 from tftool.ros.host.shims import IMPORTING, builtins_for_users
 
+DISTRIBUTION = "jazzy"
+"""The ROS 2 distribution whose behaviour programs meet here: what `ROS_DISTRO` says to them."""
+
 
 def real_ros() -> str:
-    """Where a real ROS 2 that is sourced has its rclpy; empty without one."""
+    """Return where a sourced ROS 2 has its rclpy; "" without one.
+
+    `ROS_DISTRO` alone proves nothing: programs that run here find it set, and so do the
+    processes that they start.
+    """
     if not (os.environ.get("ROS_DISTRO") or os.environ.get("AMENT_PREFIX_PATH")):
         return ""
     try:
@@ -257,8 +264,21 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
             f"a real ROS 2 is sourced ({found}): run the file with it, or say --ros-free to "
             "run it without ROS"
         )
-    with own_arguments(), ros_modules() as finder:
+    with own_arguments(), _distribution(), ros_modules() as finder:
         yield finder
+
+
+@contextmanager
+def _distribution() -> Iterator[None]:
+    """Set `ROS_DISTRO` inside this block, where it is not set: launch files read it."""
+    if "ROS_DISTRO" in os.environ:
+        yield
+        return
+    os.environ["ROS_DISTRO"] = DISTRIBUTION
+    try:
+        yield
+    finally:
+        os.environ.pop("ROS_DISTRO", None)
 
 
 @contextmanager

@@ -27,12 +27,14 @@ class Package:
         scripts: Its console scripts: name to "module:function".
         installed: Files that its setup.py installs into its share directory at another place
             than the one where they lie: that place to the file.
+        modules: Python packages that its CMakeLists.txt installs (`ament_python_install_package`).
     """
 
     name: str
     path: Path
     scripts: Mapping[str, str] = field(default_factory=dict)
     installed: Mapping[str, Path] = field(default_factory=dict)
+    modules: Sequence[str] = ()
 
     def script_file(self, name: str) -> Path | None:
         """A node's file of that name, for packages that install scripts as they are."""
@@ -86,7 +88,15 @@ def read_package(folder: Path) -> Package | None:
             name = name or told
             scripts.update(found)
     name = name or folder.name
-    return Package(name, folder, scripts, dict(_moved(folder, f"share/{name}", installed)))
+    moved = dict(_moved(folder, f"share/{name}", installed))
+    return Package(name, folder, scripts, moved, _modules_of_cmake(folder / "CMakeLists.txt"))
+
+
+def _modules_of_cmake(path: Path) -> list[str]:
+    """Return the Python packages that a CMakeLists.txt installs; none without such a file."""
+    if not path.is_file():
+        return []
+    return re.findall(r"ament_python_install_package\(\s*(\w+)", read_text(path))
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:

@@ -76,8 +76,11 @@ class Workspace:
         """
         return [
             str(package.path)
-            for name, package in self.packages.items()
-            if name not in _TAKEN and (package.path / name / "__init__.py").is_file()
+            for package in self.packages.values()
+            if any(
+                name not in _TAKEN and (package.path / name / "__init__.py").is_file()
+                for name in (package.name, *package.modules)
+            )
         ]
 
     def folder_without_mark(self, name: str) -> Path | None:

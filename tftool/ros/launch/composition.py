@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
+from tftool.base.errors import UsageError
 from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionSource
@@ -83,8 +84,11 @@ class IncludeLaunchDescription(Action):
         elif not isinstance(launch_description_source, LaunchDescriptionSource):
             launch_description_source = LaunchDescriptionSource(None, launch_description_source)
         self.source: LaunchDescriptionSource = launch_description_source
-        given = launch_arguments or ()
-        self.launch_arguments = list(given.items() if isinstance(given, Mapping) else given)
+        if isinstance(launch_arguments, Mapping):
+            raise UsageError(
+                "launch_arguments are pairs, not a dictionary: write launch_arguments={…}.items()"
+            )
+        self.launch_arguments = list(launch_arguments or ())
 
     def execute(self, context: LaunchContext) -> Any:
         """Its actions, after its arguments."""

@@ -52,3 +52,27 @@ def get_package_prefix(package_name: str) -> str:
 def get_packages_with_prefixes() -> dict[str, str]:
     """Every package and its folder."""
     return {name: str(package.path) for name, package in _workspace().packages.items()}
+
+
+def get_resources(resource_type: str) -> dict[str, str]:
+    """Return every resource of a type and its prefix; packages are the one type known here."""
+    return get_packages_with_prefixes() if resource_type == "packages" else {}
+
+
+def has_resource(resource_type: str, resource_name: str) -> str | None:
+    """Return the prefix that holds a resource; None if there is none."""
+    return get_resources(resource_type).get(resource_name)
+
+
+def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
+    """Return a resource's content, which is empty for a package, and its prefix.
+
+    Raises:
+        LookupError: If there is no such resource.
+    """
+    prefix = has_resource(resource_type, resource_name)
+    if prefix is None:
+        raise LookupError(
+            f"Could not find the resource '{resource_name}' of type '{resource_type}'"
+        )
+    return "", prefix

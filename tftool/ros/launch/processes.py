@@ -1,5 +1,6 @@
 """launch's actions that start something with an end of its own."""
 
+import re
 import shlex
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -160,6 +161,13 @@ class ExecuteProcess(Startable):
             # What only tftool can run: to a process of its own rclpy would be missing.
             if not shell and (found := package.executable_at(Path(words[0]))) is not None:
                 return self._execute_ros2(context, ["run", package.name, found, *words[1:]])
+        if not shell and (program := _rclpy_program(words, cwd)) is not None:
+            # A Python of its own would find no rclpy.
+            options, arguments = names.parse(words[2:])
+            label = program.name
+            started = Executable(None, str(program), arguments, options, label, words[1:])
+            context.launch.start_node(self, started, self.respawn_after(context))
+            return None
         if shell:
             words = ["/bin/sh", "-c", " ".join(words)]
         command = SystemCommand(words, environment, cwd)
@@ -198,6 +206,15 @@ def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
     if not words or Path(words[0]).name != ROS2:
         return None
     return list(words[1:])
+
+
+def _rclpy_program(words: Sequence[str], cwd: str | None) -> Path | None:
+    """Return the file of `python3 FILE …` where it imports rclpy; None of any other command."""
+    if len(words) < 2 or not re.fullmatch(r"python(3(\.\d+)?)?", Path(words[0]).name):
+        return None
+    file = Path(cwd or "", words[1])
+    is_program = file.suffix == ".py" and file.is_file() and b"rclpy" in file.read_bytes()
+    return file if is_program else None
 
 
 def _texts(context: LaunchContext, given: Any) -> dict[str, str]:

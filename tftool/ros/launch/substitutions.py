@@ -15,6 +15,7 @@ from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.logging import launch_config
 
 ROS2: Final = "ros2"
+XACRO: Final = "xacro"
 """The command of ROS 2 that is carried out without a process of its own."""
 
 ON_STDERR: Final = ("fail", "warn", "ignore", "capture")
@@ -307,8 +308,8 @@ class FindExecutable(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """Its path."""
         name = perform(context, self.name)
-        if name == ROS2:
-            # ExecuteProcess carries it out itself.
+        if name in (ROS2, XACRO):
+            # ExecuteProcess carries out the one itself, and Command the other.
             return name
         found = shutil.which(name)
         if found is None:
@@ -391,7 +392,7 @@ class Command(Substitution):
         import subprocess
 
         words = shlex.split(perform(context, self.command))
-        if words and words[0].rpartition("/")[2] == "xacro":
+        if words and words[0].rpartition("/")[2] == XACRO:
             return _expanded(words)
         on_stderr = perform(context, self.on_stderr)
         if on_stderr not in ON_STDERR:

@@ -1,7 +1,7 @@
 """The functions of rclpy itself."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, List, Optional  # noqa: UP035
 
 from tftool.ros.host import program
 from tftool.ros.rclpy import logging
@@ -12,13 +12,17 @@ from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.node_parameters import unused_parameters
 from tftool.ros.rclpy.time import S_TO_NS, Duration, Time
 
+# Some programs import what rclpy's own module imports from typing.
 __all__ = [
     "S_TO_NS",
+    "TYPE_CHECKING",
     "Context",
     "Duration",
     "Executor",
     "Future",
+    "List",
     "Node",
+    "Optional",
     "SingleThreadedExecutor",
     "Time",
     "logging",

@@ -26,6 +26,10 @@ class LoggingSeverity(IntEnum):
 _LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
+class SkipFirst:
+    """Name of rclpy's filter behind `skip_first=True`: programs import it and never call it."""
+
+
 class RcutilsLogger:
     """Speaks under one name."""
 

@@ -83,12 +83,8 @@ class NodeGraph:
     def count_subscribers(self, topic_name: str) -> int:
         """How many listen to a topic."""
         full = self._tftool.full(topic_name)
-
-        def count() -> int:
-            topic = self._tftool.world.topics().get(full)
-            return 0 if topic is None else topic.subscribers
-
-        return self.__look(count)
+        endpoints = self._tftool.world.endpoints
+        return self.__look(lambda: len(endpoints.of(full, SUBSCRIPTION)))
 
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False

@@ -22,6 +22,9 @@ _TOLERANCE = 10e-3
 AUTHORITY = "default_authority"
 """Who sent what was sent before one listened; of later transforms the sender is known."""
 
+DEFAULT_TF_TOPIC = "/tf"
+DEFAULT_STATIC_TF_TOPIC = "/tf_static"
+
 
 class TransformListener:
     """Fills a buffer from `/tf` and `/tf_static`; statics sent before are there at once."""
@@ -34,8 +37,8 @@ class TransformListener:
         spin_thread: bool = False,
         qos: Any = None,
         static_qos: Any = None,
-        tf_topic: str = "/tf",
-        tf_static_topic: str = "/tf_static",
+        tf_topic: str = DEFAULT_TF_TOPIC,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
         static_only: bool = False,
     ) -> None:
         self.buffer = buffer
