@@ -1,5 +1,7 @@
 """`ros2` as launch files and people call it."""
 
+import re
+
 import pytest
 
 from tests.ros.test_launch import described
@@ -127,6 +129,7 @@ def test_an_action_is_sent_and_its_result_shown(ros_runtime, tmp_path):
     )  # fmt: skip
 
     assert status == 0
+    assert re.fullmatch(r"Goal accepted with ID: [0-9a-f]{32}", lines[2])
     assert lines[-1] == "Goal finished with status: SUCCEEDED"
     assert any(line.strip().startswith("delta: ") for line in lines)
 
@@ -160,6 +163,134 @@ def test_interfaces_and_packages_are_shown(ros_runtime, tmp_path):
         "float64 z",
     ]
     assert "turtlesim" in ran(ros_runtime, tmp_path, "pkg", "list")[1]
+
+
+def test_topics_are_found_by_their_type(ros_runtime, tmp_path):
+    assert ran(ros_runtime, tmp_path, "topic", "find", "turtlesim/msg/Pose") == (
+        0,
+        ["/turtle1/pose"],
+    )
+
+
+def test_the_bandwidth_of_a_topic_is_measured(ros_runtime, tmp_path):
+    _, lines = ran(ros_runtime, tmp_path, "topic", "bw", "/turtle1/pose", seconds=2.5)
+
+    # A pose is five floats behind CDR's four bytes of header, 62.5 times a second.
+    assert re.fullmatch(r"1\.5\d KB/s from 6\d messages", lines[0])
+    assert lines[1] == "\tMessage size mean: 24 B min: 24 B max: 24 B"
+
+
+def test_the_delay_of_a_topic_without_header_is_refused(ros_runtime, tmp_path):
+    failure, _ = ran(ros_runtime, tmp_path, "topic", "delay", "/turtle1/pose", seconds=2.5)
+
+    assert "Pose has no header" in str(failure)
+
+
+def test_one_field_of_a_topic_is_echoed(ros_runtime, tmp_path):
+    echo = ("topic", "echo", "--once", "/turtle1/pose", "--field")
+    assert ran(ros_runtime, tmp_path, *echo, "angular_velocity") == (0, ["0.0", "---"])
+
+    failure, _ = ran(ros_runtime, tmp_path, *echo, "thet")
+    assert "Pose has no field 'thet'; did you mean 'theta'?" in str(failure)
+
+
+def test_a_topic_is_published_and_described_with_the_quality_asked_for(ros_runtime, tmp_path):
+    from tftool.ros.host.program import Program
+
+    words = ["topic", "pub", "/word", "std_msgs/msg/String", "--qos-durability", "transient_local",
+             "--qos-reliability", "best_effort", "--qos-depth", "7"]  # fmt: skip
+    body = user_code.whole(ros2.body(words, Workspace(tmp_path), lambda line: None))
+    ros_runtime.ask(lambda: [Program(ros_runtime.world, "pub", body, on_exit=lambda _: None)])
+    ros_runtime.sleep(0.5)
+    _, lines = ran(ros_runtime, tmp_path, "topic", "info", "-v", "/word")
+
+    assert lines[:4] == ["Type: std_msgs/msg/String", "", "Publisher count: 1", ""]
+    assert "  Reliability: BEST_EFFORT" in lines
+    assert "  History (Depth): KEEP_LAST (7)" in lines
+    assert "  Durability: TRANSIENT_LOCAL" in lines
+    assert "Subscription count: 0" in lines
+
+
+def test_services_are_described_and_found_by_their_type(ros_runtime, tmp_path):
+    assert ran(ros_runtime, tmp_path, "service", "info", "/spawn") == (
+        0,
+        ["Type: turtlesim/srv/Spawn", "Clients count: 0", "Services count: 1"],
+    )
+    assert ran(ros_runtime, tmp_path, "service", "find", "turtlesim/srv/Spawn")[1] == ["/spawn"]
+
+
+def test_parameters_are_described_and_loaded_from_a_file(ros_runtime, tmp_path):
+    file = tmp_path / "blue.yaml"
+    file.write_text("/turtlesim:\n  ros__parameters:\n    background_b: 9\n")
+
+    assert ran(ros_runtime, tmp_path, "param", "load", "/turtlesim", str(file)) == (
+        0,
+        ["Set parameter background_b successful"],
+    )
+    assert ran(ros_runtime, tmp_path, "param", "get", "/turtlesim", "background_b")[1] == [
+        "Integer value is: 9"
+    ]
+    _, lines = ran(ros_runtime, tmp_path, "param", "describe", "/turtlesim", "background_b")
+    assert lines[:2] == ["Parameter name: background_b", "  Type: integer"]
+
+
+def test_a_file_of_parameters_that_is_missing_or_of_others_is_refused(ros_runtime, tmp_path):
+    other = tmp_path / "other.yaml"
+    other.write_text("/talker:\n  ros__parameters:\n    rate: 9\n")
+
+    failure, _ = ran(ros_runtime, tmp_path, "param", "load", "turtlesim", "none.yaml")
+    assert "there is no parameter file 'none.yaml'" in str(failure)
+    failure, _ = ran(ros_runtime, tmp_path, "param", "load", "turtlesim", str(other))
+    assert "other.yaml' sets no parameters of /turtlesim" in str(failure)
+
+
+def test_actions_are_described(ros_runtime, tmp_path):
+    name = "/turtle1/rotate_absolute"
+
+    assert ran(ros_runtime, tmp_path, "action", "type", name) == (
+        0,
+        ["turtlesim/action/RotateAbsolute"],
+    )
+    assert ran(ros_runtime, tmp_path, "action", "info", name)[1] == [
+        f"Action: {name}",
+        "Action clients: 0",
+        "Action servers: 1",
+        "    /turtlesim",
+    ]
+
+
+def test_a_node_is_described_with_its_actions_and_without_hidden_topics(ros_runtime, tmp_path):
+    _, lines = ran(ros_runtime, tmp_path, "node", "info", "/turtlesim")
+
+    servers = lines[lines.index("  Action Servers:") :]
+    assert servers[1] == "    /turtle1/rotate_absolute: turtlesim/action/RotateAbsolute"
+    assert servers[-1] == "  Action Clients:"
+    assert not any("/_action/" in line for line in lines)
+
+
+def test_interfaces_are_listed_by_kind_and_package_and_shown_as_a_prototype(ros_runtime, tmp_path):
+    def show(*words):
+        return ran(ros_runtime, tmp_path, "interface", *words)[1]
+
+    assert show("list", "-s")[0] == "Services:"
+    assert "    turtlesim/srv/Spawn" in show("list", "-s")
+    assert "turtlesim/action/RotateAbsolute" in show("package", "turtlesim")
+    assert "tf2_msgs" in show("packages")
+    assert show("proto", "geometry_msgs/msg/Point") == ['"x: 0.0', "y: 0.0", "z: 0.0", '"']
+    assert show("proto", "--no-quotes", "turtlesim/srv/Kill") == ["name: ''"]
+
+
+def test_executables_and_prefixes_of_packages_are_shown(ros_runtime, tmp_path):
+    package = tmp_path / "mine"
+    package.mkdir()
+    (package / "setup.py").write_text(
+        "from setuptools import setup\nsetup(name='mine', "
+        "entry_points={'console_scripts': ['go = mine.go:main']})\n"
+    )
+
+    assert ran(ros_runtime, tmp_path, "pkg", "executables", "mine")[1] == ["mine go"]
+    assert "turtlesim mimic" in ran(ros_runtime, tmp_path, "pkg", "executables")[1]
+    assert ran(ros_runtime, tmp_path, "pkg", "prefix", "mine")[1] == [str(package)]
 
 
 def test_what_is_not_there_is_named(ros_runtime, tmp_path):

@@ -6,23 +6,38 @@ execute `ros2` get it without a process of its own.
 
 import argparse
 import itertools
+import re
 import statistics
 from collections.abc import Callable, Sequence
+from copy import copy
 from typing import Any
 
 from tftool.base.errors import UsageError
+from tftool.base.near_names import did_you_mean
 from tftool.base.stamps import seconds
 from tftool.messages.classes import INTERFACES
 from tftool.messages.parameter_values import value_of
-from tftool.messages.turtle_messages import interface_name
-from tftool.ros.host import names, program, ros2_words
+from tftool.ros.host import executables, names, program, ros2_words
+from tftool.ros.host.values import stamp_of
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.rclpy import core
 from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.node import Node
+from tftool.ros.rclpy.node_graph import (
+    get_action_client_names_and_types_by_node,
+    get_action_names_and_types,
+    get_action_server_names_and_types_by_node,
+)
 from tftool.ros.rclpy.parameter_client import AsyncParameterClient
-from tftool.ros.rclpy.parameters import Parameter
-from tftool.ros.rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from tftool.ros.rclpy.parameters import Parameter, parameter_dict_from_yaml_file
+from tftool.ros.rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSPresetProfiles,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+from tftool.ros.rclpy.serialization import serialize_message
 from tftool.ros.rclpy.validation import topic_or_service_is_hidden
 
 Print = Callable[[str], object]
@@ -39,6 +54,9 @@ PATIENCE = 10.0
 UNKNOWN = 1
 """Exit status when what was named is not there."""
 
+SESSIONLESS = ("interface", "pkg")
+"""Commands that files answer: no session is asked."""
+
 
 def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[], None]:
     """What runs `ros2 WORDS`, for a `Program`; it prints by `show`.
@@ -47,13 +65,9 @@ def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[]
         UsageError: If the words are no command, or a type they name is not known.
     """
     asked = ros2_words.parse(words)
-    run: Callable[[Node, argparse.Namespace, Print], object] | None
-    if (asked.noun, asked.verb) == ("interface", "show"):
-        text = ros2_words.definition(asked.type)
+    if asked.noun in SESSIONLESS:
+        text = _FROM_FILES[asked.noun, asked.verb](asked, workspace)
         return lambda: _show_lines(text, show)
-    if (asked.noun, asked.verb) == ("pkg", "list"):
-        known = sorted({*workspace.packages, *INTERFACES.packages()})
-        return lambda: _show_lines("\n".join(known), show)
     run = _COMMANDS[asked.noun, asked.verb]
     if "values" in asked:
         asked.message = _message(asked)
@@ -142,8 +156,29 @@ def _wait_until(found: Callable[[], object]) -> None:
         owner.sleep(SETTLE // 5)
 
 
+def _wanted_quality(asked: argparse.Namespace, otherwise: QoSProfile) -> QoSProfile:
+    """Return the profile that `--qos-…` options ask for; the rest is as in `otherwise`."""
+    profile = otherwise
+    if asked.qos_profile:
+        profile = copy(QoSPresetProfiles[asked.qos_profile.upper()].value)
+    if asked.qos_depth:
+        profile.depth = asked.qos_depth
+    for name, policy in _POLICIES.items():
+        wanted = getattr(asked, f"qos_{name}")
+        if wanted:
+            setattr(profile, name, policy[wanted.upper()])
+    return profile
+
+
+_POLICIES: dict[str, Any] = {
+    "history": HistoryPolicy,
+    "reliability": ReliabilityPolicy,
+    "durability": DurabilityPolicy,
+}
+
+
 def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
-    """Subscribe to a topic as those who publish it do."""
+    """Subscribe to a topic as those who publish it do, or as `--qos-…` options ask."""
     name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
     ends = [one.qos_profile for one in node.get_publishers_info_by_topic(_full(asked.topic))]
     latched = bool(ends) and all(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in ends)
@@ -155,6 +190,8 @@ def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None
         else DurabilityPolicy.VOLATILE,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
     )
+    if "qos_profile" in asked:
+        profile = _wanted_quality(asked, profile)
     # What a topic carries behind an action or a service is no message of its own file.
     is_derived = "/action/" in name or "/srv/" in name
     kind = INTERFACES.part(name) if is_derived else ros2_words.interface(name, "msg")
@@ -170,7 +207,9 @@ def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
         heard.append(None)
         if asked.once and len(heard) > 1:
             return
-        _show_lines(yaml.safe_dump(ros2_words.plain(message), sort_keys=False), show)
+        shown = ros2_words.plain(message if asked.field is None else _field(message, asked.field))
+        is_single = not isinstance(shown, dict | list)
+        _show_lines(str(shown) if is_single else yaml.safe_dump(shown, sort_keys=False), show)
         show("---")
 
     _heard(node, asked, echo)
@@ -178,37 +217,126 @@ def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
         core.spin_once(node)
 
 
+def _field(message: Any, path: str) -> Any:
+    """Return the field of a message that "points[0].x" names.
+
+    Raises:
+        UsageError: If the message has no such field.
+    """
+    found = message
+    for step in re.findall(r"[^.\[\]]+", path):
+        try:
+            found = found[int(step)] if step.isdecimal() else getattr(found, step)
+        except (AttributeError, IndexError, TypeError):
+            known = getattr(found, "fields__", ())
+            hint = did_you_mean(step, [one.name for one in known])
+            raise UsageError(f"{type(message).__name__} has no field '{path}'{hint}") from None
+    return found
+
+
+def _measured(
+    node: Node,
+    asked: argparse.Namespace,
+    value: Callable[[Any], Any],
+    tell: Callable[[list[Any]], None],
+) -> None:
+    """Keep a value of each message; call `tell` with the last ones once a second."""
+    values: list[Any] = []
+    _heard(node, asked, lambda message: values.append(value(message)))
+
+    def each_second() -> None:
+        del values[: -asked.window]
+        if values:
+            tell(values)
+
+    node.create_timer(1.0, each_second)
+    core.spin(node)
+
+
+def _spread(seconds_of_each: Sequence[float], window: int) -> str:
+    return (
+        f"\tmin: {min(seconds_of_each):.3f}s max: {max(seconds_of_each):.3f}s "
+        f"std dev: {statistics.pstdev(seconds_of_each):.5f}s window: {window}"
+    )
+
+
 def _topic_hz(node: Node, asked: argparse.Namespace, show: Print) -> None:
     owner = program.current()
-    moments: list[int] = []
-    _heard(node, asked, lambda _: moments.append(owner.now()))
 
-    def tell() -> None:
+    def tell(moments: list[int]) -> None:
         gaps = [(b - a) / 1e9 for a, b in itertools.pairwise(moments)]
-        del moments[:-10_000]
-        if not gaps:
-            return
-        show(f"average rate: {1.0 / max(statistics.fmean(gaps), 1e-9):.3f}")
+        if gaps:
+            show(f"average rate: {1.0 / max(statistics.fmean(gaps), 1e-9):.3f}")
+            show(_spread(gaps, len(moments)))
+
+    _measured(node, asked, lambda _: owner.now(), tell)
+
+
+def _topic_bw(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    owner = program.current()
+
+    def tell(heard: list[tuple[int, int]]) -> None:
+        sizes = [size for _, size in heard]
+        lasted = (owner.now() - heard[0][0]) / 1e9
+        rate = sum(sizes) / max(lasted, 1e-9)
+        show(f"{_bytes(rate)}/s from {len(sizes)} messages")
         show(
-            f"\tmin: {min(gaps):.3f}s max: {max(gaps):.3f}s "
-            f"std dev: {statistics.pstdev(gaps):.5f}s window: {len(moments)}"
+            f"\tMessage size mean: {_bytes(statistics.fmean(sizes))} "
+            f"min: {_bytes(min(sizes))} max: {_bytes(max(sizes))}"
         )
 
-    node.create_timer(1.0, tell)
-    core.spin(node)
+    _measured(node, asked, lambda message: (owner.now(), len(serialize_message(message))), tell)
+
+
+def _bytes(number: float) -> str:
+    for limit, unit in ((1e6, "MB"), (1e3, "KB")):
+        if number >= limit:
+            return f"{number / limit:.2f} {unit}"
+    return f"{number:.0f} B"
+
+
+def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    owner = program.current()
+
+    def delay(message: Any) -> float:
+        if not hasattr(message, "header"):
+            raise UsageError(f"{type(message).__name__} has no header: its delay is not known")
+        return float(owner.now() - stamp_of(message.header.stamp)) / 1e9
+
+    def tell(delays: list[float]) -> None:
+        show(f"average delay: {statistics.fmean(delays):.3f}")
+        show(_spread(delays, len(delays)))
+
+    _measured(node, asked, delay, tell)
+
+
+def _find(pairs: Any, kind: str, show: Print) -> None:
+    """Show the names that have a type, of "package/msg/Name" or "package/Name"."""
+    parts = kind.split("/")
+    for name, kinds in pairs:
+        if any(kind == one or parts == [one.split("/")[0], one.split("/")[-1]] for one in kinds):
+            show(name)
+
+
+def _topic_find(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    _listen(node)
+    _find(node.get_topic_names_and_types(), asked.type, show)
 
 
 def _topic_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
     kind = _type_of_topic(node, asked.topic)
     full = _full(asked.topic)
-    show(f"Type: {kind}")
+    after = [""] if asked.verbose else []
+    lines = [f"Type: {kind}", *after]
     for role, count, infos in (
         ("Publisher", node.count_publishers(full), node.get_publishers_info_by_topic(full)),
         ("Subscription", node.count_subscribers(full), node.get_subscriptions_info_by_topic(full)),
     ):
-        show(f"{role} count: {count}")
+        lines += [f"{role} count: {count}", *after]
         for one in infos if asked.verbose else ():
-            show(f"  Node: {one.node_namespace.rstrip('/')}/{one.node_name} ({one.topic_type})")
+            lines += [*str(one).splitlines(), ""]
+    for line in lines:
+        show(line)
 
 
 def _topic_type(node: Node, asked: argparse.Namespace, show: Print) -> None:
@@ -220,7 +348,9 @@ def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
     wanted = asked.wait_matching_subscriptions
     if wanted is None:
         wanted = 1 if times else 0
-    publisher = node.create_publisher(asked.kind, asked.topic, 10)
+    publisher = node.create_publisher(
+        asked.kind, asked.topic, _wanted_quality(asked, QoSProfile(depth=10))
+    )
     if publisher.get_subscription_count() < wanted:
         show(f"Waiting for at least {wanted} matching subscription(s)...")
         while publisher.get_subscription_count() < wanted and core.ok():
@@ -258,6 +388,24 @@ def _service_type(node: Node, asked: argparse.Namespace, show: Print) -> int:
     for kind in kinds:
         show(kind)
     return 0 if kinds else UNKNOWN
+
+
+def _service_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
+    status = 0
+    _listen(node)
+    full = _full(asked.service)
+    kinds = dict(node.get_service_names_and_types()).get(full, [])
+    if not kinds:
+        status = UNKNOWN
+    show(f"Type: {', '.join(kinds) or 'unknown'}")
+    show(f"Clients count: {node.count_clients(full)}")
+    show(f"Services count: {node.count_services(full)}")
+    return status
+
+
+def _service_find(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    _listen(node)
+    _find(node.get_service_names_and_types(), asked.type, show)
 
 
 def _service_call(node: Node, asked: argparse.Namespace, show: Print) -> None:
@@ -356,6 +504,54 @@ def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
     _show_lines(yaml.safe_dump(dumped, sort_keys=False), show)
 
 
+def _param_describe(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    client = _parameters(node, asked.node)
+    for one in _answer(node, client.describe_parameters(asked.names)).descriptors:
+        show(f"Parameter name: {one.name}")
+        show(f"  Type: {_TYPES.get(one.type, 'not set')}")
+        if one.description:
+            show(f"  Description: {one.description}")
+        show("  Constraints:")
+        if one.read_only:
+            show("    Read only: true")
+        for span in [*one.integer_range, *one.floating_point_range]:
+            show(f"    Min value: {span.from_value}")
+            show(f"    Max value: {span.to_value}")
+            show(f"    Step: {span.step}")
+        if one.additional_constraints:
+            show(f"    Additional constraints: {one.additional_constraints}")
+
+
+_TYPES = {
+    1: "boolean", 2: "integer", 3: "double", 4: "string", 5: "byte array",
+    6: "boolean array", 7: "integer array", 8: "double array", 9: "string array",
+}  # fmt: skip
+
+
+def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
+    """Set a node's parameters from a file; its line and the reason for each that is refused.
+
+    Raises:
+        UsageError: If the file cannot be read, or says nothing of that node.
+    """
+    client = _parameters(node, asked.node)
+    try:
+        given = parameter_dict_from_yaml_file(
+            asked.file, not asked.no_use_wildcard, target_nodes=[_full(asked.node)]
+        )
+    except OSError as error:
+        raise UsageError(str(error)) from None
+    if not given:
+        raise UsageError(f"'{asked.file}' sets no parameters of {_full(asked.node)}")
+    results = _answer(node, client.set_parameters(list(given.values()))).results
+    for name, result in zip(given, results, strict=True):
+        if result.successful:
+            show(f"Set parameter {name} successful")
+        else:
+            show(f"Set parameter {name} failed: {result.reason}")
+    return 0 if all(result.successful for result in results) else UNKNOWN
+
+
 def _node_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
     _listen(node)
     for name, namespace in sorted(node.get_node_names_and_namespaces(), key=lambda one: one[::-1]):
@@ -375,19 +571,45 @@ def _node_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
         ("Publishers", node.get_publisher_names_and_types_by_node(*of)),
         ("Service Servers", node.get_service_names_and_types_by_node(*of)),
         ("Service Clients", node.get_client_names_and_types_by_node(*of)),
+        ("Action Servers", get_action_server_names_and_types_by_node(node, *of)),
+        ("Action Clients", get_action_client_names_and_types_by_node(node, *of)),
     ):
         show(f"  {title}:")
         for one, kinds in pairs:
-            show(f"    {one}: {', '.join(kinds)}")
+            if asked.include_hidden or not topic_or_service_is_hidden(one):
+                show(f"    {one}: {', '.join(kinds)}")
     return 0
 
 
 def _action_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
     _listen(node)
-    world = program.current().world
-    offers = program.current().ask(lambda: [(k, v.kind) for k, v in world.actions().items()])
-    pairs = [(f"/{name}", [interface_name(kind)]) for name, kind in sorted(offers)]
-    _list(pairs, asked, show, hidden=False)
+    _list(get_action_names_and_types(node), asked, show, hidden=False)
+
+
+def _action_type(node: Node, asked: argparse.Namespace, show: Print) -> int:
+    _listen(node)
+    kinds = dict(get_action_names_and_types(node)).get(_full(asked.action), [])
+    for kind in kinds:
+        show(kind)
+    return 0 if kinds else UNKNOWN
+
+
+def _action_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    _listen(node)
+    full = _full(asked.action)
+    show(f"Action: {full}")
+    for title, names_and_types in (
+        ("clients", get_action_client_names_and_types_by_node),
+        ("servers", get_action_server_names_and_types_by_node),
+    ):
+        ends = [
+            (f"{namespace.rstrip('/')}/{name}", kinds)
+            for name, namespace in node.get_node_names_and_namespaces()
+            if (kinds := dict(names_and_types(node, name, namespace)).get(full)) is not None
+        ]
+        show(f"Action {title}: {len(ends)}")
+        for name, kinds in sorted(ends):
+            show(f"    {name} [{', '.join(kinds)}]" if asked.show_types else f"    {name}")
 
 
 def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int:
@@ -398,7 +620,14 @@ def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int
         for line in text.rstrip("\n").splitlines():
             show(f"    {line}")
 
+    early: list[Any] = []
+    accepted = False
+
     def on_feedback(message: Any) -> None:
+        # Feedback can be there before the answer that accepts the goal: it is shown after it.
+        if not accepted:
+            early.append(message)
+            return
         show("Feedback:")
         dump(message.feedback)
 
@@ -413,7 +642,10 @@ def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int
     if not handle.accepted:
         show("Goal was rejected.")
         return UNKNOWN
-    show("Goal accepted")
+    show(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}")
+    accepted = True
+    for message in early:
+        on_feedback(message)
     wrapped = _answer(node, handle.get_result_async())
     show("Result:")
     dump(wrapped.result)
@@ -421,24 +653,82 @@ def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int
     return 0
 
 
+def _pkg_executables(asked: argparse.Namespace, workspace: Workspace) -> str:
+    found = executables.names(workspace)
+    if asked.package is not None and asked.package not in {package for package, _ in found}:
+        workspace.package(asked.package)
+    return "\n".join(
+        str(path) if asked.full_path and path else f"{package} {name}"
+        for (package, name), path in sorted(found.items())
+        if asked.package in (None, package)
+    )
+
+
+def _interface_list(asked: argparse.Namespace, workspace: Workspace) -> str:
+    wanted = [
+        kind
+        for kind, only in zip(
+            ros2_words.KINDS,
+            (asked.only_msgs, asked.only_srvs, asked.only_actions),
+            strict=True,
+        )
+        if only
+    ]
+    lines = []
+    for kind in wanted or ros2_words.KINDS:
+        found = ros2_words.interfaces(kinds=[kind])
+        lines += [f"{ros2_words.KINDS[kind]}:", *(f"    {one}" for one in found)]
+    return "\n".join(lines)
+
+
+def _interface_proto(asked: argparse.Namespace, workspace: Workspace) -> str:
+    import yaml
+
+    shown = ros2_words.plain(ros2_words.prototype(asked.type))
+    text: str = yaml.safe_dump(shown, sort_keys=False) if shown else ""
+    return text if asked.no_quotes else f'"{text}"'
+
+
+_FROM_FILES: dict[tuple[str, str], Callable[[argparse.Namespace, Workspace], str]] = {
+    ("interface", "show"): lambda asked, _: ros2_words.definition(asked.type),
+    ("interface", "list"): _interface_list,
+    ("interface", "package"): lambda asked, _: "\n".join(ros2_words.interfaces(asked.package)),
+    ("interface", "packages"): lambda asked, _: "\n".join(sorted(INTERFACES.packages())),
+    ("interface", "proto"): _interface_proto,
+    ("pkg", "list"): lambda _, workspace: "\n".join(
+        sorted({*workspace.packages, *INTERFACES.packages()})
+    ),
+    ("pkg", "executables"): _pkg_executables,
+    ("pkg", "prefix"): lambda asked, workspace: str(workspace.package(asked.package).path),
+}
+
 _STATUSES = {4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
 
 _COMMANDS: dict[tuple[str, str], Callable[[Node, argparse.Namespace, Print], object]] = {
     ("topic", "list"): _topic_list,
     ("topic", "echo"): _topic_echo,
     ("topic", "hz"): _topic_hz,
+    ("topic", "bw"): _topic_bw,
+    ("topic", "delay"): _topic_delay,
+    ("topic", "find"): _topic_find,
     ("topic", "info"): _topic_info,
     ("topic", "type"): _topic_type,
     ("topic", "pub"): _topic_pub,
     ("service", "list"): _service_list,
     ("service", "type"): _service_type,
+    ("service", "info"): _service_info,
+    ("service", "find"): _service_find,
     ("service", "call"): _service_call,
     ("param", "list"): _param_list,
     ("param", "get"): _param_get,
     ("param", "set"): _param_set,
     ("param", "dump"): _param_dump,
+    ("param", "load"): _param_load,
+    ("param", "describe"): _param_describe,
     ("node", "list"): _node_list,
     ("node", "info"): _node_info,
     ("action", "list"): _action_list,
+    ("action", "type"): _action_type,
+    ("action", "info"): _action_info,
     ("action", "send_goal"): _action_send_goal,
 }

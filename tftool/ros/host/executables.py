@@ -284,6 +284,14 @@ _ELSEWHERE = {
 OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
 
 
+def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
+    """Return every executable by package and name, and its file where it has one of its own."""
+    found: dict[tuple[str, str], Path | None] = dict.fromkeys(_OURS)
+    for package in workspace.packages.values():
+        found |= {(package.name, name): package.place_of_script(name) for name in package.scripts}
+    return found
+
+
 def check(workspace: Workspace, package: str, executable: str) -> None:
     """Refuse an executable that there is not.
 

@@ -11,6 +11,9 @@ from tftool.base.near_names import did_you_mean
 from tftool.messages.classes import INTERFACES, Message
 from tftool.messages.schema import FLOATS
 
+PROFILES = ("default", "system_default", "sensor_data", "services_default", "parameters")
+"""Names that `--qos-profile` takes; each is a member of rclpy's QoSPresetProfiles."""
+
 
 class _Parser(argparse.ArgumentParser):
     """Refuses wrong words with a sentence, as all commands do."""
@@ -54,6 +57,13 @@ def _parser() -> tuple[_Parser, dict[str, list[str]]]:
     def flag(of: Any, *names: str) -> None:
         of.add_argument(*names, action="store_true")
 
+    def quality(of: Any) -> None:
+        of.add_argument("--qos-profile", choices=PROFILES)
+        of.add_argument("--qos-depth", type=_count)
+        of.add_argument("--qos-history", choices=("keep_last", "keep_all"))
+        of.add_argument("--qos-reliability", choices=("reliable", "best_effort"))
+        of.add_argument("--qos-durability", choices=("volatile", "transient_local"))
+
     topic = noun("topic")
     listed = verb(topic, "list")
     flag(listed, "-t", "--show-types")
@@ -61,7 +71,12 @@ def _parser() -> tuple[_Parser, dict[str, list[str]]]:
     echo = verb(topic, "echo", "topic")
     echo.add_argument("type", nargs="?")
     flag(echo, "--once")
-    verb(topic, "hz", "topic")
+    echo.add_argument("--field")
+    quality(echo)
+    verb(topic, "find", "type")
+    for name in ("hz", "bw", "delay"):
+        measured = verb(topic, name, "topic")
+        measured.add_argument("-w", "--window", type=_count, default=10_000)
     flag(verb(topic, "info", "topic"), "-v", "--verbose")
     verb(topic, "type", "topic")
     pub = verb(topic, "pub", "topic", "type")
@@ -70,12 +85,15 @@ def _parser() -> tuple[_Parser, dict[str, list[str]]]:
     pub.add_argument("-t", "--times", type=int, default=0)
     pub.add_argument("-w", "--wait-matching-subscriptions", type=int)
     flag(pub, "-1", "--once")
+    quality(pub)
 
     service = noun("service")
     listed = verb(service, "list")
     flag(listed, "-t", "--show-types")
     flag(listed, "--include-hidden-services")
     verb(service, "type", "service")
+    verb(service, "info", "service")
+    verb(service, "find", "type")
     call = verb(service, "call", "service", "type")
     call.add_argument("values", nargs="?", default="{}")
 
@@ -84,18 +102,36 @@ def _parser() -> tuple[_Parser, dict[str, list[str]]]:
     verb(param, "get", "node", "name")
     verb(param, "set", "node", "name", "value")
     verb(param, "dump", "node")
+    verb(param, "describe", "node").add_argument("names", nargs="+")
+    flag(verb(param, "load", "node", "file"), "--no-use-wildcard")
 
     node = noun("node")
     flag(verb(node, "list"), "-a", "--all")
-    verb(node, "info", "node")
+    flag(verb(node, "info", "node"), "--include-hidden")
 
     action = noun("action")
     flag(verb(action, "list"), "-t", "--show-types")
+    verb(action, "type", "action")
+    flag(verb(action, "info", "action"), "-t", "--show-types")
     goal = verb(action, "send_goal", "action", "type", "values")
     flag(goal, "-f", "--feedback")
 
-    verb(noun("interface"), "show", "type")
-    verb(noun("pkg"), "list")
+    interface = noun("interface")
+    verb(interface, "show", "type")
+    listed = verb(interface, "list")
+    flag(listed, "-m", "--only-msgs")
+    flag(listed, "-s", "--only-srvs")
+    flag(listed, "-a", "--only-actions")
+    verb(interface, "package", "package")
+    verb(interface, "packages")
+    flag(verb(interface, "proto", "type"), "--no-quotes")
+
+    pkg = noun("pkg")
+    verb(pkg, "list")
+    executables = verb(pkg, "executables")
+    executables.add_argument("package", nargs="?")
+    flag(executables, "--full-path")
+    verb(pkg, "prefix", "package")
     for of in (nouns, *listed_verbs):
         of.help = ", ".join(of.choices)
     return parser, {
@@ -108,6 +144,12 @@ def _rate(text: str) -> float:
         if 0.0 < (rate := float(text)) < math.inf:
             return rate
     raise argparse.ArgumentTypeError(f"{text} is no number of Hz above 0")
+
+
+def _count(text: str) -> int:
+    if text.isdecimal() and int(text) > 0:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text} is no whole number above 0")
 
 
 def interface(name: str, kind: str) -> Any:
@@ -142,6 +184,40 @@ def definition(name: str) -> str:
             return INTERFACES.text(package, one, short)
     interface(name, kind or "msg")
     raise UsageError(f"there is no interface '{name}'")
+
+
+KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+"""The kinds of interfaces, and the headings that `ros2 interface list` gives them."""
+
+
+def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:
+    """Return the full names of the interfaces of some kinds, of one package or of all.
+
+    Raises:
+        UsageError: If there is no such package; a near name is offered.
+    """
+    if package is not None and package not in INTERFACES.packages():
+        hint = did_you_mean(package, INTERFACES.packages())
+        raise UsageError(f"there is no package of interfaces '{package}'{hint}")
+    return [
+        f"{one}/{kind}/{name}"
+        for one in ([package] if package else sorted(INTERFACES.packages()))
+        for kind in kinds
+        for name in sorted(INTERFACES.names(one, kind))
+    ]
+
+
+def prototype(name: str) -> Any:
+    """Return a message, request or goal of an interface with every field at its default.
+
+    Raises:
+        UsageError: If there is no such interface; a near name is offered.
+    """
+    parts = name.strip("/").split("/")
+    kind = parts[1] if len(parts) == 3 else "msg"
+    found = interface(name, kind if kind in KINDS else "msg")
+    part = {"srv": "Request", "action": "Goal"}.get(kind)
+    return (getattr(found, part) if part else found)()
 
 
 def fill(message: Any, values: Any, where: str = "") -> None:
