@@ -4,7 +4,7 @@ import pytest
 
 from tftool.base.errors import UsageError
 from tftool.commands.shared import on_screen as onscreen
-from tftool.commands.teleop import press_there
+from tftool.commands.teleop.options import press_there
 from tftool.messages.turtle_values import Pose2D
 from tftool.screens.terminal import run_screen as showing
 from tftool.world.clock import SimClock, run

@@ -182,7 +182,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
         yield from ((one.id, one.summary) for one in CHECKS.values())
     elif bare == "STEP":
-        from tftool.commands.new import EXAMPLES
+        from tftool.commands.new.options import EXAMPLES
 
         yield from ((step, "") for step in EXAMPLES)
 
@@ -271,7 +271,7 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
     """The commands of ROS 2's own command line, then the verbs of the one that is named."""
-    from tftool.commands.ros2 import verbs_of
+    from tftool.commands.ros2.options import verbs_of
 
     if len(before) < 2:
         yield from ((word, "") for word in verbs_of(before))

@@ -94,8 +94,8 @@ def load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     )
 
     # Only `help` asks for other commands.
-    room = "app" if name == "help" else "commands"
-    command: Callable[..., Any] = getattr(import_module(f"tftool.{room}.{name}"), name)
+    home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}.options"
+    command: Callable[..., Any] = getattr(import_module(home), name)
     if name in ALONE:
         return command
     options = {

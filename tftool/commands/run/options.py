@@ -91,7 +91,7 @@ def run(
     from tftool.commands.shared.hosting import tell_where_to_look
     from tftool.commands.shared.notices import notice
     from tftool.commands.shared.programs import tell_log, workspace_here
-    from tftool.commands.teleop import teleop
+    from tftool.commands.teleop.options import teleop
     from tftool.ros import running
     from tftool.ros.host.importing import ros_free
     from tftool.ros.launch import packages
