@@ -10,6 +10,7 @@ from typing import get_args
 import pytest
 
 import tftool
+from tftool.opener import open_frames
 
 # What whoever builds on tftool may rely on. Adding a name is a promise, taking one away breaks it.
 PROMISED = [
@@ -24,6 +25,7 @@ PROMISED = [
     "Finding",
     "ForwardExtrapolationException",
     "FrameInfo",
+    "Frames",
     "InputError",
     "InvalidArgumentException",
     "JointStates",
@@ -78,6 +80,16 @@ def test_every_promised_name_is_there_under_its_own_name(name):
     value = getattr(tftool, name)
 
     assert getattr(value, "__name__", name) == name
+
+
+def test_open_is_reached_by_its_full_name_and_leaves_pythons_own_to_others():
+    names: dict[str, object] = {}
+    exec("from tftool import *", names)
+
+    assert tftool.open is open_frames
+    assert "open" not in tftool.__all__
+    assert "open" in dir(tftool)
+    assert names.get("open", open) is open
 
 
 def test_another_name_is_refused_as_python_does():

@@ -33,9 +33,11 @@ if TYPE_CHECKING:
     from tftool.frames.diff import diff
     from tftool.frames.differences import Differences
     from tftool.frames.export.export import Exported, export
+    from tftool.frames.frames import Frames
     from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
     from tftool.geometry.rigid import Quaternion, Transform, Vector3
     from tftool.notebook import PageView, view
+    from tftool.opener import open_frames as open  # noqa: F401
     from tftool.recordings.recording import Recording, open_recording
     from tftool.recordings.recording_writer import RecordingWriter, write_recording
     from tftool.robots.joint_states import JointStates
@@ -60,6 +62,7 @@ __all__ = [
     "Finding",
     "ForwardExtrapolationException",
     "FrameInfo",
+    "Frames",
     "InputError",
     "InvalidArgumentException",
     "JointStates",
@@ -130,6 +133,7 @@ _HOMES = {
     "tftool.world.supervisor": ("live",),
     "tftool.world.world": ("World",),
     "tftool.frames.diff": ("diff",),
+    "tftool.frames.frames": ("Frames",),
     "tftool.frames.differences": ("Differences",),
     "tftool.doctor.diagnose": ("diagnose", "explain"),
     "tftool.doctor.explanation": ("Explanation",),
@@ -144,6 +148,8 @@ _HOMES = {
     "tftool.base.stamps": ("LATEST", "as_seconds", "seconds"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+# Left out of `__all__`: `from tftool import *` keeps Python's own.
+_HOME_OF["open"] = "tftool.opener"
 
 
 def __getattr__(name: str) -> object:
@@ -151,13 +157,14 @@ def __getattr__(name: str) -> object:
 
     if name not in _HOME_OF:
         raise AttributeError(f"module 'tftool' has no attribute '{name}'")
-    value: object = getattr(import_module(_HOME_OF[name]), name)
+    home = import_module(_HOME_OF[name])
+    value: object = getattr(home, "open_frames" if name == "open" else name)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, "open"})
 
 
 if "IPython" in sys.modules:

@@ -2,19 +2,20 @@ import json
 
 import pytest
 
-from tests.commands.conftest import Simulated
+from tests.conftest import Simulated
 from tftool.base.errors import InputError, NodeFailed, UsageError
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.from_kind import named, scenario_named
 from tftool.commands.shared.hosting import HEAD_START, open_empty_session, open_session
 from tftool.commands.shared.observe import observe
-from tftool.commands.shared.options import At
+from tftool.frames.moment import At
 from tftool.geometry.rigid import Transform
+from tftool.opener import named, open_frames, scenario_named
 from tftool.recordings.find import Kind
 from tftool.scenario import builtin
+from tftool.world.clock import run
 from tftool.world.node import Node
 
 
@@ -84,20 +85,24 @@ def test_a_source_that_was_named_is_hosted_without_a_word(simulated, capsys):
     assert capsys.readouterr().err == ""
 
 
+def lived_until(session, lasting):
+    async def lived():
+        await session.live(session.world.clock.epoch + lasting)
+
+    run(session.world.clock, lived())
+
+
 def test_a_world_can_be_lived_through_to_a_moment():
     session = open_session(Connection(), "turtles", simulated=True)
 
-    session.live_until(session.moment(At(seconds(1))))
+    lived_until(session, seconds(1))
 
     assert session.world.clock.elapsed() == seconds(1)
 
 
 def test_a_moment_after_the_end_is_refused():
-    session = open_session(Connection(), "turtles", simulated=True)
-
     with pytest.raises(UsageError, match="scenario 'turtles' lasts 60 s: 61 s is after its end"):
-        session.moment(At(seconds(61)))
-    assert open_empty_session(Connection(), simulated=True).moment(At(seconds(1e6))) > 0
+        open_frames("turtles", until=At(seconds(61)))
 
 
 def test_nodes_can_be_left_out_and_the_memory_set():
@@ -117,7 +122,7 @@ def test_nodes_can_be_left_out_and_the_memory_set():
 def test_the_script_drives_unless_somebody_else_does(by_hand, moved):
     session = open_session(Connection(), "turtles", simulated=True, by_hand=by_hand)
 
-    session.live_until(session.moment(At(seconds(30))))
+    lived_until(session, seconds(30))
 
     found = session.world.buffer.lookup_transform("world", "turtle1")
     assert (found.transform.translation.x != pytest.approx(5.544445)) is moved

@@ -1,7 +1,14 @@
 import pytest
 import typer
 
-from tftool.commands.shared.options import At, duration, finite, moment, not_negative, positive
+from tftool.commands.shared.options import (
+    duration,
+    finite,
+    moment,
+    not_negative,
+    positive,
+)
+from tftool.frames.moment import At
 
 
 @pytest.mark.parametrize(

@@ -7,11 +7,11 @@ import pytest
 from tftool.base.errors import BackwardExtrapolationException, LookupException, TransformException
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.commands.shared.command_session import Session
 from tftool.commands.shared.echo_loop import Echo, LivePrinter, Printer
 from tftool.commands.shared.waiter import FramePair
 from tftool.geometry.rigid import Transform
 from tftool.world.clock import SimClock
+from tftool.world.link.session_world import Session
 from tftool.world.node import Node
 from tftool.world.supervisor import live
 from tftool.world.world import World

@@ -3,7 +3,7 @@
 import pytest
 
 from tftool import Buffer, Transform, TransformStamped, seconds
-from tftool.commands.shared.from_kind import scenario_named
+from tftool.opener import scenario_named
 from tftool.scenario.play import build
 from tftool.screens.first_moment import first_moment
 from tftool.world.clock import SimClock, run

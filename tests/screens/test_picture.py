@@ -10,9 +10,9 @@ import pytest
 
 from tests.screens.moving_picture import animated
 from tftool.base.stamps import NANOSECONDS, seconds
-from tftool.commands.shared.from_kind import scenario_named
 from tftool.commands.shared.on_screen import simulator_of
 from tftool.drawing import theme
+from tftool.opener import scenario_named
 from tftool.scenario.play import build, left_to_a_person
 from tftool.screens.terminal.scene import Scene
 from tftool.screens.terminal.screen_options import Setting

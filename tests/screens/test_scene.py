@@ -220,8 +220,8 @@ def test_trees_that_nothing_joins_are_apart(frames):
 
 
 def test_two_trees_that_are_joined_are_one_picture_that_agrees_with_the_lookup():
-    from tftool.commands.shared.from_kind import scenario_named
     from tftool.commands.shared.on_screen import simulator_of
+    from tftool.opener import scenario_named
     from tftool.scenario.play import build, left_to_a_person
     from tftool.world.clock import SimClock
 

@@ -192,7 +192,7 @@ def _frames(before: Sequence[str]) -> list[str]:
     named = _frames_of_a_file([*_words_behind(), *before])
     if named is not None:
         return named
-    from tftool.commands.shared.connection import domain_here
+    from tftool.world.link.link_options import domain_here
     from tftool.world.link.zenoh.rendezvous import frames_known
 
     domain = domain_here()

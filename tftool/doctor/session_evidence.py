@@ -1,99 +1,51 @@
 """What a world's topics carried while something listened, as material for a diagnosis."""
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from tftool.base.stamps import Stamp
-from tftool.buffer.sample import TransformStamped
 from tftool.doctor.evidence import Material
-from tftool.recordings.contract import Edge, Publisher, RecordedTopic, Transforms
-
-MOST = 4_000_000
-"""Transforms that are kept: about 300 MB."""
+from tftool.frames.transform_log import TransformLog
+from tftool.recordings.contract import RecordedTopic
 
 
-class Hearing:
+class Hearing(TransformLog):
     """Transforms as they arrived, with who sent them."""
 
-    def __init__(self) -> None:
-        self._rows: dict[tuple[str, str, bool], list[tuple[float, ...]]] = {}
-        self._stamps: dict[tuple[str, str, bool], list[int]] = {}
-        self._messages: dict[tuple[str, str, bool], list[int]] = {}
-        self._logs: list[int] = []
-        self._senders: list[int] = []
-        self._publishers: dict[Publisher, int] = {}
-        self._count = 0
-
-    def hear(
-        self,
-        now: Stamp,
-        transforms: Iterable[TransformStamped],
-        authority: str,
-        *,
-        is_static: bool,
-    ) -> None:
-        """Take in a message.
-
-        Args:
-            now: When it arrived.
-            transforms: What it carried.
-            authority: Who sent it.
-            is_static: Whether it came on the static topic.
-        """
-        if self._count >= MOST:
-            return
-        publisher = Publisher("/tf_static" if is_static else "/tf", authority)
-        self._senders.append(self._publishers.setdefault(publisher, len(self._publishers)))
-        self._logs.append(now)
-        for one in transforms:
-            key = (one.frame_id, one.child_frame_id, is_static)
-            pose = one.transform
-            self._rows.setdefault(key, []).append((0.0, *pose.translation, *pose.rotation))
-            self._stamps.setdefault(key, []).append(one.stamp)
-            self._messages.setdefault(key, []).append(len(self._logs) - 1)
-            self._count += 1
-
     def material(self, name: str, kind: str, start: Stamp, end: Stamp) -> Material:
-        """All of it, in columns.
+        """All of it; see `of_log`."""
+        return of_log(self, name, kind, start, end)
 
-        Args:
-            name: What was listened to, for people.
-            kind: What that is.
-            start: When listening began.
-            end: When it ended.
-        """
-        edges = []
-        for key, rows in self._rows.items():
-            poses = np.array(rows, dtype=np.float64)
-            records = poses.view(np.int64)
-            records[:, 0] = self._stamps[key]
-            edges.append(Edge(*key, 0, records, np.array(self._messages[key], dtype=np.int32)))
-        publishers = tuple(self._publishers)
-        transforms = Transforms(
-            tuple(edges),
-            np.array(self._logs, dtype=np.int64),
-            np.array(self._senders, dtype=np.int32),
-            publishers,
+
+def of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: Stamp) -> Material:
+    """Return what a diagnosis looks at, of transforms as they arrived.
+
+    Args:
+        log: What arrived.
+        name: The name of the source, for people.
+        kind: What the source is.
+        start: When listening began.
+        end: When it ended.
+    """
+    transforms = log.transforms()
+    publishers = transforms.publishers
+    counts = np.bincount(transforms.senders, minlength=len(publishers)).tolist()
+    topics = tuple(
+        RecordedTopic(
+            topic,
+            "tf2_msgs/TFMessage",
+            count=sum(n for p, n in zip(publishers, counts, strict=True) if p.topic == topic),
+            transforms=True,
+            static=topic == "/tf_static",
         )
-        counts = np.bincount(transforms.senders, minlength=len(publishers)).tolist()
-        topics = tuple(
-            RecordedTopic(
-                topic,
-                "tf2_msgs/TFMessage",
-                count=sum(n for p, n in zip(publishers, counts, strict=True) if p.topic == topic),
-                transforms=True,
-                static=topic == "/tf_static",
-            )
-            for topic in sorted({publisher.topic for publisher in publishers})
-        )
-        return Material(
-            name=name,
-            kind=kind,
-            transforms=transforms,
-            topics=topics,
-            publishers=publishers,
-            start=start,
-            end=end,
-            recorded=False,
-        )
+        for topic in sorted({publisher.topic for publisher in publishers})
+    )
+    return Material(
+        name=name,
+        kind=kind,
+        transforms=transforms,
+        topics=topics,
+        publishers=publishers,
+        start=start,
+        end=end,
+        recorded=False,
+    )

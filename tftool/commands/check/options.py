@@ -215,8 +215,8 @@ def _judge(
     from tftool.base.errors import InputError
     from tftool.base.escaping import visible_lines
     from tftool.base.report import Report
-    from tftool.commands.shared.from_kind import scenario_named
     from tftool.commands.shared.notices import complain, notice
+    from tftool.opener import scenario_named
 
     try:
         scenario = scenario_named(word)

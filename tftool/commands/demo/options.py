@@ -22,10 +22,10 @@ from tftool.commands.shared.options import (
 )
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
     from tftool.commands.shared.hosting import JoinDecision
     from tftool.scenario.scenario import Scenario
+    from tftool.world.link.session_world import Session
     from tftool.world.world import World
 
 
@@ -84,9 +84,9 @@ def demo(
     tftool demo carrot --source-frame carrot1
     tftool demo time_travel --rate 2 --set delay=3
     """
-    from tftool.commands.shared.from_kind import named, scenario_named
     from tftool.commands.shared.hosting import HOME
     from tftool.commands.shared.on_screen import screen_lacks
+    from tftool.opener import named, scenario_named
 
     if listing:
         _list(for_programs=for_programs)
@@ -192,11 +192,11 @@ class _Showing:
 
     def _hosted(self, chosen: "Scenario", found: "JoinDecision") -> str | None:
         """Show a scenario in a world of its own, which others can join."""
-        from tftool.commands.shared.command_session import shared
         from tftool.commands.shared.on_screen import driver_of, run_app, simulator_of
         from tftool.scenario import builtin
         from tftool.scenario.play import Watch, build, left_to_a_person
         from tftool.screens.terminal.screen_options import Setting
+        from tftool.world.link.session_world import shared
 
         recording = self.recording
         around: Watch = nullcontext
@@ -260,7 +260,7 @@ def _show_recording(connection: "Connection", word: str, *, ascii_only: bool, li
     from pathlib import Path
 
     from tftool.base.escaping import visible
-    from tftool.commands.shared.hosting import open_session
+    from tftool.commands.shared.hosting import first_look, open_session
     from tftool.commands.shared.on_screen import run_app, screen_lacks
     from tftool.screens.terminal.screen_options import Setting
 
@@ -275,7 +275,7 @@ def _show_recording(connection: "Connection", word: str, *, ascii_only: bool, li
         await session.live(None)
 
     title = f"tftool demo {visible(Path(word).name)}"
-    setting = Setting(title=title, ascii_only=ascii_only, light=light, at=session.first_look())
+    setting = Setting(title=title, ascii_only=ascii_only, light=light, at=first_look(session))
     run_app(session.world, life(), None, setting)
 
 

@@ -11,7 +11,6 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.options import (
-    At,
     CacheTime,
     Jobs,
     Json,
@@ -23,6 +22,7 @@ from tftool.commands.shared.options import (
     moment,
     option,
 )
+from tftool.frames.moment import At
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection

@@ -11,7 +11,6 @@ from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.options import (
     OUTPUT,
     WHEN,
-    At,
     AtOption,
     CacheTime,
     Json,
@@ -25,13 +24,14 @@ from tftool.commands.shared.options import (
     seconds_option,
     within,
 )
+from tftool.frames.moment import At
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
     from tftool.commands.shared.echo_loop import Printer
     from tftool.commands.shared.waiter import FramePair
     from tftool.recordings.find import Found
+    from tftool.world.link.session_world import Session
 
 
 def echo(
@@ -104,7 +104,6 @@ def echo(
     tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
     """
     from tftool.commands.shared.echo_loop import Printer
-    from tftool.commands.shared.from_kind import named
     from tftool.commands.shared.hosting import (
         A_MOMENT,
         NO_SESSION,
@@ -116,6 +115,8 @@ def echo(
     from tftool.commands.shared.pairs import refuse_file_as_frame
     from tftool.commands.shared.waiter import FramePair
     from tftool.drawing.echo_view import in_words
+    from tftool.frames.moment import checked_moment
+    from tftool.opener import named
     from tftool.recordings.find import Kind
 
     place, rate = _place_or_rate(place, rate)
@@ -149,7 +150,7 @@ def echo(
     )
     stamp = 0
     if at is not None:
-        stamp = session.moment(at)
+        stamp = checked_moment(at, session.name, session.world.clock.epoch, session.duration)
         heading += f", at {at}" if at.is_stamp else f", {at} after {session.name} began"
     if timeout is None and (stamp or recorded):
         # What has not come a second after the moment asked about will not come.

@@ -13,7 +13,6 @@ from tftool.base.stamps import Duration
 from tftool.commands.shared.options import (
     OUTPUT,
     WHEN,
-    At,
     Force,
     Json,
     finite,
@@ -22,6 +21,7 @@ from tftool.commands.shared.options import (
     option,
     seconds_option,
 )
+from tftool.frames.moment import At
 
 if TYPE_CHECKING:
     from tftool.buffer.sample import TransformStamped

@@ -10,7 +10,6 @@ from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import LATEST, Duration, seconds
 from tftool.commands.shared.options import (
-    At,
     AtOption,
     CacheTime,
     From,
@@ -24,6 +23,7 @@ from tftool.commands.shared.options import (
     not_negative,
     option,
 )
+from tftool.frames.moment import At
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
@@ -73,13 +73,13 @@ def explain(
     """
     # Heavy imports wait until this command is the chosen one.
     from tftool.commands.shared.evidence_sources import LIVE, material_of
-    from tftool.commands.shared.from_kind import named
     from tftool.commands.shared.pairs import refuse_file_as_frame
     from tftool.commands.shared.printer import write
     from tftool.doctor.explanation import over_time, traced
     from tftool.doctor.model import Model, Settings
     from tftool.doctor.trace import Question, message_of
     from tftool.drawing import explanation_view as view
+    from tftool.opener import named
     from tftool.recordings.find import Kind
 
     refuse_file_as_frame(target, source, place)

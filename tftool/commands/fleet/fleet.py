@@ -175,7 +175,7 @@ def expanded(words: Sequence[str]) -> list[str]:
     Raises:
         InputError: If a glob or a folder of the web names nothing, or cannot be listed.
     """
-    from tftool.commands.shared.from_kind import named
+    from tftool.opener import named
     from tftool.recordings.find import METADATA, Kind
     from tftool.recordings.remote_files import is_url, listed
 

@@ -17,8 +17,8 @@ from tftool.commands.shared.options import (
 )
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
+    from tftool.world.link.session_world import Session
     from tftool.world.log import LogRecord
 
 NAME = "turtle_following"

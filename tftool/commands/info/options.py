@@ -10,8 +10,8 @@ import typer
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.from_files import RobotOptions
 from tftool.commands.shared.options import Jobs, Json, Resume, Rows, Scheduler
+from tftool.frames.source_options import RobotOptions
 
 if TYPE_CHECKING:
     from tftool.recordings.find import Found
@@ -84,11 +84,11 @@ def _one(connection: Connection, place: str, name: str, *, for_programs: bool) -
     from dataclasses import replace
 
     from tftool.base.escaping import visible
-    from tftool.commands.shared.from_kind import named
     from tftool.commands.shared.notices import notice
     from tftool.commands.shared.printer import line_width
     from tftool.commands.shared.recorded import read, told_of_odometry
     from tftool.drawing import recording_view as view
+    from tftool.opener import named
     from tftool.recordings.find import Kind
 
     found = named(place)

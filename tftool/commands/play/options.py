@@ -8,7 +8,13 @@ import typer
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, Stamp, as_seconds
-from tftool.commands.shared.options import At, RunFor, moment_option, option, within
+from tftool.commands.shared.options import (
+    RunFor,
+    moment_option,
+    option,
+    within,
+)
+from tftool.frames.moment import At
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
@@ -74,8 +80,8 @@ def play(
     tftool play run.bag --restamp now --all
     """
     from tftool.base.escaping import visible
-    from tftool.commands.shared.from_kind import named
     from tftool.commands.shared.hosting import join_or_host
+    from tftool.opener import named
     from tftool.recordings.recording import Recording
     from tftool.recordings.timeline import Timeline
     from tftool.world.clock import run
@@ -163,10 +169,10 @@ class _Playing:
 
     async def play(self, pace: "Clock", link: "Link | None") -> None:
         """Play, and share it."""
-        from tftool.commands.shared.command_session import shared
         from tftool.commands.shared.keypresses import keyboard
         from tftool.commands.shared.playback import Display, press
         from tftool.world.clock import FollowedClock
+        from tftool.world.link.session_world import shared
         from tftool.world.supervisor import beside, live
         from tftool.world.world import World
 

@@ -12,10 +12,10 @@ from tftool.base.stamps import Duration
 from tftool.commands.shared.options import Ascii, Light, RunFor, option, within
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
     from tftool.robots.robot_model import Robot
     from tftool.screens.terminal.screen_options import Setting
+    from tftool.world.link.session_world import Session
     from tftool.world.nodes.joints import JointStatePublisher
 
 
@@ -62,10 +62,10 @@ def robot(
     tftool robot arm.urdf --follow --no-screen
     """
     from tftool.base.escaping import visible
-    from tftool.commands.shared.from_kind import kind_in_words, named
     from tftool.commands.shared.hosting import open_empty_session
     from tftool.commands.shared.on_screen import screen_lacks
     from tftool.commands.shared.robot_at_rest import load_described, tell_beyond
+    from tftool.opener import kind_in_words, named
     from tftool.recordings.find import Kind
     from tftool.world.nodes.joints import JointStatePublisher, RobotStatePublisher
 

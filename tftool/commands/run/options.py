@@ -25,8 +25,8 @@ KEYBOARD = ("turtlesim", "turtle_teleop_key")
 SIMULATED = "Simulated time is a world's own, and shares no session"
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
+    from tftool.world.link.session_world import Session
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:

@@ -5,16 +5,16 @@ Every command that may share a session takes a `Connection` as its first paramet
 """
 
 import math
-import os
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from tftool.base.errors import InputError, UsageError
-from tftool.commands.shared.from_files import RecordingOptions, RobotOptions, StoredFrames
 from tftool.commands.shared.notices import notice
-from tftool.world.link.link_options import LARGEST_DOMAIN
+from tftool.commands.shared.robot_at_rest import StoredFrames
+from tftool.frames.source_options import RecordingOptions, RobotOptions
+from tftool.world.link.link_options import domain_here
 
 if TYPE_CHECKING:
     from tftool.base.stamps import Duration, Stamp
@@ -348,17 +348,3 @@ def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
         )
     if protocol in SECURED and not has_files:
         raise UsageError(f"'{endpoint}' needs --tls-cert, --tls-key and --tls-ca.")
-
-
-def domain_here() -> int:
-    """The domain that ROS_DOMAIN_ID names, else 0.
-
-    Raises:
-        UsageError: If it is no domain.
-    """
-    text = os.environ.get("ROS_DOMAIN_ID", "")
-    if not text:
-        return 0
-    if not (text.isascii() and text.isdigit() and int(text[:9]) <= LARGEST_DOMAIN):
-        raise UsageError(f"ROS_DOMAIN_ID is '{text}', not a number from 0 to {LARGEST_DOMAIN}.")
-    return int(text)

@@ -12,10 +12,11 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.redraw import Redrawing
-from tftool.commands.shared.rival_publishers import rivalries, twins
+from tftool.commands.shared.rival_publishers import rivalries
 from tftool.commands.shared.waiter import FramePair, Waiter
 from tftool.drawing import echo_view as view
 from tftool.world.clock import Phase, pace_of
+from tftool.world.link.session_world import twins
 from tftool.world.world import World
 
 

@@ -6,17 +6,17 @@ from typing import TYPE_CHECKING
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import Duration
-from tftool.commands.shared.command_session import Session
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.from_kind import named, scenario_named
 from tftool.commands.shared.hosting import NO_SESSION, join_session, open_session
 from tftool.commands.shared.notices import notice, tell_listening
 from tftool.commands.shared.observe import LISTEN
 from tftool.commands.shared.options import LISTENING
 from tftool.doctor.evidence import Material
 from tftool.doctor.scope import Scope
+from tftool.opener import named, scenario_named
 from tftool.recordings.find import Kind
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, heard_in, rules_beside
+from tftool.world.link.session_world import Session
 
 if TYPE_CHECKING:
     from tftool.base.stamps import Stamp

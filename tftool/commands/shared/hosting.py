@@ -24,13 +24,13 @@ from typing import TYPE_CHECKING
 from tftool.base.errors import LinkError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
-from tftool.commands.shared.command_session import Session, lived, shared
 from tftool.commands.shared.connection import Connection, Mode
-from tftool.commands.shared.from_files import StoredFrames
-from tftool.commands.shared.from_kind import kind_in_words, kind_word, named, scenario_named
-from tftool.commands.shared.notices import notice
+from tftool.commands.shared.notices import notice, tell_news
+from tftool.commands.shared.robot_at_rest import StoredFrames
+from tftool.opener import kind_in_words, named, scenario_named
 from tftool.recordings.find import Found, Kind
 from tftool.world.clock import Clock, Phase, SimClock
+from tftool.world.link.session_world import Session, joined_session, lived, session_name, shared
 from tftool.world.supervisor import live
 from tftool.world.world import World
 
@@ -93,10 +93,15 @@ def join_or_host(
         # --connect means what is at the other end, or comes there; turtles of our own have no
         # place among a robot's frames.
         if connection.looks or (there and (not needs_turtles or _has_host(link))):
-            world = World(connection.providers.joined_clock(), cache_time=cache_time or CACHE_TIME)
-            name = _name_of(connection, link)
-            notice(f"Joined {name}.")
-            return JoinDecision(Session(world, False, name, lived(world, link, "guest"), link=link))
+            session = joined_session(
+                link,
+                connection.providers.joined_clock(),
+                connection.place,
+                cache_time=cache_time,
+                tell=tell_news,
+            )
+            notice(f"Joined {session.name}.")
+            return JoinDecision(session)
         if link.unanswering and not there:
             # It may host: a second world of the same names would mix with it later.
             link.close()
@@ -119,8 +124,8 @@ def join_or_host(
     elif _has_host(link):
         link.close()
         alone = (
-            f"A session is running here, {_name_of(connection, link)}; this world keeps to itself "
-            "(--domain N would give it a session of its own)."
+            f"A session is running here, {session_name(link, connection.place)}; this world keeps "
+            "to itself (--domain N would give it a session of its own)."
         )
         notice(alone)
         return JoinDecision(alone=alone)
@@ -239,7 +244,9 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
         world, link = World(SimClock()), None
     else:
         world, link = World(connection.providers.wall_clock()), _open_link(connection)[0]
-    return Session(world, True, "an empty world", lived(world, link, "source"), link=link)
+    return Session(
+        world, True, "an empty world", lived(world, link, "source"), link=link, tell=tell_news
+    )
 
 
 def tell_where_to_look(connection: Connection, session: Session) -> None:
@@ -302,7 +309,7 @@ def _hosted(
             await play.live(until, endless=until is None)
 
     name = f"scenario '{visible(scenario.name)}'"
-    return Session(play.world, True, name, alive, head_start, scenario.duration, link)
+    return Session(play.world, True, name, alive, head_start, scenario.duration, link, tell_news)
 
 
 def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Session:
@@ -322,7 +329,8 @@ def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Sessi
         else:
             await clock.sleep_until(until, Phase.END)
 
-    name = f"{kind_word(found)} '{visible(stored.name)}'"
+    kind = "recording" if found.kind.is_recording else found.kind.value
+    name = f"{kind} '{visible(stored.name)}'"
     robot = getattr(stored, "robot", None)
     return Session(
         world,
@@ -331,6 +339,7 @@ def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Sessi
         alive,
         lasting,
         lasting,
+        tell=tell_news,
         is_recorded=True,
         robot=robot,
         recording=recording_of(stored) if found.kind.is_recording else None,
@@ -367,7 +376,18 @@ def _played(connection: Connection, found: Found, cache_time: Duration | None) -
 
     name = f"recording '{visible(recording.name)}'"
     lasting = timeline.end - timeline.start
-    return Session(world, True, name, alive, 0, lasting, is_played=True)
+    return Session(world, True, name, alive, 0, lasting, is_played=True, tell=tell_news)
+
+
+def first_look(session: Session) -> Stamp | None:
+    """Return where to begin to look at what is recorded; None to look at the present."""
+    if not session.is_recorded or not session.duration:
+        return None
+    from tftool.screens.first_moment import first_moment
+
+    clock = session.world.clock
+    end = min(clock.epoch + session.duration, clock.now())
+    return first_moment(session.world.buffer, clock.epoch, end) or clock.epoch
 
 
 def _without_messages(found: Found) -> UsageError:
@@ -406,20 +426,3 @@ def _has_host(link: "Link") -> bool:
 
     # A host that has only just begun has no turtles yet, and will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities(SERVER, name="spawn"))
-
-
-def _name_of(connection: Connection, link: "Link") -> str:
-    from tftool.world.link.graph import NODE, Role, hosts
-
-    processes = link.graph.processes()
-    sources = [one for one in processes if one.role is not Role.GUEST]
-    first = next(iter(hosts(processes) or sources), None)
-    if first is not None:
-        return f"the session of {visible(str(first))}"
-    nodes = sorted({one.node for one in link.graph.entities(NODE)})
-    if nodes:
-        return f"the session of ROS node '{visible(nodes[0])}'"
-    others = sorted({one.node for one in link.graph.entities()})
-    if others:
-        return f"'{visible(others[0])}' at {visible(connection.place)}"
-    return f"what is at {visible(connection.place)}, where nothing has answered yet"

@@ -26,9 +26,7 @@ from typing import TYPE_CHECKING
 from tftool.base.escaping import visible
 from tftool.base.stamps import LATEST, Duration, Stamp, seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.commands.shared.command_session import checked_moment
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.from_kind import kind_word, named
 from tftool.commands.shared.hosting import (
     A_MOMENT,
     NO_SESSION,
@@ -39,11 +37,13 @@ from tftool.commands.shared.hosting import (
     refuse_to_share,
 )
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.options import At
-from tftool.commands.shared.rival_publishers import twins
 from tftool.commands.shared.robot_at_rest import RobotAtRest
+from tftool.frames.moment import At, checked_moment
 from tftool.geometry.rigid import Transform
+from tftool.opener import named
 from tftool.recordings.find import Kind
+from tftool.world.clock import run
+from tftool.world.link.session_world import twins
 
 if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer
@@ -122,7 +122,8 @@ def observe(
         refuse_to_share(connection, word)
         refuse_to_forget(found, cache_time)
         stored = connection.open_stored(found)
-        name, start = f"{kind_word(found)} '{visible(stored.name)}'", stored.start
+        kind = "recording" if found.kind.is_recording else found.kind.value
+        name, start = f"{kind} '{visible(stored.name)}'", stored.start
         moment = LATEST if at is None else checked_moment(at, name, start, stored.end - start)
         buffer = _up_to(stored.buffer, moment) if moment else stored.buffer
         moving = stored.moving if isinstance(stored, RobotAtRest) else None
@@ -143,9 +144,15 @@ def observe(
         cache_time=cache_time,
         because=NO_SESSION if at is None else A_MOMENT,
     )
-    end = session.moment(at or At(LISTEN))
-    session.live_until(end)
+    end = checked_moment(
+        at or At(LISTEN), session.name, session.world.clock.epoch, session.duration
+    )
     world = session.world
+
+    async def alive() -> None:
+        await session.live(end)
+
+    run(world.clock, alive())
     return Observed(
         session.name, world.buffer, world.clock.epoch, end, LATEST if at is None else end
     )

@@ -7,14 +7,14 @@ command in whole nanoseconds.
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from tftool.base.errors import UsageError
-from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
+from tftool.base.stamps import NANOSECONDS, Duration, as_seconds, seconds
+from tftool.frames.moment import At
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -142,29 +142,6 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
 
 
 # Moments
-
-
-@dataclass(frozen=True, slots=True)
-class At:
-    """A moment as `--at` names it: since the beginning of what is asked, or a stamp.
-
-    Attributes:
-        nanoseconds: How much, in nanoseconds.
-        is_stamp: Whether they count from 1970 (or a recording's own zero), not from the
-            beginning.
-    """
-
-    nanoseconds: int
-    is_stamp: bool = False
-
-    def stamp(self, epoch: Stamp) -> Stamp:
-        """The stamp of it in what began at `epoch`."""
-        return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
-
-    def __str__(self) -> str:
-        whole, rest = divmod(self.nanoseconds, NANOSECONDS)
-        digits = f"{whole}.{rest:09}".rstrip("0").rstrip(".")
-        return digits if self.is_stamp else f"{digits} s"
 
 
 def moment(text: str) -> At:

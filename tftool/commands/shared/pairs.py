@@ -9,7 +9,7 @@ from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.recordings.find import METADATA
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.from_files import StoredFrames
+    from tftool.commands.shared.robot_at_rest import StoredFrames
     from tftool.frames.pair_samples import Moments
 
 

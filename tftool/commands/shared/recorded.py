@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
     from tftool.buffer.sample import TransformStamped
-    from tftool.commands.shared.from_files import RecordingOptions, RobotOptions, StoredFrames
+    from tftool.commands.shared.robot_at_rest import StoredFrames
+    from tftool.frames.source_options import RecordingOptions, RobotOptions
     from tftool.recordings.description_frames import DescribedFrames
     from tftool.recordings.find import Found
     from tftool.recordings.recording import Recording

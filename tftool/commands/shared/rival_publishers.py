@@ -1,6 +1,5 @@
 """What to tell a person whose frames come from more nodes than they should."""
 
-from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -9,7 +8,6 @@ from tftool.base.escaping import visible
 
 if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer
-    from tftool.world.world import World
 
 MOST_TOLD = 3
 """Frames that are named; of more it is said how many there are."""
@@ -34,15 +32,3 @@ def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:
     if more:
         told.append(f"So {'is' if more == 1 else 'are'} {count(more, 'frame')} more.")
     return told
-
-
-def twins(world: "World") -> list[str]:
-    """A sentence for each name under which several nodes of a session send transforms."""
-    from tftool.world.endpoints import PUBLISHER
-
-    names = Counter(end.node for end in world.endpoints.of("tf", PUBLISHER))
-    return [
-        f"{count} nodes called '{visible(name)}' send transforms: has it been started twice?"
-        for name, count in sorted(names.items())
-        if count > 1
-    ]

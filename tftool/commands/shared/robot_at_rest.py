@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from tftool.base.escaping import visible
 from tftool.base.stamps import Stamp
@@ -10,10 +10,33 @@ from tftool.commands.shared.notices import notice
 
 if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer
-    from tftool.commands.shared.from_files import RobotOptions
+    from tftool.frames.source_options import RobotOptions
     from tftool.recordings.find import Found
     from tftool.robots.robot_model import Robot
     from tftool.robots.static_publishers import StaticFrames
+
+
+class StoredFrames(Protocol):
+    """Frames that are all there: those of a recording, or of a robot description."""
+
+    @property
+    def name(self) -> str:
+        """What it is called: "run.mcap"."""
+
+    @property
+    def start(self) -> "Stamp":
+        """The moment from which `--at` counts."""
+
+    @property
+    def end(self) -> "Stamp":
+        """The last moment there is data of."""
+
+    @property
+    def buffer(self) -> "Buffer":
+        """All of it."""
+
+    def close(self) -> None:
+        """Close its files."""
 
 
 @dataclass(frozen=True, slots=True)

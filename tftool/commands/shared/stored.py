@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING
 from tftool.base.errors import LinkError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import Duration, Stamp, as_seconds
-from tftool.commands.shared.command_session import Session
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.from_files import StoredFrames
-from tftool.commands.shared.from_kind import named
 from tftool.commands.shared.hosting import NO_SESSION, join_session, open_session, refuse_to_share
 from tftool.commands.shared.notices import tell_listening
 from tftool.commands.shared.observe import LISTEN
-from tftool.commands.shared.options import LISTENING, At
+from tftool.commands.shared.options import LISTENING
+from tftool.commands.shared.robot_at_rest import StoredFrames
+from tftool.frames.moment import At
+from tftool.opener import named
 from tftool.recordings.find import Kind
+from tftool.world.link.session_world import Session
 
 if TYPE_CHECKING:
     from collections.abc import Callable

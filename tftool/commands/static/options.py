@@ -10,9 +10,9 @@ from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.options import option
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
     from tftool.geometry.notation.static_arguments import StaticArguments
+    from tftool.world.link.session_world import Session
 
 Metres = Annotated[str | None, typer.Option(metavar="METRES")]
 Part = Annotated[str | None, typer.Option(metavar="NUMBER")]

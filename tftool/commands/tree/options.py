@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from rich.text import Text
 
     from tftool.buffer.sample import Snapshot
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
     from tftool.drawing.frame_tree import Marks
+    from tftool.world.link.session_world import Session
     from tftool.world.log import LogRecord
     from tftool.world.world import World
 

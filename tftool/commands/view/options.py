@@ -25,13 +25,13 @@ from tftool.commands.shared.options import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from tftool.commands.shared.command_session import Session
     from tftool.commands.shared.connection import Connection
-    from tftool.commands.shared.from_files import StoredFrames
+    from tftool.commands.shared.robot_at_rest import StoredFrames
     from tftool.recordings.find import Found
     from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.server import PageServer
     from tftool.screens.browser.standalone import StandaloneData
+    from tftool.world.link.session_world import Session
     from tftool.world.world import World
 
 _MOST_TOLD = 5
@@ -101,9 +101,9 @@ def view(
         if error.name is None or error.name.partition(".")[0] != "websockets":
             raise
         raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
-    from tftool.commands.shared.from_kind import named
     from tftool.commands.shared.hosting import open_session
     from tftool.commands.shared.notices import notice
+    from tftool.opener import named
     from tftool.recordings.find import Kind
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
@@ -223,7 +223,7 @@ def _robot_of(
     connection: "Connection", stored: "StoredFrames", meshes: "Sequence[Path]"
 ) -> "ShownRobot | None":
     """The robot of a description, or that of a recording."""
-    from tftool.commands.shared.from_kind import named
+    from tftool.opener import named
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
 
@@ -245,11 +245,11 @@ def _alive(
 ) -> "tuple[Session, ShownRobot]":
     """A world with one robot, whose joints the page moves."""
     from tftool.base.escaping import visible
-    from tftool.commands.shared.command_session import Session, lived
     from tftool.commands.shared.hosting import refuse_to_share
     from tftool.commands.shared.robot_at_rest import load_described, tell_beyond
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
+    from tftool.world.link.session_world import Session, lived
     from tftool.world.nodes.joints import JointStatePublisher, RobotStatePublisher
     from tftool.world.world import World
 
@@ -315,13 +315,14 @@ async def _show(
 ) -> None:
     import asyncio
 
+    from tftool.commands.shared.hosting import first_look
     from tftool.commands.shared.notices import notice
 
     async with page:
         if page.asked_port not in (0, page.port):
             notice(f"Port {page.asked_port} is not free: taking {page.port}.")
         # What is all there is shown from its beginning on, and stands still.
-        begin = session.first_look()
+        begin = first_look(session)
         at = 0 if begin is None else as_seconds(begin - session.world.clock.epoch)
         url = page.url if begin is None else f"{page.url}#at={at:.9f}"
         said = f"The frames of {session.name} are at"

@@ -1,9 +1,10 @@
 """How a process takes part in a session, whatever carries it."""
 
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tftool.base.errors import InputError
+from tftool.base.errors import InputError, UsageError
 
 LARGEST_DOMAIN = 232
 """ROS 2's own limit."""
@@ -94,3 +95,17 @@ class Options:
     reach: Reach = field(default_factory=Reach)
     read_only: bool = False
     middleware: str = "zenoh"
+
+
+def domain_here() -> int:
+    """Return the domain that ROS_DOMAIN_ID names, else 0.
+
+    Raises:
+        UsageError: If it is no domain.
+    """
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    if not text:
+        return 0
+    if not (text.isascii() and text.isdigit() and int(text[:9]) <= LARGEST_DOMAIN):
+        raise UsageError(f"ROS_DOMAIN_ID is '{text}', not a number from 0 to {LARGEST_DOMAIN}.")
+    return int(text)

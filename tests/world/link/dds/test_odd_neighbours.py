@@ -10,7 +10,6 @@ from tests.world.link.conftest import until
 from tests.world.link.dds.test_session import joined, nodes_of, transform
 from tftool.app.main import main
 from tftool.base.stamps import seconds
-from tftool.commands.shared.rival_publishers import twins
 from tftool.messages.classes import INTERFACES, Interfaces
 from tftool.messages.hashes import type_hash
 from tftool.world.clock import WallClock
@@ -20,6 +19,7 @@ from tftool.world.link.dds.discovery import LATEST_OF_ALL, Information
 from tftool.world.link.dds.participant import Participant
 from tftool.world.link.dds.settings import MOST_PARTICIPANTS, network
 from tftool.world.link.graph import NODE
+from tftool.world.link.session_world import twins
 
 STRING = INTERFACES.message("std_msgs/msg/String")
 

@@ -1,16 +1,16 @@
-"""A world that a command works in, and what keeps it alive and shares it."""
+"""A world that a command works in: what keeps it alive, and what shares it with other processes."""
 
 import asyncio
+from collections import Counter
 from collections.abc import Awaitable, Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tftool.base.errors import UsageError
-from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
-from tftool.commands.shared.notices import tell_news
-from tftool.commands.shared.options import At
-from tftool.world.clock import FollowedClock, Phase, pace_of, run
+from tftool.base.escaping import visible
+from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
+from tftool.world.clock import Clock, FollowedClock, Phase, pace_of, run
+from tftool.world.endpoints import PUBLISHER
 from tftool.world.supervisor import beside, live
 from tftool.world.world import World
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from tftool.recordings.recording import Recording
     from tftool.robots.robot_model import Robot
     from tftool.world.link.session import Link
+    from tftool.world.log import LogRecord
 
 T = TypeVar("T")
 
@@ -26,6 +27,10 @@ TOLD = seconds(2)
 
 STATICS = seconds(8)
 """How much longer for static transforms of publishers that are there: DDS repeats what was lost."""
+
+
+def _keep_silent(record: "LogRecord") -> None:
+    """Drop a line of the log."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +43,9 @@ class Session:
         name: What it is called, in sentences: "scenario 'turtles'".
         live: Lives the world through, for ever or until a moment.
         head_start: How much of it is lived through before work begins.
-        duration: How long its scenario or recording lasts; None where nothing says so.
+        duration: How long its scenario lasts; None where nothing says so.
         link: What joins it to other processes; None for a world on its own.
+        tell: Takes every line of the world's log while it lives.
         is_recorded: Whether all of its frames are there from the beginning, and none come.
         robot: The robot in a recording, by its description.
         is_played: Whether a recording's messages arrive in it, which are over at its end.
@@ -53,27 +59,18 @@ class Session:
     head_start: Duration = 0
     duration: Duration | None = None
     link: "Link | None" = None
+    tell: "Callable[[LogRecord], object]" = _keep_silent
     is_recorded: bool = False
     robot: "Robot | None" = None
     is_played: bool = False
     recording: "Recording | None" = None
-
-    def first_look(self) -> Stamp | None:
-        """Where to begin to look at what is recorded; None to look at the present."""
-        if not self.is_recorded or not self.duration:
-            return None
-        from tftool.screens.first_moment import first_moment
-
-        clock = self.world.clock
-        end = min(clock.epoch + self.duration, clock.now())
-        return first_moment(self.world.buffer, clock.epoch, end) or clock.epoch
 
     def departures(self) -> int:
         """How many of the other processes have left by now that transforms came from."""
         return 0 if self.link is None else self.link.departures
 
     def abandon(self) -> None:
-        """Let go of the other processes, where nothing comes of a session that was opened."""
+        """Leave the other processes, where nothing comes of a session that was opened."""
         if self.link is not None:
             self.link.close()
 
@@ -95,31 +92,11 @@ class Session:
         """
         return run(self.world.clock, self.along(work, on_interrupt))
 
-    def moment(self, at: At) -> Stamp:
-        """The stamp of a moment that was asked for.
-
-        Raises:
-            UsageError: If the scenario or recording has not begun then, or is over.
-        """
-        return checked_moment(at, self.name, self.world.clock.epoch, self.duration)
-
-    def live_until(self, moment: Stamp) -> None:
-        """Live the world through, its own instant included, with nothing beside it.
-
-        Raises:
-            NodeFailed: If a node of the world raised.
-        """
-
-        async def lived() -> None:
-            await self.live(moment)
-
-        run(self.world.clock, lived())
-
     async def along(
         self, work: Coroutine[Any, Any, T], on_interrupt: Callable[[], object] | None = None
     ) -> T:
         """The same as `run`, inside a loop that runs."""
-        stop_telling = self.world.log.listen(tell_news, "console")
+        stop_telling = self.world.log.listen(self.tell, "console")
         try:
             return await beside(self._after_head_start(work), self._living(), on_interrupt)
         finally:
@@ -163,6 +140,56 @@ class Session:
         return await work
 
 
+def joined_session(
+    link: "Link",
+    clock: Clock,
+    place: str,
+    *,
+    cache_time: Duration | None = None,
+    tell: "Callable[[LogRecord], object]" = _keep_silent,
+) -> Session:
+    """Return a world that follows the session a link leads to.
+
+    Args:
+        link: Leads there.
+        clock: Its time.
+        place: Where the others are, in words, for sessions whose processes have no name.
+        cache_time: How far back its buffer remembers.
+        tell: Takes every line of its log.
+    """
+    world = World(clock, cache_time=cache_time or CACHE_TIME)
+    alive = lived(world, link, "guest")
+    return Session(world, False, session_name(link, place), alive, link=link, tell=tell)
+
+
+def session_name(link: "Link", place: str) -> str:
+    """Name the session that a link leads to, by the process that hosts it or a ROS node."""
+    from tftool.world.link.graph import NODE, Role, hosts
+
+    processes = link.graph.processes()
+    sources = [one for one in processes if one.role is not Role.GUEST]
+    first = next(iter(hosts(processes) or sources), None)
+    if first is not None:
+        return f"the session of {visible(str(first))}"
+    nodes = sorted({one.node for one in link.graph.entities(NODE)})
+    if nodes:
+        return f"the session of ROS node '{visible(nodes[0])}'"
+    others = sorted({one.node for one in link.graph.entities()})
+    if others:
+        return f"'{visible(others[0])}' at {visible(place)}"
+    return f"what is at {visible(place)}, where nothing has answered yet"
+
+
+def twins(world: World) -> list[str]:
+    """Return a sentence for each name under which several nodes of a session send transforms."""
+    names = Counter(end.node for end in world.endpoints.of("tf", PUBLISHER))
+    return [
+        f"{count} nodes called '{visible(name)}' send transforms: has it been started twice?"
+        for name, count in sorted(names.items())
+        if count > 1
+    ]
+
+
 @contextmanager
 def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[None]:
     """Let others share a world for as long as this lasts; call inside its loop.
@@ -193,27 +220,10 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
 def lived(
     world: World, link: "Link | None", role: str
 ) -> Callable[[Stamp | None], Awaitable[None]]:
-    """What lives a world through, for ever or until a moment, shared all along."""
+    """Return what lives a world through, for ever or until a moment, shared all along."""
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, world, role):
             await live(world, until=until)
 
     return alive
-
-
-def checked_moment(at: At, name: str, epoch: Stamp, duration: Duration | None) -> Stamp:
-    """The stamp of a moment, which lies between the beginning and the end.
-
-    Raises:
-        UsageError: If it does not.
-    """
-    stamp = at.stamp(epoch)
-    if duration is not None and stamp > epoch + duration:
-        if at.is_stamp:
-            end = At(epoch + duration, is_stamp=True)
-            raise UsageError(f"{name} ends at {end}: {at} is after that.")
-        raise UsageError(f"{name} lasts {as_seconds(duration):g} s: {at} is after its end.")
-    if stamp < epoch:
-        raise UsageError(f"{name} begins at {At(epoch, is_stamp=True)}: {at} is before that.")
-    return stamp

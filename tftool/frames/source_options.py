@@ -1,20 +1,15 @@
-"""What FROM names where it is a file: how it is read, as options say, and what is got of it."""
+"""Options for reading FROM when it is a file: positions of joints, odometry, the cache."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
 
 from tftool.base.errors import UsageError
-
-if TYPE_CHECKING:
-    from tftool.base.stamps import Stamp
-    from tftool.buffer.buffer import Buffer
 
 
 @dataclass(frozen=True, slots=True)
 class RobotOptions:
-    """What the command line says about the robot description that FROM names or goes with it.
+    """Options about the robot description that FROM names, or that goes with it.
 
     Attributes:
         joints: Positions by joint, radians or metres.
@@ -44,7 +39,7 @@ class RobotOptions:
 
 @dataclass(frozen=True, slots=True)
 class RecordingOptions:
-    """What the command line says about how a recording is read.
+    """Options about how a recording is read.
 
     Attributes:
         no_cache: Whether its columns are read again, and not kept.
@@ -65,26 +60,3 @@ class RecordingOptions:
         """
         if self.with_odometry:
             raise UsageError(f"{what}: leave out --with-odometry.")
-
-
-class StoredFrames(Protocol):
-    """Frames that are all there: those of a recording, or of a robot description."""
-
-    @property
-    def name(self) -> str:
-        """What it is called: "run.mcap"."""
-
-    @property
-    def start(self) -> "Stamp":
-        """The moment from which `--at` counts."""
-
-    @property
-    def end(self) -> "Stamp":
-        """The last moment there is data of."""
-
-    @property
-    def buffer(self) -> "Buffer":
-        """All of it."""
-
-    def close(self) -> None:
-        """Close its files."""

@@ -1,0 +1,160 @@
+"""Frames, over the whole of their time: the one value that an opened FROM is."""
+
+from typing import TYPE_CHECKING, Literal, Self, TypeAlias
+
+from tftool.base.escaping import visible
+from tftool.base.stamps import LATEST, Stamp, as_seconds, seconds
+from tftool.buffer.buffer import Buffer
+from tftool.frames.moment import At, checked_moment
+
+if TYPE_CHECKING:
+    from tftool.frames.transform_log import TransformLog
+    from tftool.recordings.find import Found
+    from tftool.recordings.recording import Recording
+    from tftool.robots.robot_model import Robot
+
+FramesKind: TypeAlias = Literal[
+    "recording", "robot description", "file of static transforms", "scenario", "session"
+]
+
+
+class Frames:
+    """The frames of a recording, a robot description, a statics file, a scenario or a session.
+
+    `tftool.open` makes one. Nothing is pruned: a lookup may ask for any moment. Works in a
+    `with`, at whose end the files are closed; what was read stays.
+
+        with tftool.open("run.mcap") as frames:
+            frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
+
+    Attributes:
+        kind: What it was opened from.
+        name: What that is called: "run.mcap", "turtles".
+        found: The files it was read from; None for a session.
+        log: Every transform as it arrived, of a scenario or a session; else None.
+    """
+
+    def __init__(
+        self,
+        kind: FramesKind,
+        name: str,
+        *,
+        buffer: Buffer | None = None,
+        span: tuple[Stamp, Stamp] | None = None,
+        recording: "Recording | None" = None,
+        robot: "Robot | None" = None,
+        log: "TransformLog | None" = None,
+        found: "Found | None" = None,
+        notes: tuple[str, ...] = (),
+    ) -> None:
+        """Take what was opened; a recording brings its own buffer, span, robot and notes.
+
+        Args:
+            kind: What it was opened from.
+            name: What that is called.
+            buffer: All that is known of the frames.
+            span: First and last stamp; None for what holds at all times.
+            recording: What they were read from.
+            robot: What they describe.
+            log: Every transform as it arrived.
+            found: The files they were read from.
+            notes: What is worth saying of them, as sentences.
+        """
+        self.kind: FramesKind = kind
+        self.name = name
+        self.found = found
+        self.log = log
+        self._buffer = buffer
+        self._span = span
+        self._recording = recording
+        self._robot = robot
+        self._notes = notes
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        start, end = self.start, self.end
+        lasts = "" if start is None or end is None else f", {as_seconds(end - start):g} s"
+        return f"<Frames of {self.title}{lasts}>"
+
+    def close(self) -> None:
+        """Close the files; what was read stays."""
+        if self._recording is not None:
+            self._recording.close()
+
+    @property
+    def title(self) -> str:
+        """The kind and the name, fit for a sentence: "recording 'run.mcap'"."""
+        if self.kind == "session":
+            return self.name
+        return f"{self.kind} '{visible(self.name)}'"
+
+    @property
+    def buffer(self) -> Buffer:
+        """All that is known of the frames; nothing is pruned."""
+        if self._buffer is None:
+            self._buffer = Buffer() if self._recording is None else self._recording.buffer
+        return self._buffer
+
+    @property
+    def recording(self) -> "Recording | None":
+        """The recording they were read from."""
+        return self._recording
+
+    @property
+    def robot(self) -> "Robot | None":
+        """The robot of the description, or of the recording."""
+        return self._robot if self._recording is None else self._recording.robot
+
+    @property
+    def start(self) -> Stamp | None:
+        """First stamp, nanoseconds; None for what holds at all times."""
+        return self._recording.start if self._recording is not None else self._ends[0]
+
+    @property
+    def end(self) -> Stamp | None:
+        """Last stamp, nanoseconds; None for what holds at all times."""
+        return self._recording.end if self._recording is not None else self._ends[1]
+
+    @property
+    def _ends(self) -> tuple[Stamp | None, Stamp | None]:
+        return self._span or (None, None)
+
+    @property
+    def span(self) -> tuple[Stamp, Stamp]:
+        """First and last stamp, nanoseconds; 0 and 0 for what holds at all times."""
+        return self.start or LATEST, self.end or LATEST
+
+    @property
+    def moving(self) -> frozenset[str] | None:
+        """The links of a robot description whose joint moves; None for other frames."""
+        if self.kind != "robot description" or self._robot is None:
+            return None
+        return frozenset(one.child for one in self._robot.joints.values() if one.moves)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is worth saying of them, as sentences: damage, gaps, joints at rest."""
+        if self._recording is None:
+            return self._notes
+        from tftool.frames.notes import recording_notes
+
+        return tuple(recording_notes(self._recording))
+
+    def at(self, time: float) -> Stamp:
+        """Return the stamp so many seconds after the start; 0 for what holds at all times."""
+        start = self.start
+        return LATEST if start is None else start + seconds(time)
+
+    def moment(self, at: At) -> Stamp:
+        """Return the stamp of a moment, as `--at` names it.
+
+        Raises:
+            UsageError: If it lies before the beginning or after the end.
+        """
+        start, end = self.span
+        return checked_moment(at, self.title, start, end - start)

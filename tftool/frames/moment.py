@@ -1,0 +1,52 @@
+"""A moment as people name it: since the start of what they ask, or a stamp."""
+
+from dataclasses import dataclass
+
+from tftool.base.errors import UsageError
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """A moment as `--at` names it: since the beginning of what is asked, or a stamp.
+
+    Attributes:
+        nanoseconds: How much, in nanoseconds.
+        is_stamp: Whether they count from 1970 (or a recording's own zero), not from the
+            beginning.
+    """
+
+    nanoseconds: int
+    is_stamp: bool = False
+
+    def stamp(self, epoch: Stamp) -> Stamp:
+        """Return the stamp of this moment in what began at `epoch`."""
+        return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
+
+    def __str__(self) -> str:
+        whole, rest = divmod(self.nanoseconds, NANOSECONDS)
+        digits = f"{whole}.{rest:09}".rstrip("0").rstrip(".")
+        return digits if self.is_stamp else f"{digits} s"
+
+
+def checked_moment(at: At, title: str, epoch: Stamp, duration: Duration | None) -> Stamp:
+    """Return the stamp of a moment that lies between the beginning and the end.
+
+    Args:
+        at: The moment.
+        title: What it is a moment of, as the beginning of a sentence.
+        epoch: When that began.
+        duration: How long it lasts; None for no end.
+
+    Raises:
+        UsageError: If the moment lies outside.
+    """
+    stamp = at.stamp(epoch)
+    if duration is not None and stamp > epoch + duration:
+        if at.is_stamp:
+            end = At(epoch + duration, is_stamp=True)
+            raise UsageError(f"{title} ends at {end}: {at} is after that.")
+        raise UsageError(f"{title} lasts {as_seconds(duration):g} s: {at} is after its end.")
+    if stamp < epoch:
+        raise UsageError(f"{title} begins at {At(epoch, is_stamp=True)}: {at} is before that.")
+    return stamp

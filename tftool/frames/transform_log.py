@@ -1,0 +1,69 @@
+"""Transforms as they arrived, with who sent them: what a played or running world leaves behind."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from tftool.base.stamps import Stamp
+from tftool.buffer.sample import TransformStamped
+from tftool.recordings.contract import Edge, Publisher, Transforms
+
+MOST = 4_000_000
+"""Transforms that are kept: about 300 MB."""
+
+
+class TransformLog:
+    """Transforms in the order in which they arrived."""
+
+    def __init__(self) -> None:
+        self._rows: dict[tuple[str, str, bool], list[tuple[float, ...]]] = {}
+        self._stamps: dict[tuple[str, str, bool], list[int]] = {}
+        self._messages: dict[tuple[str, str, bool], list[int]] = {}
+        self._logs: list[int] = []
+        self._senders: list[int] = []
+        self._publishers: dict[Publisher, int] = {}
+        self._count = 0
+
+    def hear(
+        self,
+        now: Stamp,
+        transforms: Iterable[TransformStamped],
+        authority: str,
+        *,
+        is_static: bool,
+    ) -> None:
+        """Keep a message; beyond `MOST` transforms it is dropped.
+
+        Args:
+            now: When it arrived.
+            transforms: What it carried.
+            authority: Who sent it.
+            is_static: Whether it came on the static topic.
+        """
+        if self._count >= MOST:
+            return
+        publisher = Publisher("/tf_static" if is_static else "/tf", authority)
+        self._senders.append(self._publishers.setdefault(publisher, len(self._publishers)))
+        self._logs.append(now)
+        for one in transforms:
+            key = (one.frame_id, one.child_frame_id, is_static)
+            pose = one.transform
+            self._rows.setdefault(key, []).append((0.0, *pose.translation, *pose.rotation))
+            self._stamps.setdefault(key, []).append(one.stamp)
+            self._messages.setdefault(key, []).append(len(self._logs) - 1)
+            self._count += 1
+
+    def transforms(self) -> Transforms:
+        """All of them in columns, one entry for each edge, with log times and senders."""
+        edges = []
+        for key, rows in self._rows.items():
+            poses = np.array(rows, dtype=np.float64)
+            records = poses.view(np.int64)
+            records[:, 0] = self._stamps[key]
+            edges.append(Edge(*key, 0, records, np.array(self._messages[key], dtype=np.int32)))
+        return Transforms(
+            tuple(edges),
+            np.array(self._logs, dtype=np.int64),
+            np.array(self._senders, dtype=np.int32),
+            tuple(self._publishers),
+        )
