@@ -26,9 +26,9 @@ if TYPE_CHECKING:
     from tftool.buffer.batch.transform_array import TransformArray
     from tftool.buffer.buffer import Buffer
     from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
-    from tftool.doctor.diagnose import diagnose, explain
-    from tftool.doctor.explanation import Explanation
+    from tftool.doctor.explanation import Explanation, explain
     from tftool.doctor.findings import Finding
+    from tftool.doctor.judge import diagnose
     from tftool.drawing.figure import plot
     from tftool.frames.diff import diff
     from tftool.frames.differences import Differences
@@ -135,8 +135,8 @@ _HOMES = {
     "tftool.frames.diff": ("diff",),
     "tftool.frames.frames": ("Frames",),
     "tftool.frames.differences": ("Differences",),
-    "tftool.doctor.diagnose": ("diagnose", "explain"),
-    "tftool.doctor.explanation": ("Explanation",),
+    "tftool.doctor.judge": ("diagnose",),
+    "tftool.doctor.explanation": ("Explanation", "explain"),
     "tftool.doctor.findings": ("Finding",),
     "tftool.notebook": ("PageView", "view"),
     "tftool.frames.export.export": ("Exported", "export"),

@@ -68,8 +68,8 @@ def _seconds(work) -> float:
 
 def compare_reading() -> str:
     """A million transforms and 100 000 headers: judged in how many times the reading."""
+    from tftool.doctor.evidence import evidence_of_recording
     from tftool.doctor.judge import judge
-    from tftool.doctor.scope import Scope
     from tftool.recordings.recording import open_recording
 
     with tempfile.TemporaryDirectory() as folder:
@@ -82,7 +82,7 @@ def compare_reading() -> str:
 
         def examine() -> None:
             with open_recording(path) as recording:
-                found = judge(Scope().material(recording))
+                found = judge(evidence_of_recording(recording))
             assert found.ran > 40
 
         times = [(_seconds(read), _seconds(examine)) for _ in range(TURNS)]
@@ -96,8 +96,8 @@ def compare_reading() -> str:
 def compare_processes() -> str:
     """Small recordings, two processes against one."""
     from tftool.commands.fleet import fleet
+    from tftool.doctor.evidence import Scope
     from tftool.doctor.model import Settings
-    from tftool.doctor.scope import Scope
 
     with tempfile.TemporaryDirectory() as folder:
         whole = write_long(Path(folder) / "0.mcap", 40_000, 1_000)

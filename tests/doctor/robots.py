@@ -7,7 +7,7 @@ import numpy as np
 
 from tftool.base.errors import DescriptionError
 from tftool.base.stamps import seconds
-from tftool.doctor.evidence import Material
+from tftool.doctor.evidence import Evidence
 from tftool.doctor.judge import Diagnosis, judge
 from tftool.doctor.model import Settings
 from tftool.recordings.contract import Edge, Headers, Publisher, RecordedTopic, Transforms
@@ -138,7 +138,7 @@ class Robot:
             log = self.log(at + self.unsteady(latency, 0.3 if abs(latency) < 0.1 else 0.01))
             messages.append((seconds(self.start) + seconds(at), log, frame))
 
-    def material(self) -> Material:
+    def evidence(self) -> Evidence:
         edges = tuple(
             Edge(*key, self.slashed.get(key, 0), _records(rows), _places(row[2] for row in rows))
             for key, rows in self.records.items()
@@ -167,11 +167,11 @@ class Robot:
         )
         clock = np.array(self.clock, dtype=np.int64).reshape(-1, 2)
         described, mistakes = self._description()
-        return Material(
+        return Evidence(
             joints=self.joints,
             robot=described,
             mistakes=mistakes,
-            odometry=None if self.odometry is None else self.odometry.material().transforms,
+            odometry=None if self.odometry is None else self.odometry.evidence().transforms,
             name="made up",
             kind="columns",
             transforms=transforms,
@@ -191,7 +191,7 @@ class Robot:
             return None, tuple(mistake.text for mistake in error.mistakes)
 
     def judged(self, settings: Settings | None = None) -> Diagnosis:
-        return judge(self.material(), settings)
+        return judge(self.evidence(), settings)
 
 
 def _records(rows: list[tuple[int, Pose, int]]) -> np.ndarray:

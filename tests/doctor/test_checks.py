@@ -9,8 +9,8 @@ import pytest
 from tests.doctor.judged import found, ids, turned
 from tests.doctor.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool.base.stamps import seconds
-from tftool.doctor.catalogue import CHECKS
 from tftool.doctor.findings import Severity
+from tftool.doctor.judge import CHECKS
 from tftool.doctor.model import Settings
 from tftool.doctor.shape_checks import loop
 

@@ -28,8 +28,8 @@ def test_links_that_stop_together_before_the_end_are_no_fault_of_the_first_of_th
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", end=5.0)
     made.moving("base_link", "arm", end=goes_on)
-    material = replace(made.material(), end=seconds(START) + seconds(9))
-    assert [finding.id for finding in judge(material).findings] == told
+    evidence = replace(made.evidence(), end=seconds(START) + seconds(9))
+    assert [finding.id for finding in judge(evidence).findings] == told
 
 
 def test_a_hole_is_told_with_its_ends():

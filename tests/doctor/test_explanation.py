@@ -9,9 +9,8 @@ from tests.doctor.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool import Buffer, Transform, TransformStamped, diagnose, explain
 from tftool.base.errors import InputError
 from tftool.base.stamps import seconds
-from tftool.doctor.explanation import Explanation, over_time, traced
+from tftool.doctor.explanation import Cause, Explanation, over_time, traced
 from tftool.doctor.model import Model, Settings
-from tftool.doctor.reasons import Cause
 from tftool.doctor.trace import LinkVerdict, Question, message_of
 from tftool.drawing.explanation_view import render
 
@@ -19,7 +18,7 @@ T = seconds(START)
 
 
 def asked(made: Robot, target: str, source: str, at: float, **more: object) -> Explanation:
-    model = Model(made.material())
+    model = Model(made.evidence())
     return traced(model, Question(target, source, T + seconds(at), **more))
 
 
@@ -154,7 +153,7 @@ def test_two_clocks_never_meet():
     made = robot(start=136.0, log_from=START)
     made.start = START
     made.moving("base_link", "wheel", hz=30)
-    model = Model(made.material())
+    model = Model(made.evidence())
 
     found = traced(model, Question("odom", "wheel", seconds(140)))
 
@@ -209,7 +208,7 @@ def test_a_static_that_comes_later_is_waited_for():
 
 
 def test_the_message_nearest_to_a_moment_is_found():
-    model = Model(robot().material())
+    model = Model(robot().evidence())
     heard, stamp = message_of(model, "/scan", T + seconds(4.04))
     assert (heard.frame, stamp) == ("laser", T + seconds(4))
     with pytest.raises(InputError, match="There are /scan"):
@@ -251,7 +250,7 @@ def test_a_session_tells_for_how_long_a_lookup_would_have_failed(begin, share):
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", begin=begin)
     made.moving("base_link", "arm")
-    model = Model(made.material())
+    model = Model(made.evidence())
     question = Question("odom", "arm")
     found = over_time(model, question, traced(model, question))
     assert found.available
@@ -261,7 +260,7 @@ def test_a_session_tells_for_how_long_a_lookup_would_have_failed(begin, share):
 
 
 def test_what_never_answered_in_a_session_failed_all_the_time():
-    model = Model(robot().material())
+    model = Model(robot().evidence())
     question = Question("odom", "nowhere")
     found = over_time(model, question, traced(model, question))
     assert (found.available, found.failed) == (False, 1.0)
@@ -272,7 +271,7 @@ def test_a_question_for_the_latest_is_one_for_the_last_moment_in_common():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", end=2.0)
     made.moving("base_link", "arm", begin=5.0)
-    model = Model(made.material())
+    model = Model(made.evidence())
     found = traced(model, Question("odom", "arm"))
     assert not found.available
     # The odometry ended at 1.98, and the arm began at 5: there is no moment in common.

@@ -8,8 +8,8 @@ import pytest
 from rich.console import Console
 
 from tests.doctor.robots import NO_TURN, Robot, robot
-from tftool.doctor.catalogue import CHECKS
 from tftool.doctor.findings import Severity
+from tftool.doctor.judge import CHECKS
 from tftool.drawing import finding_view as findings
 
 

@@ -178,7 +178,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
         yield from ((name, "scenario") for name in builtin.names())
     elif bare.partition(",")[0] in CHECK_IDS:
-        from tftool.doctor.catalogue import CHECKS
+        from tftool.doctor.judge import CHECKS
 
         yield from ((one.id, one.summary) for one in CHECKS.values())
     elif bare == "STEP":

@@ -6,13 +6,37 @@ from collections.abc import Iterator
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
-from tftool.doctor.findings import Confidence, Hit, Severity
+from tftool.doctor.check import checks_of, threads
+from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
 from tftool.doctor.wording import several
 from tftool.recordings.contract import Stamps
 
+check = checks_of(Area.CLOCKS)
 
+
+@check(
+    "clock-mixture",
+    Severity.ERROR,
+    rule="stamps below 10⁸ s and above it occur together; the odd ones are those against "
+    "/clock, else the fewer",
+    headline="{where} {concerned:is|are} stamped with {odd_clock}, all else with {usual_clock}",
+    detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
+    consequence="no lookup across the two clocks can succeed",
+    fixes=(
+        Fix(
+            "use_sim_time: {setting} for the nodes that publish them; `ros2 param get NODE "
+            "use_sim_time` tells what a node has"
+        ),
+    ),
+    causes=(
+        "one node without use_sim_time",
+        "simulated time set on a real robot",
+        "a real sensor on a simulated robot",
+    ),
+    links=threads("ANYbotics/elevation_mapping#122", "iRobotEducation/create3_sim#203"),
+)
 def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     """Part of the stamps count from the simulation's start, part from 1970."""
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
@@ -20,7 +44,7 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     wall = [one for one in streams if one.families[1]]
     if not simulated or not wall:
         return
-    read, _ = model.material.clock
+    read, _ = model.evidence.clock
     if len(read):
         sim_is_odd = bool(np.median(read) >= SIMULATED_BELOW)
     else:
@@ -63,6 +87,30 @@ def _name(stream: "Track | Heard") -> str:
     return stream.name if isinstance(stream, Track) else stream.topic
 
 
+@check(
+    "future-stamp",
+    Severity.WARNING,
+    rule="the median latency of a transform is below -{seconds:g} s (of what places "
+    "odometry in a map: -{localisation:g} s); a note from -{note:g} s on",
+    headline="{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
+    detail="{edge}: {ahead:span} ahead (median){clock}",
+    consequence="the latest common time lies in the future: a lookup at latest mixes moments",
+    fixes=(
+        Fix(
+            "lower the tolerance that dates it ahead (transform_tolerance, "
+            "transform_time_offset), or set the publisher's clock"
+        ),
+    ),
+    causes=(
+        "a tolerance that is too large",
+        "the publisher's clock is ahead",
+    ),
+    links=threads("ros-navigation/navigation2#3166"),
+    limits={"seconds": 0.25, "localisation": 2.0, "note": 0.02},
+    needs=("log times",),
+    why="AMCL dates its transform 1 s ahead, and offsets of 0.1 s are in use",
+    because_of=(("stream", "clock-mixture"),),
+)
 def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms dated ahead of their arrival."""
     for track in model.dynamic:
@@ -95,6 +143,28 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
     )
 
 
+@check(
+    "wild-stamp",
+    Severity.WARNING,
+    rule="at most one stamp in a hundred, or one, lies more than an hour from where those "
+    "of the arrivals before and after lie",
+    headline="{where} {concerned:has|have} a stamp that lies {off:span} {side} the others",
+    detail="{what}: {count} of {of}, {stamp:dated}",
+    consequence="a transform stamped ahead has tf2 drop what follows, until time reaches it; one "
+    "that is stamped behind is dropped itself",
+    fixes=(
+        Fix(
+            "look at what the publisher stamps from; `tftool edit --from A --to B` leaves out "
+            "of a recording what is stamped outside"
+        ),
+    ),
+    causes=(
+        "memory that was never set, or a number read with the wrong bytes",
+        "one message stamped before the clock was set",
+    ),
+    needs=("log times",),
+    why="a late message or a slow clock is off by seconds, and its neighbours are, too",
+)
 def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Single stamps far from those before and after."""
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
@@ -125,6 +195,35 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+@check(
+    "stale-stamp",
+    Severity.WARNING,
+    rule="the median latency is above {transforms:g} s for a transform (an error above the "
+    "cache) or {messages:g} s for messages",
+    headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
+    detail="{what}: {late:span} late (median)",
+    consequence="lookups at the present refuse; in rviz it lags or vanishes",
+    fixes=(
+        Fix(
+            "stamp each transform when it is made, not with the last measurement's stamp; "
+            "compare the clocks (chronyc tracking)"
+        ),
+    ),
+    causes=(
+        "the stamp is copied from an old measurement",
+        "the publisher's clock is behind",
+        "a slow network",
+    ),
+    links=threads("cartographer-project/cartographer_ros#143"),
+    limits={"transforms": STALE_AFTER, "messages": 2.0},
+    needs=("log times",),
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("stream", "clock-mixture"),
+        ("stream", "cache-short"),
+        ("edge", "frozen-stamp"),
+    ),
+)
 def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms or messages dated long before their arrival."""
     cache = model.settings.cache_time
@@ -156,6 +255,40 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "clock-offset",
+    Severity.WARNING,
+    rule="the median latency of a sensor's messages is below -{seconds:g} s (of a laser "
+    "scan: one scan more); a note where steady streams (95 % within {spread:g} s, "
+    "{samples:g} messages) form groups more than {apart:g} s apart",
+    headline="{topic} is {ahead:span} off the other clocks",
+    detail="{groups}",
+    consequence="each lookup at its stamps asks for what is not there yet, by the same amount for "
+    "ever",
+    fixes=(
+        Fix(
+            "synchronise the clocks: chrony with one computer as server, PTP for lidars, or "
+            "the driver's timestamp mode"
+        ),
+        Fix("not a larger timeout: a constant offset eats it for ever"),
+    ),
+    causes=(
+        "robot base and single-board computer",
+        "robot and desk computer",
+        "a lidar in its own time",
+    ),
+    links=threads(
+        "turtlebot/turtlebot4_robot#8", "DFKI-NI/mir_robot#7", "ROBOTIS-GIT/turtlebot3#618"
+    ),
+    limits={"seconds": 0.02, "spread": 0.02, "apart": 0.05, "samples": 20},
+    needs=(
+        "log times",
+        "headers",
+    ),
+    why="a message cannot be older than itself; 20 ms are more than stamps are rounded by, "
+    "and a scan may be stamped with its end",
+    because_of=(("stream", "clock-mixture"),),
+)
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
     """A sensor's messages come from the future: two clocks."""
     found = False
@@ -235,6 +368,19 @@ def _offsets(model: Model) -> list[str]:
     ]
 
 
+@check(
+    "zero-stamp",
+    Severity.WARNING,
+    rule="a transform on a dynamic topic has stamp 0",
+    headline="{where} {concerned:has|have} stamp 0",
+    detail="{edge}: {count} of {of} samples",
+    consequence="lookups at any other time refuse; 0 means latest in every question",
+    fixes=(Fix("stamp it: t.header.stamp = self.get_clock().now().to_msg(), inside the loop"),),
+    causes=(
+        "the stamp is never set",
+        "use_sim_time without /clock",
+    ),
+)
 def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame with stamp 0."""
     for track in model.dynamic:
@@ -249,6 +395,19 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "frozen-stamp",
+    Severity.WARNING,
+    rule="one stamp comes {times:g} times or more, over more than {seconds:g} s",
+    headline="the stamp of {where} stands still",
+    detail="{edge}: {stamp:moment} {count:times}, for {lasted:span}",
+    consequence="lookups at any other time refuse: only that one is in the buffer",
+    fixes=(Fix("set the stamp inside the loop: t.header.stamp = self.get_clock().now().to_msg()"),),
+    causes=("the stamp is set once, before the loop",),
+    limits={"times": 10, "seconds": 1.0},
+    needs=("log times",),
+    because_of=(("edge", "zero-stamp"),),
+)
 def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """The stamp stands still while the message repeats."""
     for track in model.dynamic:
@@ -285,8 +444,30 @@ def _frozen(track: Track, limits: Limits) -> tuple[int, int, int] | None:
 _FROZEN = {"times": 10, "seconds": 1.0}
 
 
+@check(
+    "repeated-stamp",
+    Severity.WARNING,
+    rule="more than {samples:g} samples, and a share above {share:g}, repeat a stamp with "
+    "the same value",
+    headline="{where} {concerned:repeats|repeat} stamps",
+    detail="{edge}: {count} of {of} samples repeat a stamp",
+    consequence="ROS 1 prints TF_REPEATED_DATA for each; ROS 2 ignores equal ones and lets the "
+    "later of different ones win",
+    fixes=(Fix("send a transform only when its stamp is newer than the last one's"),),
+    causes=(
+        "a filter publishes faster than its data",
+        "the same pose is sent once per sensor",
+        "two nodes with one frame",
+    ),
+    links=threads("at-wat/neonavigation#612", "uf-mil/mil#1097"),
+    limits={"samples": 2, "share": 0.05},
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("child", "publisher-conflict two-parents"),
+    ),
+)
 def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The same stamp twice, with the same value."""
+    """The same stamp twice: TF_REPEATED_DATA in ROS 1."""
     for track in model.dynamic:
         places = track.by_stamp
         if track.is_orderly:
@@ -307,8 +488,32 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "time-jump-back",
+    Severity.ERROR,
+    rule="within 1 s at least half of all streams, and two, step back by more than 1 s",
+    headline="time went back by {back:span}, {count:times}",
+    detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
+    "streams; all that follows is about what came before",
+    consequence="C++ listeners clear their buffers, Python ones up to humble refuse all new data "
+    "as old (TF_OLD_DATA) until the old time is reached again",
+    fixes=(
+        Fix(
+            "play with --clock and set use_sim_time: true; in Python on humble restart, or "
+            "clear the buffer"
+        ),
+    ),
+    causes=(
+        "play --loop",
+        "a simulation was reset",
+        "NTP set the clock back while running",
+    ),
+    links=threads("ros2/geometry2#606", "ros/geometry2#43"),
+    needs=("log times",),
+    why="a looped recording would trip forty other checks: all of them look at the first lap only",
+)
 def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Time went back."""
+    """Time went back: a looped bag, a reset simulation."""
     if not model.laps:
         return
     first = model.laps[0]
@@ -328,8 +533,27 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
     )
 
 
+@check(
+    "old-data",
+    Severity.WARNING,
+    rule="a sample is older than the newest of its frame by more than the cache (--cache-time)",
+    headline="{where} {concerned:sends|send} samples that are too old to be kept",
+    detail="{edge}: {count:times}, up to {behind:span} behind",
+    consequence="tf2 drops them and warns TF_OLD_DATA",
+    fixes=(Fix("restart the publisher that still has the old clock; or clear the buffer"),),
+    causes=(
+        "a restarted publisher or simulation",
+        "a replayed recording beside the live robot",
+    ),
+    links=threads("ros/geometry2#43"),
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "wild-stamp"),
+    ),
+)
 def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Samples older than the cache allows."""
+    """Samples older than the cache allows: TF_OLD_DATA."""
     by_child: dict[str, list[Track]] = defaultdict(list)
     for track in model.dynamic:
         by_child[track.child].append(track)
@@ -365,6 +589,21 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
     return stamps, np.where(is_sim, of_sim, of_wall)
 
 
+@check(
+    "out-of-order",
+    Severity.NOTE,
+    rule="more than {samples:g} samples, and a share above {share:g}, are older than one before",
+    headline="{where} {concerned:comes|come} out of order",
+    detail="{edge}: {count} of {of} samples",
+    consequence="harmless to tf2; hints at threads, or at a second publisher",
+    limits={"samples": 2, "share": 0.01},
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("stream", "clock-mixture"),
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "wild-stamp"),
+    ),
+)
 def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
     """Samples overtake each other within the cache."""
     for track in model.dynamic:

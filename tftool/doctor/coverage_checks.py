@@ -8,19 +8,115 @@ from dataclasses import dataclass
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
-from tftool.doctor.findings import Fix, Hit, Severity
+from tftool.doctor.check import checks_of, threads
+from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, rate
 from tftool.doctor.wording import several
 from tftool.recordings.contract import Stamps
 
-
-def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
-    """There is no tf in it at all."""
-    if not model.tracks and not model.nameless:
-        yield Hit(topics=tuple(t.name for t in model.material.topics if t.transforms))
+check = checks_of(Area.COVERAGE)
 
 
+def _least_gap(track: Track, limits: Limits) -> float:
+    return max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+
+
+def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
+    """Stamps between which an edge has nothing, although it should."""
+    # Between a stamp that is years off and the others nothing is missing.
+    stamps = track.sorted_stamps
+    if track.wild.any():
+        stamps = stamps[~track.wild[track.by_stamp]]
+    if len(stamps) < limits["samples"] or not track.period:
+        return []
+    if len(track.steps) < 0.5 * (len(stamps) - 1):
+        return []  # its stamps stand still: that is another fault
+    wide = stamps[1:] - stamps[:-1] > _least_gap(track, limits)
+    places = wide.nonzero()[0].tolist()
+    return [(int(stamps[place]), int(stamps[place + 1])) for place in places]
+
+
+@check(
+    "edge-stopped",
+    Severity.ERROR,
+    rule="the last sample comes more than {periods:g} periods and {seconds:g} s, and a "
+    "share of {share:g}, before the recording's end, while others go on",
+    headline="{where} {concerned:stops|stop} before the end",
+    detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
+    consequence="lookups through it refuse from then on",
+    fixes=(Fix("look at the node that publishes it: it died, or hangs"),),
+    causes=(
+        "a node that crashed",
+        "a lost sensor",
+    ),
+    limits={"periods": STOPPED_PERIODS, "seconds": STOPPED_AFTER, "share": 0.05},
+    needs=("log times",),
+    because_of=(
+        ("stream", "clock-mixture"),
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "parent-switch"),
+    ),
+)
+def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A transform ends long before the recording does."""
+    length = model.end - model.start
+    alive: list[Track | Heard] = [*model.dynamic, *model.heard]
+    latest = max((int(one.logs[-1]) for one in alive if len(one.logs)), default=model.start)
+    for track in model.dynamic:
+        if len(track.stamps) < 2:
+            continue
+        last = int(track.logs[-1])
+        before = model.end - last
+        least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+        if before <= least or before <= limits["share"] * length:
+            continue
+        above = model.parents.get(track.child)
+        if above is not None and above.parent != track.parent:
+            continue
+        # What all ends at once, as a session does that its host leaves, is no link's own fault.
+        if latest - last <= least:
+            continue
+        yield Hit(
+            edges=(track.edge,),
+            publishers=track.nodes,
+            since=last,
+            until=model.end,
+            count=1,
+            facts={
+                "edge": track.name,
+                "last": int(track.stamps.max()),
+                "before": before,
+                "period": track.period,
+                "below": sorted(model.below(track.child)),
+            },
+        )
+
+
+@check(
+    "gap",
+    Severity.WARNING,
+    rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
+    "samples or more; a note for what is published on change (variation above "
+    "{variation:g})",
+    headline="{where} {concerned:has a hole|have holes}",
+    detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
+    "{period:span}){why}{beside}",
+    consequence="lookups inside it interpolate over the hole, or refuse while it lasts",
+    fixes=(Fix("look at what stopped then: all edges together mean the recorder or the network"),),
+    causes=(
+        "load",
+        "a network that drops",
+        "a publisher that hung",
+    ),
+    limits={"periods": 5, "seconds": 0.5, "samples": 10, "variation": 1.0},
+    why="four messages lost in a row are no chance on a reliable topic, and shorter holes "
+    "are covered by the waits that consumers have anyway",
+    because_of=(
+        ("child", "publisher-conflict two-parents"),
+        ("edge", "edge-stopped nan-transform"),
+    ),
+)
 def gap(model: Model, limits: Limits) -> Iterator[Hit]:
     """A hole in a transform."""
     known = {track.edge: holes(track, limits) for track in model.dynamic}
@@ -62,60 +158,22 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
-def _least_gap(track: Track, limits: Limits) -> float:
-    return max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
-
-
-def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Stamps between which an edge has nothing, although it should."""
-    # Between a stamp that is years off and the others nothing is missing.
-    stamps = track.sorted_stamps
-    if track.wild.any():
-        stamps = stamps[~track.wild[track.by_stamp]]
-    if len(stamps) < limits["samples"] or not track.period:
-        return []
-    if len(track.steps) < 0.5 * (len(stamps) - 1):
-        return []  # its stamps stand still: that is another fault
-    wide = stamps[1:] - stamps[:-1] > _least_gap(track, limits)
-    places = wide.nonzero()[0].tolist()
-    return [(int(stamps[place]), int(stamps[place + 1])) for place in places]
-
-
-def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A transform ends long before the recording does."""
-    length = model.end - model.start
-    alive: list[Track | Heard] = [*model.dynamic, *model.heard]
-    latest = max((int(one.logs[-1]) for one in alive if len(one.logs)), default=model.start)
-    for track in model.dynamic:
-        if len(track.stamps) < 2:
-            continue
-        last = int(track.logs[-1])
-        before = model.end - last
-        least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
-        if before <= least or before <= limits["share"] * length:
-            continue
-        above = model.parents.get(track.child)
-        if above is not None and above.parent != track.parent:
-            continue
-        # What all ends at once, as a session does that its host leaves, is no link's own fault.
-        if latest - last <= least:
-            continue
-        yield Hit(
-            edges=(track.edge,),
-            publishers=track.nodes,
-            since=last,
-            until=model.end,
-            count=1,
-            facts={
-                "edge": track.name,
-                "last": int(track.stamps.max()),
-                "before": before,
-                "period": track.period,
-                "below": sorted(model.below(track.child)),
-            },
-        )
-
-
+@check(
+    "single-sample",
+    Severity.WARNING,
+    rule="a transform on a dynamic topic came once",
+    headline="{where} {concerned:was|were} sent once, on /tf",
+    detail="{edge}: at {stamp:moment}",
+    consequence="one sample answers for its own stamp only, and only for as long as the cache "
+    "keeps it",
+    fixes=(Fix("send a mount with a StaticTransformBroadcaster (on /tf_static)"),),
+    causes=("a mount sent with a TransformBroadcaster",),
+    why="tf2 interpolates between two samples and never extrapolates from one",
+    because_of=(
+        ("child", "static-and-dynamic"),
+        ("edge", "zero-stamp"),
+    ),
+)
 def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame with one sample only."""
     for track in model.dynamic:
@@ -129,6 +187,45 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "no-transforms",
+    Severity.ERROR,
+    rule="no topic carries a transform",
+    headline="there are no transforms",
+    consequence="nothing can be placed in anything",
+    fixes=(Fix("record /tf and /tf_static too"),),
+    causes=("/tf and /tf_static were not in the recorder's list",),
+    because_of=(("anything", "namespaced-topic"),),
+)
+def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
+    """There is no tf in it at all."""
+    if not model.tracks and not model.nameless:
+        yield Hit(topics=tuple(t.name for t in model.evidence.topics if t.transforms))
+
+
+@check(
+    "static-missing",
+    Severity.ERROR,
+    rule="no static topic has a message, and messages are in frames that tf does not know",
+    headline="the statics are missing: {why}",
+    detail="messages are in {frames}, which no transform names",
+    consequence="these sensors can be placed nowhere",
+    fixes=(
+        Fix("record with /tf and /tf_static (ROS 1: rosbag record --repeat-latched)"),
+        Fix(
+            "take the statics from the first part of the recording, or the robot description:",
+            "tftool edit RECORDING -o WHOLE --statics-from FIRST_PART",
+        ),
+    ),
+    causes=(
+        "the second part of a split recording",
+        "/tf_static not in the recorder's list",
+        "the recorder's QoS for /tf_static",
+    ),
+    links=threads("ros/geometry2#181", "ros/ros_comm#706"),
+    needs=("headers",),
+    because_of=(("anything", "namespaced-topic"),),
+)
 def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     """No statics in the recording, and sensors hang in the air."""
     if model.statics or not model.tracks:
@@ -140,7 +237,7 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     ]
     if not unknown:
         return
-    static = [topic for topic in model.material.topics if topic.static]
+    static = [topic for topic in model.evidence.topics if topic.static]
     names = sorted({heard.frame for heard in unknown})
     yield Hit(
         frames=tuple(names),
@@ -156,6 +253,50 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     )
 
 
+@check(
+    "static-not-latched",
+    Severity.ERROR,
+    rule="a publisher offers a static topic with durability volatile",
+    headline="{topic} is offered volatile by {by}",
+    consequence="a listener that starts later never gets these statics",
+    fixes=(Fix("publish it with durability transient_local (a StaticTransformBroadcaster does)"),),
+    causes=("a relay or bridge with default QoS",),
+    links=threads("ros2/geometry2#585", "realsenseai/realsense-ros#141"),
+    needs=("durability",),
+)
+def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
+    """/tf_static is offered volatile: late listeners never get it."""
+    static = {topic.name for topic in model.evidence.topics if topic.static}
+    for publisher in model.evidence.publishers:
+        if publisher.topic in static and publisher.durability == "volatile":
+            edges = [t.edge for t in model.statics if publisher.topic in t.topics]
+            yield Hit(
+                edges=tuple(edges),
+                topics=(publisher.topic,),
+                publishers=(publisher.node,) if publisher.node else (),
+                facts={"topic": publisher.topic, "by": publisher.authority},
+            )
+
+
+@check(
+    "static-late",
+    Severity.WARNING,
+    rule="a static first arrives more than {seconds:g} s after the first message in a frame "
+    "below it",
+    headline="{where} {concerned:arrives after what needs it|arrive after what needs them}",
+    detail="{edge}: {late:span} late; before it: {missed}",
+    consequence="a listener that was there from the start could not place these messages, although "
+    "the recording can",
+    fixes=(Fix("start the publisher of the statics before the sensors"),),
+    causes=("a driver that publishes its mount when it is ready",),
+    links=threads("ros/geometry2#181"),
+    limits={"seconds": 1.0},
+    needs=(
+        "log times",
+        "headers",
+    ),
+    because_of=(("child", "static-and-dynamic"),),
+)
 def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     """Statics arrive after what needs them."""
     spatial = [heard for heard in model.heard if heard.is_spatial and len(heard.logs)]
@@ -187,23 +328,24 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
-def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Statics are offered volatile: late listeners never get them."""
-    static = {topic.name for topic in model.material.topics if topic.static}
-    for publisher in model.material.publishers:
-        if publisher.topic in static and publisher.durability == "volatile":
-            edges = [t.edge for t in model.statics if publisher.topic in t.topics]
-            yield Hit(
-                edges=tuple(edges),
-                topics=(publisher.topic,),
-                publishers=(publisher.node,) if publisher.node else (),
-                facts={"topic": publisher.topic, "by": publisher.authority},
-            )
-
-
+@check(
+    "latched-overwrite",
+    Severity.NOTE,
+    rule="the last static message does not hold all children",
+    headline="statics are spread over {messages} messages",
+    detail="the last lacks {lost}",
+    consequence="a player that publishes them from one node keeps only the last for late listeners",
+    fixes=(
+        Fix("start listeners before playing"),
+        Fix("or bring them into one message:", "tftool edit RECORDING -o WHOLE --statics-first"),
+    ),
+    causes=("several static publishers",),
+    links=threads("ros/ros_comm#706", "ros2/geometry2#585"),
+    needs=("recording",),
+)
 def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
     """Statics are spread over several messages; playback latches the last."""
-    transforms = model.material.transforms
+    transforms = model.evidence.transforms
     held: dict[int, set[str]] = defaultdict(set)
     for edge in transforms.edges:
         if edge.static:
@@ -274,6 +416,46 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     return Waits(waits, links[int(blame.argmax())], tuple(links))
 
 
+@check(
+    "sensor-outruns-tf",
+    Severity.WARNING,
+    rule="95 % of the waits for the last transform a message needs are not below "
+    "{seconds:g} s, or a share above {never:g} is never served; a note where a share "
+    "above {refused:g} waits and 95 % are not below {note:g} s; of {messages:g} "
+    "messages or more",
+    headline="{topic} arrives before the transforms it needs",
+    detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
+    "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, every "
+    "{period:span}, {latency:span} after its stamp",
+    consequence='"extrapolation into the future", or a message filter that drops messages because '
+    "its queue is full",
+    causes=(
+        "odometry is slower or later than the sensor",
+        "the clocks of two computers",
+        "a constant on /tf at 10 Hz",
+        "load",
+    ),
+    links=threads(
+        "SteveMacenski/slam_toolbox#516",
+        "SteveMacenski/slam_toolbox#576",
+        "ApolloAuto/apollo#12088",
+    ),
+    limits={"seconds": 0.1, "never": 0.05, "refused": 0.5, "note": 0.03, "messages": 5},
+    needs=(
+        "log times",
+        "headers",
+    ),
+    why="0.1 s is the usual tolerance of consumers, and a healthy robot at 50 Hz needs 20 "
+    "ms for some scans",
+    because_of=(
+        ("stream", "clock-mixture"),
+        (
+            "path",
+            "gap edge-stopped stale-stamp clock-offset zero-stamp frozen-stamp single-sample "
+            "nan-transform future-stamp",
+        ),
+    ),
+)
 def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     """Lookups at the sensor's stamps refuse; how many, and what wait cures them."""
     fixed = model.sensor_frame
@@ -362,6 +544,32 @@ def least_rate(later: int, wait: float) -> str:
     return f"or publish it at {math.ceil(10 / left) / 10:g} Hz or more, enough for {told}"
 
 
+@check(
+    "cache-short",
+    Severity.WARNING,
+    rule="95 % of a topic's messages do not arrive within the cache (10 s; --cache-time)",
+    headline="{topic} arrives after the cache has forgotten its moment",
+    detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
+    "keeps {cache:span}",
+    consequence='"extrapolation into the past": the transforms it needs were dropped',
+    fixes=(
+        Fix(
+            "keep more (ROS 1's Python ignores this argument: ros_comm#2270)",
+            "Buffer(cache_time=Duration(seconds={needed}))",
+        ),
+        Fix("or look up when the measurement arrives, and keep the result"),
+    ),
+    causes=(
+        "a slow detector",
+        "a consumer that is behind",
+    ),
+    links=threads("intrinsic-dev/aic#218"),
+    needs=(
+        "log times",
+        "headers",
+    ),
+    because_of=(("stream", "clock-mixture"),),
+)
 def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages are older than the cache when they arrive."""
     for heard in model.heard:
@@ -387,8 +595,35 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "late-start",
+    Severity.NOTE,
+    rule="messages are older by more than {seconds:g} s, and the first second of the "
+    "recording, than the first transform they need; where a localiser dates that "
+    "ahead, by up to 2 s, so much more",
+    headline="{where} {concerned:begins after the messages that need it|begin after the "
+    "messages that need them}",
+    detail="{edge} begins at {begin:moment}: {lost} messages of {topic} can never be placed "
+    "in {fixed}",
+    consequence="waiting does not help; skip them",
+    causes=(
+        "AMCL dates its first transform ahead (transform_tolerance)",
+        "a node that starts later",
+    ),
+    limits={"seconds": 0.5},
+    needs=(
+        "log times",
+        "headers",
+    ),
+    why="the first second of every recording is a start, and a localiser that dates ahead "
+    "loses it always",
+    because_of=(
+        ("stream", "clock-mixture"),
+        ("edge", "wild-stamp"),
+    ),
+)
 def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Lookups cannot succeed before t: an edge begins late or is dated ahead."""
+    """Lookups cannot succeed before a moment: an edge begins late or is dated ahead."""
     fixed = model.fixed_frame
     for heard in model.heard:
         if not heard.is_spatial or not len(heard.stamps):
@@ -422,7 +657,19 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "truncated-recording",
+    Severity.NOTE,
+    rule="part of the recording could not be read",
+    headline="part of the recording could not be read",
+    detail="{damage}",
+    consequence="what is behind the damage is not in this report",
+    causes=(
+        "the recorder was killed",
+        "a full disk",
+    ),
+)
 def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
-    """What could not be read."""
-    if model.material.damage:
-        yield Hit(facts={"damage": " ".join(model.material.damage)}, alone=True)
+    """The recorder was killed, or the file is damaged: read up to there."""
+    if model.evidence.damage:
+        yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True)

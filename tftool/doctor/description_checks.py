@@ -5,26 +5,67 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from tftool.doctor.findings import Fix, Hit
+from tftool.doctor.check import checks_of, threads
+from tftool.doctor.findings import Area, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import unit
 from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot
 
+check = checks_of(Area.DESCRIPTION)
+
 _STATES = "start joint_state_publisher or the controller's broadcaster; or make the joint fixed"
 
 
+@check(
+    "urdf-invalid",
+    Severity.ERROR,
+    rule="it is no XML, has no root or several, a joint names a link that is missing, "
+    "joints form a circle, or a name comes twice",
+    headline="the robot description cannot be read",
+    detail="{mistakes}",
+    consequence="robot_state_publisher refuses it or publishes a part; nothing is compared with it",
+    fixes=(Fix("mend the description: `tftool info FILE` shows each mistake in its line"),),
+    causes=(
+        "a link was renamed and its joint was not",
+        "xacro that was not expanded",
+    ),
+    needs=("description",),
+)
 def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The description has mistakes: no root or several, links that are missing, a circle."""
-    mistakes = model.material.mistakes
+    """The robot description has mistakes."""
+    mistakes = model.evidence.mistakes
     if mistakes:
         yield Hit(count=len(mistakes), facts={"mistakes": list(mistakes)}, alone=True)
 
 
+@check(
+    "joint-without-state",
+    Severity.ERROR,
+    rule="a joint that moves and follows no other is in no JointState of the recording, and "
+    "no transform has its link",
+    headline="{joint} has no state: {child} has no frame",
+    detail="{joint} ({kind}) moves {below}",
+    consequence="robot_state_publisher publishes nothing below such a joint",
+    fixes=(
+        Fix("start joint_state_publisher or the controller's broadcaster; or make the joint fixed"),
+    ),
+    causes=(
+        "joint_state_publisher or the joint state broadcaster was not started",
+        "a plug-in publishes the driven joints only",
+        "casters",
+    ),
+    links=threads("LeoRover/leo_simulator#6", "iRobotEducation/create3_sim#203"),
+    needs=(
+        "description",
+        "valid description",
+        "joint states",
+    ),
+)
 def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
     """A movable joint has no state, so its link has no frame."""
-    robot, told = model.material.robot, model.material.joints
+    robot, told = model.evidence.robot, model.evidence.joints
     if robot is None or told is None:
         return
     for joint in robot.joints.values():
@@ -65,9 +106,31 @@ def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
     return list(found)
 
 
+@check(
+    "urdf-frame-unpublished",
+    Severity.WARNING,
+    rule="a link of the robot description is in no transform of the whole recording",
+    headline="{where} of the robot description: in no transform",
+    detail="{frame}: {reason}",
+    consequence="nothing can be placed in these frames",
+    causes=(
+        "robot_state_publisher does not run, or with another description",
+        "/tf_static was not recorded",
+        "a movable joint has no state",
+    ),
+    links=threads("iRobotEducation/create3_sim#203"),
+    needs=(
+        "description",
+        "valid description",
+    ),
+    because_of=(
+        ("frame", "static-missing unknown-frame split-tree"),
+        ("frame", "joint-without-state"),
+    ),
+)
 def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A link of the description never appears in tf."""
-    robot = model.material.robot
+    """A link of the robot description never appears in tf."""
+    robot = model.evidence.robot
     if robot is None:
         return
     joint_of = {joint.child: joint for joint in robot.joints.values()}
@@ -96,9 +159,28 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+@check(
+    "urdf-tf-mismatch",
+    Severity.WARNING,
+    rule="a static and the fixed joint of the same two links are more than {metres:g} m or "
+    "{degrees:g}° apart",
+    headline="{where} {concerned:differs|differ} from the robot description",
+    detail="{edge}: {apart:m} and {turned:deg} apart; {joint} has {says}, tf {has}",
+    consequence="what was calibrated and what is published are two mounts",
+    fixes=(Fix("publish it once: take the second publisher away, or write the calibration down"),),
+    causes=(
+        "a calibration is published beside the description",
+        "the robot runs with an older description",
+    ),
+    limits={"metres": 0.001, "degrees": 0.1},
+    needs=(
+        "description",
+        "valid description",
+    ),
+)
 def urdf_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A static differs from the description's fixed joint."""
-    robot = model.material.robot
+    """A static differs from the robot description's fixed joint."""
+    robot = model.evidence.robot
     if robot is None:
         return
     statics = {track.edge: track for track in model.statics if len(track.by_stamp)}

@@ -1,26 +1,42 @@
-"""What a source, a buffer or a session gave: all that a diagnosis may look at."""
+"""Everything a diagnosis may look at, made from a recording, a buffer or a session."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
+import numpy.typing as npt
 
-from tftool.base.stamps import Stamp
+from tftool.base.errors import DescriptionError, InputError, without_frames
+from tftool.base.near_names import near_names
+from tftool.base.stamps import Stamp, as_seconds
+from tftool.buffer.buffer import Buffer
+from tftool.frames.transform_log import TransformLog
 from tftool.recordings.contract import (
+    Edge,
     Headers,
     Publisher,
     RecordedTopic,
+    Source,
     Stamps,
     Transforms,
 )
+from tftool.recordings.description_frames import description_topics, read_description
+from tftool.recordings.joint_state_reader import joint_state_topics, read_joint_states
+from tftool.robots.robot_model import Robot, load_urdf
 
 if TYPE_CHECKING:
-    from tftool.robots.robot_model import Robot
+    from tftool.recordings.recording import Recording
+
+ODOMETRY = "nav_msgs/Odometry"
+
+Records = npt.NDArray[np.int64]
+Places = npt.NDArray[np.int32]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Material:
+class Evidence:
     """What is known of the frames: all that a diagnosis may look at.
 
     Attributes:
@@ -57,6 +73,311 @@ class Material:
     timed: bool = True
     recorded: bool = True
     joints: frozenset[str] | None = None
-    robot: "Robot | None" = None
+    robot: Robot | None = None
     mistakes: tuple[str, ...] = ()
     odometry: Transforms | None = None
+
+
+# From a recording
+
+
+@dataclass(frozen=True, slots=True)
+class Described:
+    """A robot description that was looked for.
+
+    Attributes:
+        robot: What it describes; None where there is none that can be read.
+        mistakes: What is wrong with it, as sentences.
+        namespace: That of its topic, "/arm" for "/arm/robot_description".
+    """
+
+    robot: Robot | None = None
+    mistakes: tuple[str, ...] = ()
+    namespace: str = ""
+
+
+def described_by(path: str | Path) -> Described:
+    """The robot that a URDF or xacro file describes, or what is wrong with it.
+
+    Raises:
+        InputError: If the file cannot be read.
+        UsageError: If it needs xacro, which is not installed.
+    """
+    try:
+        return Described(load_urdf(path))
+    except DescriptionError as error:
+        return Described(mistakes=_mistakes(error))
+
+
+def _recorded_description(source: Source) -> Described:
+    for topic in description_topics(source.topics):
+        namespace = topic.name.rpartition("/")[0]
+        try:
+            return Described(read_description(source, topic), namespace=namespace)
+        except DescriptionError as error:
+            return Described(mistakes=_mistakes(error), namespace=namespace)
+        except InputError as error:
+            return Described(mistakes=(str(error),), namespace=namespace)
+    return Described()
+
+
+def _mistakes(error: DescriptionError) -> tuple[str, ...]:
+    """Each with its line; the lines themselves are left out."""
+    return tuple(
+        f"{mistake.file}:{mistake.line}:{mistake.column}: {mistake.text}"
+        for mistake in error.mistakes[: error.MOST]
+    )
+
+
+class Moment(Protocol):
+    """A moment as it was asked for."""
+
+    def stamp(self, epoch: Stamp) -> Stamp:
+        """The moment itself, where what is asked begins at `epoch`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """What of a recording is looked at; all of it where nothing is said.
+
+    Attributes:
+        described: The robot's description; None for the recorded one, if any.
+        tf_topics: Topics of transforms, in place of all; the static one beside each goes with it.
+        begin: Log time from which on; None for the recording's start.
+        end: Log time up to which; None for the recording's end.
+    """
+
+    described: Described | None = None
+    tf_topics: tuple[str, ...] = ()
+    begin: Moment | None = None
+    end: Moment | None = None
+
+
+def evidence_of_recording(recording: "Recording", scope: Scope | None = None) -> Evidence:
+    """Take from a recording what a diagnosis looks at.
+
+    Args:
+        recording: The recording.
+        scope: What of it, beside which description; None for all of it.
+
+    Raises:
+        InputError: If it cannot be read, has none of the topics, or nothing in that time.
+    """
+    source, scope = recording.source, scope or Scope()
+    transforms = recording.transforms
+    if scope.tf_topics:
+        transforms = source.transforms(_with_statics(source, scope.tf_topics))
+    evidence = _evidence_of_source(source, transforms, scope.described)
+    if scope.begin is None and scope.end is None:
+        return evidence
+    begin = evidence.start if scope.begin is None else scope.begin.stamp(evidence.start)
+    end = evidence.end if scope.end is None else scope.end.stamp(evidence.start)
+    if begin > evidence.end or end < evidence.start or begin >= end:
+        length = as_seconds(evidence.end - evidence.start)
+        raise InputError(f"'{source.name}' has nothing in that time: it lasts {length:.3f} s.")
+    return within(evidence, max(begin, evidence.start), min(end, evidence.end))
+
+
+def _evidence_of_source(
+    source: Source, transforms: Transforms, described: Described | None
+) -> Evidence:
+    described = described or _recorded_description(source)
+    odometry = [topic.name for topic in source.topics if topic.type == ODOMETRY and topic.count]
+    joints = None
+    if described.robot is not None:
+        names = joint_state_topics(source.topics, described.namespace)
+        if names:
+            states = read_joint_states(source, names).states
+            joints = frozenset(name for one in states for name in one.names)
+    return Evidence(
+        joints=joints,
+        robot=described.robot,
+        mistakes=described.mistakes,
+        odometry=source.transforms(odometry) if odometry else None,
+        name=source.name,
+        kind=source.kind,
+        transforms=transforms,
+        headers=source.headers(),
+        clock=source.clock(),
+        topics=source.topics,
+        publishers=source.publishers,
+        damage=tuple(dict.fromkeys((*source.damage, *transforms.damage))),
+        start=source.start,
+        end=source.end,
+    )
+
+
+def _with_statics(source: Source, names: tuple[str, ...]) -> list[str]:
+    """The topics of these names, and the static one that goes with each."""
+    known = {topic.name for topic in source.topics if topic.transforms}
+    found = []
+    for name in names:
+        if name not in known:
+            near = near_names(name, sorted(known)) or sorted(known)[:5]
+            hint = f"; there is {', '.join(near)}" if near else ""
+            raise InputError(f"'{source.name}' has no transforms on '{name}'{hint}.")
+        found += [one for one in (name, f"{name}_static") if one in known]
+    return list(dict.fromkeys(found))
+
+
+def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:
+    """What was received between two log times; of statics, all that was received before, too."""
+    read_clock, received = evidence.clock
+    ticks = (received >= begin) & (received <= end)
+    return replace(
+        evidence,
+        transforms=_cut(evidence.transforms, begin, end),
+        headers={
+            topic: _cut_headers(headers, begin, end) for topic, headers in evidence.headers.items()
+        },
+        # One reading on each side still tells how the clock runs.
+        clock=(read_clock[ticks], received[ticks]) if ticks.any() else evidence.clock,
+        odometry=None if evidence.odometry is None else _cut(evidence.odometry, begin, end),
+        start=begin,
+        end=end,
+    )
+
+
+def _cut(transforms: Transforms, begin: Stamp, end: Stamp) -> Transforms:
+    edges = []
+    for edge in transforms.edges:
+        logs = transforms.log_times_of(edge)
+        inside = (logs <= end) & (edge.static | (logs >= begin))
+        if inside.any():
+            edges.append(
+                Edge(
+                    edge.parent,
+                    edge.child,
+                    edge.static,
+                    min(edge.slashed, int(np.count_nonzero(inside))),
+                    edge.records[inside],
+                    edge.messages[inside],
+                )
+            )
+    return replace(transforms, edges=tuple(edges))
+
+
+def _cut_headers(headers: Headers, begin: Stamp, end: Stamp) -> Headers:
+    inside = (headers.log_times >= begin) & (headers.log_times <= end)
+    return replace(
+        headers,
+        stamps=headers.stamps[inside],
+        log_times=headers.log_times[inside],
+        frames=headers.frames[inside],
+    )
+
+
+# From a buffer
+
+
+def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
+    """What a buffer holds, in columns; everything in it counts as arrived at its stamp."""
+    parts: dict[tuple[str, str, bool], list[tuple[Records, Places]]] = {}
+    logs: list[Stamps] = []
+    senders: list[npt.NDArray[np.int32]] = []
+    known: dict[Publisher, int] = {}
+    count = 0
+    for child in buffer.frames():
+        held = buffer.samples(child)
+        topic = "/tf_static" if held.is_static else "/tf"
+        records = np.empty((len(held.stamps), 8), dtype=np.int64)
+        records[:, 0] = held.stamps
+        records.view(np.float64)[:, 1:] = held.poses
+        places = np.arange(count, count + len(records), dtype=np.int32)
+        count += len(records)
+        logs.append(records[:, 0])
+        for one in _runs(held.parents):
+            key = (str(held.parents[one[0]]), child, held.is_static)
+            parts.setdefault(key, []).append((records[one], places[one]))
+        sender = np.zeros(len(records), dtype=np.int32)
+        for one in _runs(held.authorities):
+            publisher = Publisher(topic, str(held.authorities[one[0]]))
+            sender[one] = known.setdefault(publisher, len(known))
+        senders.append(sender)
+    log_times = np.concatenate(logs) if logs else np.zeros(0, dtype=np.int64)
+    moving = log_times[log_times != 0]
+    edges = tuple(
+        Edge(*key, 0, np.concatenate([r for r, _ in of]), np.concatenate([p for _, p in of]))
+        for key, of in parts.items()
+    )
+    sent_by = np.concatenate(senders) if senders else np.zeros(0, dtype=np.int32)
+    transforms = Transforms(edges, log_times, sent_by, tuple(known))
+    return Evidence(
+        name=name,
+        kind="buffer",
+        transforms=transforms,
+        publishers=tuple(known),
+        start=int(moving.min()) if len(moving) else 0,
+        end=int(moving.max()) if len(moving) else 0,
+        timed=False,
+        recorded=False,
+    )
+
+
+def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
+    """The places of each name among many; quick where there is one."""
+    if not len(names) or bool((names == names[0]).all()):
+        return [np.arange(len(names), dtype=np.int32)] if len(names) else []
+    found: dict[str, list[int]] = {}
+    for place, name in enumerate(names.tolist()):
+        found.setdefault(name, []).append(place)
+    return [np.array(places, dtype=np.int32) for places in found.values()]
+
+
+# From a session
+
+
+def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: Stamp) -> Evidence:
+    """Return what a diagnosis looks at, of transforms as they arrived.
+
+    Args:
+        log: What arrived.
+        name: The name of the source, for people.
+        kind: What the source is.
+        start: When listening began.
+        end: When it ended.
+    """
+    transforms = log.transforms()
+    publishers = transforms.publishers
+    counts = np.bincount(transforms.senders, minlength=len(publishers)).tolist()
+    topics = tuple(
+        RecordedTopic(
+            topic,
+            "tf2_msgs/TFMessage",
+            count=sum(n for p, n in zip(publishers, counts, strict=True) if p.topic == topic),
+            transforms=True,
+            static=topic == "/tf_static",
+        )
+        for topic in sorted({publisher.topic for publisher in publishers})
+    )
+    return Evidence(
+        name=name,
+        kind=kind,
+        transforms=transforms,
+        topics=topics,
+        publishers=publishers,
+        start=start,
+        end=end,
+        recorded=False,
+    )
+
+
+def evidence_of(given: "Recording | Buffer", described: Described | None = None) -> Evidence:
+    """Take from a recording or a buffer what a diagnosis looks at.
+
+    Args:
+        given: The recording or buffer.
+        described: The robot's description; None for the recorded one, if any.
+
+    Raises:
+        InputError: If the recording cannot be read.
+        TypeError: If it is neither.
+    """
+    if not isinstance(given, Buffer):
+        if not hasattr(given, "source"):
+            raise without_frames(given)
+        return evidence_of_recording(given, Scope(described))
+    evidence = evidence_of_buffer(given)
+    if described is None:
+        return evidence
+    return replace(evidence, robot=described.robot, mistakes=described.mistakes)

@@ -6,28 +6,403 @@ helps, comes from the links and never from that text, which may quote a link tha
 does not need.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from enum import Enum
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tftool.base.errors import ExtrapolationException, TransformException
-from tftool.base.stamps import LATEST, Duration, Stamp
+from tftool.base.stamps import CACHE_TIME, LATEST, NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
+from tftool.buffer.buffer import Buffer
+from tftool.doctor.coverage_checks import Waits, edge_stopped, least_rate, rounded_up, waits_of
+from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Edge
-from tftool.doctor.model import Model
-from tftool.doctor.reasons import (
-    Cause,
-    Remedy,
-    TraceResult,
-    misnamed,
-    no_join,
-    refusing_link,
-    works,
-)
-from tftool.doctor.stamp_stream import Track
+from tftool.doctor.model import Model, Settings
+from tftool.doctor.name_checks import alike_frames
+from tftool.doctor.shape_checks import missing_join, static_publisher
+from tftool.doctor.stamp_stream import NEVER, Heard, Track
 from tftool.doctor.trace import LinkVerdict, LookupTrace, Question, TracedLink
-from tftool.doctor.wording import moment, span
+from tftool.doctor.wording import dated, moment, span
 from tftool.recordings.contract import Stamps
+
+if TYPE_CHECKING:
+    from tftool.recordings.recording import Recording
+
+USUAL_WAIT = 0.1
+"""Seconds that most consumers wait for a transform."""
+
+
+class Cause(Enum):
+    """Why a lookup is refused; WORKS where it is not."""
+
+    LATE = "late"
+    CLOCK_OFFSET = "clock-offset"
+    CLOCK_MIXTURE = "clock-mixture"
+    STOPPED = "stopped"
+    GAP = "gap"
+    BEFORE_START = "before-start"
+    AFTER_END = "after-end"
+    CACHE = "cache"
+    UNKNOWN_FRAME = "unknown-frame"
+    SPLIT = "split"
+    SINGLE = "single"
+    NAME = "name"
+    LOOP = "loop"
+    WORKS = "works"
+
+
+@dataclass(frozen=True, slots=True)
+class Remedy:
+    """What would let the lookup through.
+
+    Attributes:
+        kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher", "clock".
+        text: A sentence.
+        command: The line to type; empty where there is none.
+        least: How much is enough, in nanoseconds; None where it is no amount.
+        advised: How much to set, in nanoseconds.
+        possible: Whether it can help at all.
+    """
+
+    kind: str
+    text: str
+    command: str = ""
+    least: Duration | None = None
+    advised: Duration | None = None
+    possible: bool = True
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TraceResult:
+    """What is known when a reason is looked for."""
+
+    trace: LookupTrace
+    way: list[Track] | None
+    links: tuple[TracedLink, ...]
+    refusing: int | None
+    begin: Stamp | None
+    end: Stamp | None
+    available: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """A reason, and what helps."""
+
+    cause: Cause
+    why: tuple[str, ...]
+    remedies: tuple[Remedy, ...] = ()
+    useless: tuple[str, ...] = ()
+
+
+def misnamed(trace: LookupTrace) -> Reason | None:
+    """What is wrong with a name; None where both are known."""
+    model = trace.model
+    for name in (trace.question.target, trace.question.source):
+        if name.startswith("/") or not name:
+            bare = name.lstrip("/")
+            known = f"; tf knows {bare}" if bare in model.frames else ""
+            users = sorted({heard.topic for heard in model.heard if heard.frame == name})
+            where = f" in the publisher of {', '.join(users)}" if users else ""
+            why = "the name is empty" if not name else f"{name} has ROS 1's leading slash{known}"
+            return Reason(Cause.NAME, (why,), (Remedy("name", f'frame_id "{bare}"{where}'),))
+        if name not in model.frames:
+            return _unknown(trace, name)
+    return None
+
+
+def _described(model: Model, name: str) -> str | None:
+    """Why tf lacks a link that the robot's description has; None if it has none of that name."""
+    robot, states = model.evidence.robot, model.evidence.joints
+    if robot is None or name not in robot.links or name == robot.root:
+        return None
+    joint = robot.joint_above(name)
+    told = f"the robot's description has it, in {joint.parent} by joint '{joint.name}'"
+    if joint.type == "floating":
+        return f"{told}, which is floating: robot_state_publisher skips it"
+    if not joint.moves:
+        return f"{told}, which is fixed: robot_state_publisher was not heard"
+    leader = robot.leader(joint.name, states or ())
+    if states is None or leader not in states:
+        return f"{told}, whose position is not known: no joint state names '{leader}'"
+    return f"{told}, and joint states say where that is: robot_state_publisher was not heard"
+
+
+def _unknown(trace: LookupTrace, name: str) -> Reason:
+    model = trace.model
+    says = {heard.topic: len(heard.stamps) for heard in model.heard if heard.frame == name}
+    why = [f"no transform names {name}"]
+    why += [f"{topic} says it, {count:,} times" for topic, count in says.items()]
+    described = _described(model, name)
+    if described is not None:
+        return Reason(Cause.UNKNOWN_FRAME, (*why, described))
+    alike = alike_frames(model, name)
+    remedies = []
+    if alike:
+        why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
+        mistyped = "" if says else f"ask for {alike[0]}, or "
+        remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
+    if model.trees:
+        parent = missing_join(model.trees[0], name)[0]
+        text = "or, if they are two things, publish where it is:" if alike else "publish it:"
+        remedies.append(Remedy("join", text, static_publisher(parent, name)))
+    return Reason(
+        Cause.UNKNOWN_FRAME, tuple(why), tuple(remedies), ("a timeout: nothing publishes it",)
+    )
+
+
+def no_join(known: TraceResult) -> Reason:
+    """Why nothing joins two frames that are known."""
+    model, question = known.trace.model, known.trace.question
+    ours, theirs = model.tree_of[question.source], model.tree_of[question.target]
+    lesser, main = (ours, theirs) if len(ours.frames) <= len(theirs.frames) else (theirs, ours)
+    parent, child = missing_join(main, lesser.root)
+    used = sorted({h.topic for h in model.heard if h.frame in lesser.frames})
+    by = f" (used by {', '.join(used)})" if used else ""
+    why = (
+        f"{lesser.root} has no parent; its tree: {', '.join(sorted(lesser.frames))}{by}",
+        f"the tree of {main.root}: {', '.join(sorted(main.frames))}",
+        f"the join is missing; probably {child} belongs on {parent}",
+    )
+    join = Remedy("join", "publish it:", static_publisher(parent, child))
+    return Reason(Cause.SPLIT, why, (join,), ("a timeout: nothing publishes the join",))
+
+
+def works(known: TraceResult) -> Reason:
+    """What to say of a lookup that is answered: what else may be behind a refusal elsewhere."""
+    model, question = known.trace.model, known.trace.question
+    for frame in (question.source, question.target):
+        tree = model.tree_of.get(frame)
+        if tree is not None and tree.is_circle:
+            return Reason(
+                Cause.LOOP,
+                (
+                    "it answers, but the frames hang in a circle: what walks to the root fails, "
+                    "and the other way round may mean another pose",
+                ),
+                (Remedy("publisher", "publish one direction only"),),
+            )
+    return Reason(
+        Cause.WORKS,
+        (
+            "this lookup works. If yours refuses: is there a listener, does the callback that "
+            "waits block its executor, had the buffer time to fill?",
+        ),
+    )
+
+
+def refusing_link(known: TraceResult) -> Reason:
+    """Why a link on the way refuses; each reason is one function's."""
+    trace = known.trace
+    if known.refusing is None or known.way is None:
+        return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
+    link, track = known.links[known.refusing], known.way[known.refusing]
+    if track.static:
+        late = int(track.logs[0]) - trace.asked
+        return Reason(
+            Cause.LATE,
+            (f"the static {link.name} arrives {span(late)} after the question",),
+            (_timeout(known, None),),
+        )
+    if _is_simulated(trace.moment) != _is_simulated(int(track.sorted_stamps[-1])):
+        return _two_clocks(link, track, trace)
+    if len(track.by_stamp) == 1:
+        at = int(track.sorted_stamps[0])
+        return Reason(
+            Cause.SINGLE,
+            (f"{link.name} was sent once, at {moment(at)}: one sample answers for its own stamp",),
+            (Remedy("publisher", "send it with a StaticTransformBroadcaster (on /tf_static)"),),
+            ("a timeout: no second sample comes",),
+        )
+    if link.verdict is LinkVerdict.PRUNED:
+        return _pruned(known, link, track)
+    first, last = int(track.sorted_stamps[0]), int(track.sorted_stamps[-1])
+    if trace.moment < first:
+        return _before_start(known, link, track, first)
+    if trace.moment > last:
+        if _goes_on(trace, track):
+            return _after_end(link, trace, last)
+        return _stopped(link, trace, last)
+    return _late(known, link, track)
+
+
+def _is_simulated(stamp: Stamp) -> bool:
+    return stamp < SIMULATED_BELOW
+
+
+def _two_clocks(link: TracedLink, track: Track, trace: LookupTrace) -> Reason:
+    stamp = int(track.sorted_stamps[-1])
+    clock = "the simulation's clock" if _is_simulated(stamp) else "the wall clock"
+    other = "the wall clock" if _is_simulated(stamp) else "the simulation's"
+    setting = "false" if _is_simulated(stamp) else "true"
+    return Reason(
+        Cause.CLOCK_MIXTURE,
+        (
+            f"{link.name} is stamped with {clock}: {dated(stamp)}",
+            f"the question is on {other}: {dated(trace.moment)}",
+        ),
+        (Remedy("clock", f"use_sim_time: {setting} for the node that publishes {link.name}"),),
+        ("a timeout, a larger cache: the two clocks never meet",),
+    )
+
+
+def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
+    trace = known.trace
+    newest = int(track.stamps[trace.arrived(track)].max())
+    needed = newest - trace.moment
+    # The sample at or before the moment must be kept. ROS 2 prunes before it adds the newest
+    # sample, ROS 1 after: this cache time is enough for both.
+    before = track.sorted_stamps[track.sorted_stamps <= trace.moment]
+    least = newest - int(before[-1]) if len(before) else needed
+    advised = math.ceil((least + NANOSECONDS) / NANOSECONDS)
+    why = f"the buffer keeps {span(trace.cache)}, and {link.name} is {span(needed)} further on"
+    if trace.heard is not None and trace.after is not None:
+        why = (
+            f"{trace.heard.topic} arrives {span(trace.after)} after its stamp; the buffer keeps "
+            f"{span(trace.cache)}"
+        )
+    return Reason(
+        Cause.CACHE,
+        (why,),
+        (
+            Remedy(
+                "cache",
+                f"keep more, at least {span(least)}:",
+                f"Buffer(cache_time=Duration(seconds={advised}))",
+                least,
+                advised * NANOSECONDS,
+            ),
+            Remedy("skip", "or look up when the measurement arrives, and keep the result"),
+        ),
+        ("a timeout: what was dropped does not come back",),
+    )
+
+
+def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Stamp) -> Reason:
+    trace = known.trace
+    why = [
+        f"{link.name} begins at {moment(first)}, {span(first - trace.moment)} after the question"
+    ]
+    if track.median_latency < 0:
+        why.append(
+            f"it is dated {span(-track.median_latency)} ahead (transform_tolerance): nothing "
+            "before its first stamp can ever be placed through it"
+        )
+    lost = ""
+    if trace.heard is not None:
+        count = int(np.count_nonzero(trace.heard.stamps < first))
+        lost = f"; the first {count} messages of {trace.heard.topic} are lost"
+    return Reason(
+        Cause.BEFORE_START,
+        tuple(why),
+        (Remedy("skip", f"skip messages before {moment(first)}{lost}"),),
+        ("a timeout, a larger cache: older data will not come",),
+    )
+
+
+def _goes_on(trace: LookupTrace, track: Track) -> bool:
+    """Whether the link goes on until all there is ends, as `edge-stopped` sees it."""
+    evidence, limits = trace.model.evidence, edge_stopped.limits
+    least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+    ends = evidence.recorded or evidence.kind == "scenario"
+    return ends and trace.model.end - int(track.logs[-1]) <= least
+
+
+def _after_end(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
+    evidence = trace.model.evidence
+    ended = "recording" if evidence.recorded else evidence.kind
+    return Reason(
+        Cause.AFTER_END,
+        (
+            f"the {ended} ends with {link.name} at {moment(last)}, "
+            f"{span(trace.moment - last)} before the question",
+        ),
+        (Remedy("skip", f"ask about {moment(last)}, or before"),),
+        ("a timeout: nothing comes any more",),
+    )
+
+
+def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
+    return Reason(
+        Cause.STOPPED,
+        (
+            f"{link.name} ended at {moment(last)}, {span(trace.moment - last)} before the "
+            "question, and nothing follows",
+        ),
+        (Remedy("publisher", "look at the node that publishes it: it died, or hangs"),),
+        ("a timeout: nothing comes any more",),
+    )
+
+
+def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
+    trace = known.trace
+    stamps = track.sorted_stamps
+    after = int(np.searchsorted(stamps, trace.moment, side="left"))
+    step = int(stamps[after] - stamps[after - 1]) if after else 0
+    heard = trace.heard
+    is_gap = step > max(5 * track.period, NANOSECONDS // 2)
+    why = f"{link.name} comes every {span(track.period)}, {span(link.latency)} after its stamp"
+    cause = Cause.LATE
+    if is_gap:
+        cause = Cause.GAP
+        why = f"{link.name} has a hole of {span(step)} from {moment(int(stamps[after - 1]))} on"
+    elif heard is not None and heard.median_latency < -20_000_000:
+        cause = Cause.CLOCK_OFFSET
+        why = (
+            f"{heard.topic} is stamped {span(-heard.median_latency)} ahead of its arrival: its "
+            "clock is ahead"
+        )
+    elif heard is not None:
+        why += f"; {heard.topic} after {span(heard.median_latency)}"
+    remedies = [_timeout(known, heard)]
+    if cause is Cause.CLOCK_OFFSET:
+        remedies.insert(0, Remedy("clock", "synchronise the clocks (chronyc tracking; PTP)"))
+    elif cause is Cause.LATE:
+        later = link.latency - (heard.median_latency if heard is not None else 0)
+        left = USUAL_WAIT - later / NANOSECONDS
+        # What comes often enough already need not come more often.
+        if not 0 < link.period <= left * NANOSECONDS:
+            remedies.append(
+                Remedy(
+                    "rate",
+                    least_rate(later, USUAL_WAIT),
+                    least=None if left <= 0 else round(left * NANOSECONDS),
+                    possible=left > 0,
+                )
+            )
+    useless = [
+        f"latest instead of the stamp: {trace.question.source} would be placed where it was "
+        f"{span(link.short_by)} before",
+        "a larger cache: what is missing has not come yet",
+    ]
+    return Reason(cause, (why,), tuple(remedies), tuple(useless))
+
+
+def _waits(trace: LookupTrace, heard: Heard) -> Waits | None:
+    return waits_of(trace.model, heard, trace.question.target, warm=False)
+
+
+def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
+    """How long to wait, for this question and for the others of its topic."""
+    trace = known.trace
+    if known.begin is None:
+        text = "a timeout does not help: by the time the one end comes, the other is pruned"
+        return Remedy("timeout", text, possible=False)
+    least = max(0, known.begin - trace.asked)
+    advised = rounded_up(least)
+    text = f"a timeout of {advised // 10**6} ms (least: {least / 1e6:.1f})"
+    waits = None if heard is None else _waits(trace, heard)
+    if heard is not None and waits is not None and len(waits.served):
+        p95, worst = waits.serves(95), int(waits.served.max())
+        text += (
+            f"; {p95 / 1e6:.1f} ms serve 95 % of {heard.topic}, {worst / 1e6:.1f} ms all "
+            f"{int(np.count_nonzero(waits.waits != NEVER))} that are ever served"
+        )
+    return Remedy("timeout", text, "", least, advised)
+
 
 CHECK_OF = {
     Cause.LATE: "sensor-outruns-tf",
@@ -220,3 +595,36 @@ def _misleading(
         f"tf2's text quotes {moment(stamp)}, a time of {frame}, which is not on the way: "
         "leave it out of account",
     )
+
+
+def explain(
+    recording: "Recording | Buffer",
+    target_frame: str,
+    source_frame: str,
+    time: Stamp = LATEST,
+    *,
+    asked_at: Stamp | None = None,
+    cache_time: Duration = CACHE_TIME,
+    timeout: Duration = 0,
+) -> Explanation:
+    """Say why a lookup answers or refuses, link by link.
+
+    Args:
+        recording: A recording, or a buffer.
+        target_frame: The frame to express things in.
+        source_frame: The frame they are given in.
+        time: The moment, nanoseconds; 0 for the latest.
+        asked_at: The log time at which it is asked; None for the arrival of the message of
+            that stamp in the source frame, else the moment itself (of a buffer: now).
+        cache_time: How far back the listener remembers, nanoseconds.
+        timeout: How long it waits, nanoseconds.
+
+    Raises:
+        InputError: If nothing of the recording can be read.
+        TypeError: If it is neither a recording nor a buffer.
+    """
+    settings = Settings(cache_time=cache_time)
+    model = Model(evidence_of(recording), settings)
+    if asked_at is None and not model.evidence.timed:
+        asked_at = model.end
+    return traced(model, Question(target_frame, source_frame, time, asked_at, settings, timeout))

@@ -14,6 +14,16 @@ Fact: TypeAlias = object
 """A number, a text, or a list of them; stamps and durations in whole nanoseconds."""
 
 
+STOPPED_PERIODS = 10
+"""After so many of its periods without a sample a transform has stopped."""
+
+STOPPED_AFTER = 1.0
+"""After so many seconds, too; both have to have passed."""
+
+STALE_AFTER = 0.5
+"""Seconds from which on a transform arrives long after its stamp."""
+
+
 class Severity(Enum):
     """How bad a finding is, worst first."""
 

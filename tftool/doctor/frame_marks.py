@@ -7,7 +7,7 @@ takes as long as all else that shows a tree.
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import Snapshot
-from tftool.doctor.catalogue import CHECKS
+from tftool.doctor.findings import STOPPED_AFTER
 
 
 def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
@@ -21,8 +21,6 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
     """
     if _is_calm(buffer, snapshot):
         return {}
-    from tftool.doctor.buffer_evidence import marked
-
     return marked(buffer)
 
 
@@ -33,6 +31,41 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
         return True
     newest = [info.newest for info in moving]
     first = min(info.oldest for info in moving)
-    late = max(newest) - min(newest) > CHECKS["edge-stopped"].limits["seconds"] * NANOSECONDS
+    late = max(newest) - min(newest) > STOPPED_AFTER * NANOSECONDS
     one_clock = (first < SIMULATED_BELOW) == (max(newest) < SIMULATED_BELOW)
     return one_clock and not late and all(len(buffer.parents(info.frame)) == 1 for info in moving)
+
+
+def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
+    """Look for the marks of a buffer in which something may be wrong.
+
+    A frame is marked `edge-stopped` where its newest sample is further behind the newest of
+    all, on the same clock, than ten of its periods and a second.
+    """
+    from tftool.doctor.clock_checks import clock_mixture
+    from tftool.doctor.coverage_checks import edge_stopped
+    from tftool.doctor.evidence import evidence_of_buffer
+    from tftool.doctor.model import Model
+    from tftool.doctor.publisher_checks import two_parents
+
+    model = Model(evidence_of_buffer(buffer))
+    found: dict[str, list[str]] = {}
+    for check in (two_parents, clock_mixture):
+        for hit in check(model):
+            for _, child in hit.edges:
+                found.setdefault(child, []).append(check.id)
+    limits = edge_stopped.limits
+    newest: dict[bool, int] = {}
+    # A localiser dates its transforms ahead: what it is ahead of is not old.
+    usual = [track for track in model.dynamic if not track.is_localisation]
+    for track in usual:
+        last = int(track.stamps.max())
+        newest[last < SIMULATED_BELOW] = max(newest.get(last < SIMULATED_BELOW, 0), last)
+    for track in model.parents.values():
+        if track.static or len(track.stamps) < 2:
+            continue
+        last = int(track.stamps.max())
+        least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+        if newest.get(last < SIMULATED_BELOW, last) - last > least:
+            found.setdefault(track.child, []).append("edge-stopped")
+    return {child: tuple(dict.fromkeys(ids)) for child, ids in found.items()}

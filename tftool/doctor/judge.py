@@ -1,14 +1,18 @@
-"""Material to findings: every check is run, consequences are put under their causes."""
+"""Evidence to findings: every check is run, consequences are put under their causes."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tftool.base.errors import UsageError
 from tftool.base.near_names import near_names
+from tftool.base.stamps import CACHE_TIME, Duration
+from tftool.buffer.buffer import Buffer
 from tftool.doctor import clock_checks as clocks
 from tftool.doctor import coverage_checks as coverage
 from tftool.doctor import description_checks as description
@@ -16,23 +20,21 @@ from tftool.doctor import name_checks as names
 from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
 from tftool.doctor import value_checks as values
-from tftool.doctor.catalogue import CHECKS, FOLDS, NEEDS, Check
-from tftool.doctor.evidence import Material
+from tftool.doctor.check import NEEDS, Check
+from tftool.doctor.evidence import Evidence, described_by, evidence_of
 from tftool.doctor.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
 from tftool.doctor.model import Limits, Model, Settings
 from tftool.doctor.wording import filled, several
 
-Run = Callable[[Model, Limits], Iterator[Hit]]
+if TYPE_CHECKING:
+    from tftool.recordings.recording import Recording
 
-_ROOMS = (publishers, shape, names, clocks, coverage, values, description)
-
-RUNS: Mapping[str, Run] = {
-    name: getattr(room, name.replace("-", "_"))
-    for name in CHECKS
-    for room in _ROOMS
-    if hasattr(room, name.replace("-", "_"))
+CHECKS: Mapping[str, Check] = {
+    check.id: check
+    for room in (publishers, shape, names, clocks, coverage, values, description)
+    for check in room.check.checks
 }
-"""The function of each check: its id with underscores."""
+"""Every check by its id, in the order of the report: by area, then as they are defined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +65,7 @@ class Diagnosis:
 
 
 def judge(
-    material: Material,
+    evidence: Evidence,
     settings: Settings | None = None,
     *,
     select: Sequence[str] = (),
@@ -72,7 +74,7 @@ def judge(
     """Run the checks.
 
     Args:
-        material: What is known of the frames.
+        evidence: What is known of the frames.
         settings: What the listener is like, and thresholds.
         select: Ids or areas to run; all where empty.
         ignore: Ids or areas to leave out.
@@ -85,7 +87,7 @@ def judge(
     limits = {name: _limits(check, settings) for name, check in CHECKS.items()}
     chosen = _named(select) if select else list(CHECKS)
     left_out = set(_named(ignore))
-    model = Model(material, settings)
+    model = Model(evidence, settings)
     hits: list[tuple[Check, Hit]] = []
     skipped = []
     ran = 0
@@ -95,33 +97,33 @@ def judge(
             skipped.append(Skipped(name, asked))
             continue
         check = CHECKS[name]
-        missing = [need for need in check.needs if not _has(material, need)]
+        missing = [need for need in check.needs if not _has(evidence, need)]
         if missing:
             skipped.append(Skipped(name, NEEDS[missing[0]]))
             continue
         ran += 1
         # Numbers in a recording may be of any size; what overflows is no number, and is told.
         with np.errstate(all="ignore"):
-            hits += [(check, hit) for hit in RUNS[name](model, limits[name])]
+            hits += [(check, hit) for hit in check(model, limits[name])]
     return Diagnosis(_findings(hits, limits), tuple(skipped), ran, model)
 
 
-def _has(material: Material, need: str) -> bool:
+def _has(evidence: Evidence, need: str) -> bool:
     if need == "log times":
-        return material.timed
+        return evidence.timed
     if need == "recording":
-        return material.recorded
+        return evidence.recorded
     if need == "headers":
-        return any(len(headers) for headers in material.headers.values())
+        return any(len(headers) for headers in evidence.headers.values())
     if need == "odometry":
-        return material.odometry is not None
+        return evidence.odometry is not None
     if need == "description":
-        return material.robot is not None or bool(material.mistakes)
+        return evidence.robot is not None or bool(evidence.mistakes)
     if need == "valid description":
-        return material.robot is not None
+        return evidence.robot is not None
     if need == "joint states":
-        return material.joints is not None
-    return any(publisher.durability for publisher in material.publishers)
+        return evidence.joints is not None
+    return any(publisher.durability for publisher in evidence.publishers)
 
 
 def _named(words: Sequence[str]) -> list[str]:
@@ -212,10 +214,8 @@ def _cause_of(
         of_check: The numbers of those of each check.
     """
     check, hit = hits[number]
-    for causes, consequences, common in FOLDS:
-        if check.id not in consequences:
-            continue
-        for other_number in sorted(n for name in causes for n in of_check.get(name, ())):
+    for common, causes in check.because_of:
+        for other_number in sorted(n for name in causes.split() for n in of_check.get(name, ())):
             other, cause = hits[other_number]
             if not _share(hit, cause, common):
                 continue
@@ -299,3 +299,37 @@ def _concerned(hits: list[Hit]) -> list[str]:
     topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
     frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)
     return list(edges or topics or frames)
+
+
+def diagnose(
+    recording: "Recording | Buffer",
+    *,
+    select: Sequence[str] = (),
+    ignore: Sequence[str] = (),
+    cache_time: Duration = CACHE_TIME,
+    urdf: str | Path | None = None,
+) -> list[Finding]:
+    """Say what is wrong with the frames.
+
+    A buffer keeps neither log times nor messages: what needs them is not looked for.
+
+    Args:
+        recording: A recording, or a buffer.
+        select: Ids or areas of checks to run; all where empty.
+        ignore: Ids or areas to leave out.
+        cache_time: How far back the listener that is thought of remembers, nanoseconds.
+        urdf: A file with the robot's description; None for the one recorded, if any.
+
+    Returns:
+        What was found, by area, errors first. Findings with `because_of` are consequences.
+
+    Raises:
+        InputError: If nothing of the recording can be read.
+        TypeError: If it is neither a recording nor a buffer.
+        UsageError: If there is no such check or area, or the description needs xacro, which is
+            not installed.
+    """
+    settings = Settings(cache_time=cache_time)
+    described = None if urdf is None else described_by(urdf)
+    evidence = evidence_of(recording, described)
+    return list(judge(evidence, settings, select=select, ignore=ignore).findings)

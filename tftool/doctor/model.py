@@ -1,6 +1,6 @@
 """What the checks look at: columns and headers on one clock, in laps, as trees.
 
-Nothing here reads a file; see `material` for what was given.
+Nothing here reads a file; see `evidence` for what was given.
 """
 
 from collections.abc import Mapping
@@ -11,11 +11,12 @@ import numpy as np
 
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
-from tftool.doctor.evidence import Material
+from tftool.doctor.evidence import Evidence
 from tftool.doctor.stamp_stream import Heard, Stream, Track, last_part
 from tftool.recordings.contract import (
     Stamps,
 )
+from tftool.recordings.description_frames import prefix_of
 from tftool.recordings.timeline import through_clock
 from tftool.robots.description import RobotJoint
 
@@ -80,10 +81,10 @@ class Tree:
 
 
 class Model:
-    """The material, read once for all checks.
+    """The evidence, read once for all checks.
 
     Attributes:
-        material: What it was made of.
+        evidence: What it was made of.
         settings: What the listener is like.
         tracks: One for each edge, without what no listener can use (see `nameless`).
         nameless: Edges with an empty name, or whose ends are the same frame.
@@ -92,20 +93,20 @@ class Model:
         reference: How latencies are reckoned, a sentence; empty where that is plain.
     """
 
-    def __init__(self, material: Material, settings: Settings | None = None) -> None:
-        self.material = material
+    def __init__(self, evidence: Evidence, settings: Settings | None = None) -> None:
+        self.evidence = evidence
         self.settings = settings or Settings()
-        tracks = [Track(edge, material.transforms) for edge in material.transforms.edges]
+        tracks = [Track(edge, evidence.transforms) for edge in evidence.transforms.edges]
         self.nameless = tuple(track for track in tracks if _is_nameless(track))
         self.tracks = tuple(track for track in tracks if not _is_nameless(track))
         self.heard = tuple(
             Heard(headers, number)
-            for headers in material.headers.values()
+            for headers in evidence.headers.values()
             for number in range(len(headers.names))
         )
         self.laps: tuple[Lap, ...] = ()
         self.reference = ""
-        if material.timed:
+        if evidence.timed:
             self._find_laps()
         self._put_on_one_clock()
         # What only came after the first lap is not looked at.
@@ -126,7 +127,7 @@ class Model:
     @cached_property
     def start(self) -> Stamp:
         """Log time at which the first lap begins."""
-        return max(self.material.start, -(2**61))
+        return max(self.evidence.start, -(2**61))
 
     @cached_property
     def epoch(self) -> Stamp:
@@ -137,7 +138,7 @@ class Model:
     @cached_property
     def end(self) -> Stamp:
         """Log time at which the first lap ends."""
-        return self.laps[0].log if self.laps else min(self.material.end, 2**61)
+        return self.laps[0].log if self.laps else min(self.evidence.end, 2**61)
 
     @cached_property
     def parents(self) -> dict[str, Track]:
@@ -146,7 +147,7 @@ class Model:
         for track in self.tracks:
             if not len(track.stamps):
                 continue
-            last = int((track.logs if self.material.timed else track.stamps)[-1])
+            last = int((track.logs if self.evidence.timed else track.stamps)[-1])
             held = latest.get(track.child)
             if held is None or last >= held[0]:
                 latest[track.child] = (last, track)
@@ -160,25 +161,22 @@ class Model:
     @cached_property
     def prefix(self) -> str:
         """What stands before a described link's name in that of its frame; usually nothing."""
-        robot = self.material.robot
+        robot = self.evidence.robot
         if robot is None:
             return ""
-        # Reads what is recorded, too, which takes its time to import.
-        from tftool.recordings.description_frames import prefix_of
-
         return prefix_of(robot, self.frames)
 
     @cached_property
     def joint_above(self) -> Mapping[str, RobotJoint]:
         """The description's joint above each frame; none without a description."""
-        robot = self.material.robot
+        robot = self.evidence.robot
         joints = () if robot is None else robot.joints.values()
         return {self.prefix + joint.child: joint for joint in joints}
 
     @cached_property
     def described(self) -> frozenset[str]:
         """The frames that the description promises; none without one."""
-        robot = self.material.robot
+        robot = self.evidence.robot
         return frozenset(() if robot is None else (self.prefix + link for link in robot.links))
 
     @cached_property
@@ -275,8 +273,8 @@ class Model:
 
     def log_of(self, stamp: Stamp) -> Stamp:
         """The log time of a moment on the clock of the stamps."""
-        read, received = self.material.clock
-        if stamp >= SIMULATED_BELOW or self.material.end < SIMULATED_BELOW:
+        read, received = self.evidence.clock
+        if stamp >= SIMULATED_BELOW or self.evidence.end < SIMULATED_BELOW:
             return stamp
         if len(read):
             return int(through_clock(np.array([stamp]), received, read)[0])
@@ -329,11 +327,11 @@ class Model:
         """Reckon arrivals on the clock of the stamps: 2.1 of the specification's latency."""
         streams: list[Stream] = [*self.tracks, *self.nameless, *self.heard]
         simulated = [one for one in streams if one.families[0]]
-        read, received = self.material.clock
+        read, received = self.evidence.clock
         self._offset = 0
         for stream in streams:
             stream.arrivals = stream.logs
-        if not simulated or self.material.end < SIMULATED_BELOW:
+        if not simulated or self.evidence.end < SIMULATED_BELOW:
             return  # log times are on the clock of the stamps already
         if not len(read):
             self._offset = self._freshest()

@@ -5,10 +5,13 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
 from tftool.base.near_names import near_names
-from tftool.doctor.findings import Confidence, Fix, Hit, Severity
+from tftool.doctor.check import checks_of, threads
+from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.shape_checks import base_of, quoted, static_publisher
 from tftool.doctor.stamp_stream import Heard, last_part
+
+check = checks_of(Area.NAMES)
 
 _FAMILY = re.compile(
     r"\d+|(?<![a-z])(?:left|right|front|rear|back|upper|lower|top|bottom|fl|fr|rl|rr|[lrxyz])(?![a-z])"
@@ -23,6 +26,28 @@ MOST_COMPARED = 300_000
 """Pairs of names that are compared; more would take seconds."""
 
 
+@check(
+    "unknown-frame",
+    Severity.ERROR,
+    rule="the frame of a message that has a place is in no transform of the whole recording",
+    headline="no transform names {frame}",
+    detail="{says}{hint}",
+    consequence="none of these messages can be placed anywhere",
+    causes=(
+        "a simulator's scoped name (robot/base_link/gpu_lidar)",
+        "the driver's default frame_id (laser, imu) against the robot description's",
+        "a prefix applied twice",
+        "a static that was never published",
+    ),
+    links=threads("Ekumen-OS/andino_gz#43", "ros2/ros2_documentation#5222", "osrf/vrx#876"),
+    needs=("headers",),
+    why="lookups fail by name before any question of time",
+    because_of=(
+        ("anything", "static-missing"),
+        ("frame", "slash-twins namespace-twins case-twins typo-twins"),
+        ("anything", "namespaced-topic"),
+    ),
+)
 def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages are in a frame that no transform mentions."""
     if not model.tracks:
@@ -106,6 +131,21 @@ def _renames(model: Model, name: str, alike: list[str]) -> tuple[Fix, ...]:
     return (*fixes, Fix(text, static_publisher(base, name)))
 
 
+@check(
+    "slash-twins",
+    Severity.ERROR,
+    rule="a frame in a header begins with a slash, and tf knows the rest of the name",
+    headline="{topic} says {frame}, tf knows {known}",
+    detail="{topic}: {frame}, {count:times}",
+    consequence="every lookup refuses: \"in tf2 frame_ids cannot start with a '/'\"",
+    fixes=(
+        Fix('set frame_id to "{known}" in the publisher of {topic}'),
+        Fix("in a recording:", "tftool edit RECORDING -o CLEAN --strip-slash --everywhere"),
+    ),
+    causes=("a publisher from the days of tf 1",),
+    links=threads("ros-simulation/stage_ros#68", "gisbi-kim/FAST_LIO_SLAM#15"),
+    needs=("headers",),
+)
 def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages say /x, tf knows x: every lookup refuses."""
     for heard in model.heard:
@@ -124,8 +164,19 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "leading-slash",
+    Severity.NOTE,
+    rule="a transform names a frame with a leading slash, which tf2 strips; an error where "
+    "it has two, since no query can reach what is left",
+    headline="{where} {concerned:is|are} published with a leading slash",
+    detail="{edge}: {found}",
+    consequence="harmless to tf2; what compares names sees two",
+    fixes=(Fix("drop the slash in the publisher"),),
+    causes=("a publisher from the days of tf 1",),
+)
 def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Names in transforms carry a slash, or two."""
+    """Names in transforms carry a leading slash."""
     for track in model.tracks:
         twice = [name for name in track.edge if name.startswith("/")]
         if not twice and not track.slashed:
@@ -146,6 +197,17 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+@check(
+    "case-twins",
+    Severity.WARNING,
+    rule="two names are equal without hyphens, underscores, blanks and case",
+    headline="{first} and {second} differ in their writing only",
+    detail="{users}",
+    consequence="they are two frames; what is placed in one is not in the other",
+    fixes=(Fix("use one spelling; {most} has more users"),),
+    causes=("names typed by hand in two places",),
+    because_of=(("frame", "namespace-twins"),),
+)
 def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     """Names that differ in case, hyphens, underscores or blanks only."""
     alike: dict[str, list[str]] = defaultdict(list)
@@ -156,6 +218,20 @@ def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
             yield _twins(model, twins)
 
 
+@check(
+    "typo-twins",
+    Severity.WARNING,
+    rule="two names of {shortest:g} letters or more, not in one tree, differ by one letter "
+    "(from {long:g} letters on: by two), and one is unknown to tf or the root of a "
+    "lesser tree; numbers and pairs like left and right aside",
+    headline="{first} and {second} look like one name",
+    detail="{users}",
+    consequence="they are two frames; what is placed in one is not in the other",
+    fixes=(Fix("use one spelling; {most} has more users"),),
+    causes=("names typed by hand in two places",),
+    limits={"shortest": 5, "long": 10},
+    because_of=(("frame", "namespace-twins"),),
+)
 def typo_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     """Names one or two letters apart, one of them dangling."""
     names = _names(model)
@@ -247,8 +323,31 @@ def _shared(one: str, other: str) -> int:
     return min(len(one), len(other))
 
 
+@check(
+    "namespace-twins",
+    Severity.WARNING,
+    rule="a name exists with and without a prefix, in different trees",
+    headline="{first} and {bare} look like one frame: some names carry the prefix {prefix}",
+    detail="{twins}",
+    consequence="the frames with the prefix and those without are two trees",
+    fixes=(
+        Fix(
+            "use one scheme: prefix all names (frame_prefix: {prefix}), or none and remap "
+            "/tf:=tf and /tf_static:=tf_static in every node"
+        ),
+    ),
+    causes=(
+        "diff_drive_controller prefixes names with its namespace, robot_state_publisher does not",
+        "frame_prefix without its trailing slash, or on names that have it already",
+    ),
+    links=threads(
+        "iRobotEducation/create3_sim#211",
+        "ros-controls/ros2_controllers#533",
+        "ros/robot_state_publisher#205",
+    ),
+)
 def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Half of the frames carry a prefix the other half lacks."""
+    """Part of the frames carry a prefix that others lack."""
     names = set(_names(model))
     pairs: dict[str, list[tuple[str, str]]] = defaultdict(list)
     for name in sorted(names):
@@ -276,6 +375,17 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+@check(
+    "namespaced-topic",
+    Severity.WARNING,
+    rule="transforms come on a topic other than /tf and /tf_static; a note where /tf is "
+    "whole without it",
+    headline="transforms travel on {topics}",
+    detail="{missing}",
+    consequence="a listener with its defaults does not hear them",
+    causes=("a robot in a namespace whose /tf is remapped",),
+    links=threads("iRobotEducation/create3_docs#402", "ros-navigation/navigation2#5449"),
+)
 def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms travel on /ns/tf, where default listeners do not listen."""
     heard_on = {*_USUAL_TOPICS, *model.settings.tf_topics}
@@ -332,8 +442,19 @@ def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
     return {name: top(name) for name in list(above)}
 
 
+@check(
+    "awkward-name",
+    Severity.NOTE,
+    rule="a name has blanks at its ends, characters that cannot be seen, a ~, more than "
+    "{letters:g} letters, or is a number or word of YAML 1.1",
+    headline="{where}: names that tools stumble over",
+    detail="{frame} {reason}",
+    consequence="tools that print or parse the name show or read another one",
+    fixes=(Fix("give the frame a plain name: letters, digits, underscores"),),
+    limits={"letters": 100},
+)
 def awkward_name(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Blanks, control characters, or a name YAML reads as a number or a bool."""
+    """A name with blanks, control characters, or that YAML reads as a number or a word."""
     for name in _names(model):
         reason = _awkward(name, limits)
         if reason:

@@ -7,43 +7,59 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS
-from tftool.doctor.findings import Confidence, Fix, Hit
+from tftool.doctor.check import checks_of, threads
+from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.shape_checks import quoted
 from tftool.doctor.stamp_stream import Places, Track, last_part, rate
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import Floats, unit
 
+check = checks_of(Area.PUBLISHERS)
+
 MOST_FOLLOWED = 20_000
 """Samples of one edge that are followed one by one; more are a beginning that tells enough."""
 
 
+@check(
+    "two-parents",
+    Severity.ERROR,
+    rule="a frame has two parents among the statics, or changes its parent more than "
+    "{switches:g} times and keeps each for less than {stay:g} s on average",
+    headline="{child} gets its parent by turns from {parents}",
+    detail="{sources}; changes {switches:times}, first at {first:moment}",
+    consequence="{lost} {lost:loses its|lose their} way to one root while the other parent rules: "
+    "the robot jumps, and lookups fail now and then",
+    fixes=(
+        Fix(
+            "let the transform end at the robot's root frame ({root}) instead of {child} "
+            "(robot_base_frame, base_frame, LIO-SAM's baselinkFrame), switch one of the two "
+            "off (publish_tf: false and its like), or chain them (RTAB-Map's "
+            "odom_guess_frame_id)"
+        ),
+    ),
+    causes=(
+        "visual odometry or SLAM publishes odom to base_link beside the robot description",
+        "a driver's base frame is a link below the root",
+        "a calibration is published the wrong way round",
+    ),
+    links=threads(
+        "stereolabs/zed-ros-wrapper#447",
+        "TixiaoShan/LIO-SAM#519",
+        "kobuki-base/kobuki_ros#49",
+        "introlab/rtabmap_ros#822",
+    ),
+    limits={"switches": 4, "stay": 1.0},
+    why="a hand-over changes the parent once and stays; a fight changes it at the rate of messages",
+)
 def two_parents(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame gets two parents by turns, or two by statics."""
+    """A frame gets two parents by turns."""
     for child, tracks in _by_child(model.dynamic).items():
         switches, stay, first = _switching(tracks)
         if switches > limits["switches"] and stay < limits["stay"]:
             yield _fight(model, child, tracks, switches, first)
     for child, tracks in _by_child(model.statics).items():
         yield _fight(model, child, tracks, len(tracks) - 1, int(tracks[1].logs[0]))
-
-
-def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame changed its parent and stayed."""
-    for child, tracks in _by_child(model.dynamic).items():
-        switches, stay, first = _switching(tracks)
-        if 0 < switches <= limits["switches"] or stay >= limits["stay"]:
-            yield Hit(
-                edges=tuple(track.edge for track in tracks),
-                frames=(child,),
-                since=first,
-                count=switches,
-                facts={
-                    "child": child,
-                    "parents": [track.parent for track in tracks],
-                    "switches": switches,
-                },
-            )
 
 
 def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, first: int) -> Hit:
@@ -68,10 +84,47 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     )
 
 
+@check(
+    "publisher-conflict",
+    Severity.ERROR,
+    rule="two publishers with at least {least:g} samples each overlap in time and are more "
+    "than {metres:g} m and one step apart; or, where publishers are unknown, samples "
+    "continue (within {reach:g} + {speed:g} m a second) two tracks by turns, each with "
+    "at least {samples:g} samples and a share of {share:g}, the owner changing "
+    "{changes:g} times or more",
+    headline="{edge} is published by {first} and {second} with different values{seen}",
+    detail="{first} and {second}: {rates[0]:.3g} and {rates[1]:.3g} Hz, latencies "
+    "{latencies[0]:span} and {latencies[1]:span}, {apart:m} apart (median), {worst:m} "
+    "at most",
+    consequence="{child} jumps to and fro in {parent}, and everything below it",
+    causes=(
+        "a controller or simulator plug-in and a filter publish the odometry",
+        "two localisers, or a recorded map to odom replayed beside a live one",
+        "two drivers, or two robot_state_publishers",
+    ),
+    links=threads(
+        "ros-simulation/gazebo_ros_pkgs#692",
+        "ros-controls/ros_controllers#118",
+        "introlab/rtabmap_ros#645",
+        "iRobotEducation/create3_docs#144",
+        "abizovnuralem/go2_ros2_sdk#28",
+    ),
+    limits={
+        "least": 3,
+        "metres": 0.01,
+        "reach": 0.05,
+        "speed": 3.0,
+        "samples": 5,
+        "share": 0.1,
+        "changes": 6,
+    },
+    why="a thing that moves continues where it was, while two opinions alternate; so much "
+    "speed tells two opinions apart, and leaves fast robots and relocalisations alone",
+)
 def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
     # Where fewer than two are known by name, no edge has two that are.
-    named = len({one.node for one in model.material.transforms.publishers if one.node}) > 1
+    named = len({one.node for one in model.evidence.transforms.publishers if one.node}) > 1
     for track in model.dynamic:
         hit = _named_conflict(model, track, limits) if named else None
         hit = hit or _unnamed_conflict(track, limits)
@@ -84,7 +137,7 @@ def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
     places = track.by_stamp
     senders = track.senders[places]
     numbers, counts = np.unique(senders, return_counts=True)
-    publishers = model.material.transforms.publishers
+    publishers = model.evidence.transforms.publishers
     named = [
         number
         for number, count in zip(numbers.tolist(), counts.tolist(), strict=True)
@@ -210,8 +263,24 @@ def _conflict(
     )
 
 
+@check(
+    "static-and-dynamic",
+    Severity.ERROR,
+    rule="a frame is the child of a transform on a static and of one on a dynamic topic",
+    headline="{child} comes on /tf and on /tf_static",
+    detail="moving: {moving}; static: {static}; the kind changes {turns:times}, at most "
+    "{history:span} of history are kept",
+    consequence="each change of kind wipes the history of {child}: lookups in the past fail",
+    fixes=(Fix("keep one of the two: what moves on /tf, a mount on /tf_static"),),
+    causes=(
+        "SLAM beside the robot description, with other parents",
+        "an old tf static publisher beside a new one",
+        "use_tf_static switched between versions",
+    ),
+    links=threads("TixiaoShan/LIO-SAM#521"),
+)
 def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame comes on a static and on a dynamic topic."""
+    """A frame comes on /tf and on /tf_static: its history is wiped each time."""
     moving = _by_child(model.dynamic, least=1)
     for child, statics in _by_child(model.statics, least=1).items():
         if child not in moving:
@@ -239,6 +308,19 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+@check(
+    "dynamic-on-static",
+    Severity.WARNING,
+    rule="a static has {values:g} different values or more (apart by {metres:g} m or "
+    "{radians:g} rad)",
+    headline="{where} {concerned:moves, and is|move, and are} published as static",
+    detail="{edge}: {values} values, up to {moved:m} and {turned:deg} apart",
+    consequence="statics have no history: every lookup in the past silently gives the newest value",
+    fixes=(Fix("publish what moves with a TransformBroadcaster, on /tf"),),
+    causes=("a calibration or a detector publishes its result with a static broadcaster",),
+    limits={"values": 4, "metres": 1e-6, "radians": 1e-4},
+    why="a recalibration happens once or twice",
+)
 def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
     """A moving frame is published as static."""
     for values, hit in _values_of_statics(model, limits):
@@ -246,6 +328,20 @@ def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
             yield hit
 
 
+@check(
+    "static-changed",
+    Severity.WARNING,
+    rule="a static has 2 to {values:g} different values (apart by {metres:g} m or {radians:g} rad)",
+    headline="{where} {concerned:was|were} published again with another value",
+    detail="{edge}: {values} values, {moved:m} and {turned:deg} apart",
+    consequence="what was placed with the old value moves when the new one comes, also in the past",
+    fixes=(Fix("find the second publisher: often two launch files publish the same mount"),),
+    causes=(
+        "two launch files",
+        "a recalibration while recording",
+    ),
+    limits={"values": 3, "metres": 1e-6, "radians": 1e-4},
+)
 def static_changed(model: Model, limits: Limits) -> Iterator[Hit]:
     """A static was published again with another value."""
     for values, hit in _values_of_statics(model, limits):
@@ -299,6 +395,22 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     return moved <= limits["metres"] and turned <= limits["radians"]
 
 
+@check(
+    "static-on-tf",
+    Severity.NOTE,
+    rule="{samples:g} samples or more on a dynamic topic are all equal while other frames move",
+    headline="{where} never {concerned:changes and is|change and are} sent on /tf",
+    detail="{edge}: {rate:.3g} Hz",
+    consequence="lookups through it wait for its next sample: up to its period, and for nothing",
+    fixes=(
+        Fix("send it once on /tf_static: tf2's static_transform_publisher, use_tf_static: true"),
+    ),
+    causes=("the static publisher of the old tf package",),
+    links=threads("orbbec/ros_astra_camera#89"),
+    limits={"samples": 20},
+    why="a static sent at 10 Hz lets every lookup wait for up to 100 ms",
+    because_of=(("child", "static-and-dynamic"),),
+)
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     """A constant on /tf that could be static."""
     if not any(track.moves for track in model.dynamic):
@@ -318,6 +430,39 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             count=len(track.stamps),
             facts={"edge": track.name, "rate": rate(track), "period": track.period},
         )
+
+
+@check(
+    "parent-switch",
+    Severity.NOTE,
+    rule="a frame changes its parent at most {switches:g} times, or keeps each for {stay:g} "
+    "s or more",
+    headline="{child} changed its parent: {parents}",
+    detail="{child}: {switches:times}",
+    consequence="fine for an object that was picked up; a mount never does it",
+    causes=("an object that was picked up",),
+    limits={"switches": 4, "stay": 1.0},
+    because_of=(
+        ("child", "publisher-conflict two-parents"),
+        ("child", "static-and-dynamic"),
+    ),
+)
+def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A frame changed its parent and stayed."""
+    for child, tracks in _by_child(model.dynamic).items():
+        switches, stay, first = _switching(tracks)
+        if 0 < switches <= limits["switches"] or stay >= limits["stay"]:
+            yield Hit(
+                edges=tuple(track.edge for track in tracks),
+                frames=(child,),
+                since=first,
+                count=switches,
+                facts={
+                    "child": child,
+                    "parents": [track.parent for track in tracks],
+                    "switches": switches,
+                },
+            )
 
 
 def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:

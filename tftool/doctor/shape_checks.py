@@ -3,10 +3,13 @@
 from collections import defaultdict, deque
 from collections.abc import Iterator
 
-from tftool.doctor.findings import Confidence, Fix, Hit, Severity
+from tftool.doctor.check import REP105, checks_of, threads
+from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model, Tree
 from tftool.doctor.stamp_stream import Track, last_part, overlap
 from tftool.geometry.rigid import Transform
+
+check = checks_of(Area.SHAPE)
 
 _LARGE = 64  # frames of a circle, from which on no other is looked for from each of them
 _BASES = ("base_link", "base_footprint", "base")
@@ -24,6 +27,17 @@ JUDGED_EMPTY = frozenset(
 """Types whose messages are useless without a frame; others of sensor_msgs may do without."""
 
 
+@check(
+    "loop",
+    Severity.ERROR,
+    rule="the transforms that exist at the same time form a circle",
+    headline="the frames hang in a circle: {circle}",
+    consequence='whatever walks to the root fails: "The tf tree is invalid because it contains a '
+    'loop."',
+    fixes=(Fix("publish one direction only"),),
+    causes=("odom above body and body above odom at once",),
+    links=threads("rai-opensource/spot_ros2#374"),
+)
 def loop(model: Model, limits: Limits) -> Iterator[Hit]:
     """Frames hang from each other in a circle."""
     sent = [track for track in model.tracks if len(track.by_stamp)]
@@ -85,6 +99,34 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     return links
 
 
+@check(
+    "split-tree",
+    Severity.ERROR,
+    rule="there is more than one root; an error where messages are in a frame of a lesser "
+    "tree, a note where each tree is a whole robot",
+    headline="{root} is not joined to the tree of {main_root}",
+    detail="tree {number}: {frames}; used by {used}",
+    consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
+    causes=(
+        "the mount of a camera or lidar was never published",
+        "a SLAM has names of its own (camera_init, body)",
+        "base_frame is named differently in two nodes",
+        "SLAM or AMCL was not started yet: there is no map",
+    ),
+    links=threads(
+        "appliedAI-Initiative/orb_slam_2_ros#102",
+        "hku-mars/FAST_LIO#130",
+        "kinglintianxia/autolabor_pro1#2",
+    ),
+    because_of=(
+        ("child", "publisher-conflict two-parents"),
+        ("anything", "static-missing"),
+        ("frame", "slash-twins namespace-twins case-twins typo-twins"),
+        ("anything", "namespaced-topic"),
+        ("frame", "namespaced-topic"),
+        ("frame", "joint-without-state"),
+    ),
+)
 def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
     """The frames form more than one tree, and the join is missing."""
     if len(model.trees) < 2:
@@ -214,6 +256,20 @@ def base_of(tree: Tree) -> str:
     return ""
 
 
+@check(
+    "self-transform",
+    Severity.ERROR,
+    rule="parent and child of a transform are the same name",
+    headline="{where}: a frame is its own parent",
+    detail="{frame}: {count:times}",
+    consequence="tf2 drops it: the transform that was meant is missing",
+    fixes=(Fix("two options of the publisher name one frame for two roles: give each its own"),),
+    causes=(
+        "published_frame and odom_frame of cartographer are equal",
+        "base frame and odometry frame of rf2o are equal",
+    ),
+    links=threads("cartographer-project/cartographer#1883", "ethz-asl/voxblox#315"),
+)
 def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame is its own parent."""
     for track in model.nameless:
@@ -229,6 +285,21 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "empty-frame",
+    Severity.ERROR,
+    rule="a name is empty: an error in a transform, a warning in the header of a message "
+    "that has a place",
+    headline="{what} has no frame name",
+    detail="{what}: {detail}, {count:times}",
+    consequence="tf2 drops such a transform, and such a message can be placed nowhere",
+    fixes=(Fix("set frame_id in the driver that publishes it"),),
+    causes=(
+        "a message that was never filled",
+        "a camera whose frame id was never set",
+    ),
+    links=threads("christianrauch/apriltag_ros#57", "Intermodalics/tango_ros#157"),
+)
 def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     """A transform or a message without a frame name."""
     for track in model.nameless:
@@ -268,8 +339,32 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
         )
 
 
+@check(
+    "rep105-shape",
+    Severity.WARNING,
+    rule="map and odom exist and base hangs from map beside odom; or odom hangs from a base "
+    "that is below map; or base_footprint and base_link both hang from odom",
+    headline="map, odom and base are not in one line: {where}",
+    detail="{found}",
+    consequence="navigation expects map above odom above base (REP-105); a frame has one parent",
+    fixes=(
+        Fix(
+            "let the localiser publish odom in map: (base in map) times the inverse of (base "
+            "in odom)"
+        ),
+    ),
+    causes=("a localiser publishes map to base_link",),
+    links=(
+        REP105,
+        *threads("rsasaki0109/lidar_slam_ros2#86", "ros-navigation/navigation2#5095"),
+    ),
+    because_of=(
+        ("child", "publisher-conflict two-parents"),
+        ("frame", "slash-twins namespace-twins case-twins typo-twins"),
+    ),
+)
 def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Are map, odom and base in one line?"""
+    """Map, odom and base are not in one line."""
     named: dict[str, list[str]] = defaultdict(list)
     for frame in sorted(model.frames):
         named[last_part(frame)].append(frame)

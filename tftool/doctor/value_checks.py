@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, Stamp
-from tftool.doctor.findings import Confidence, Hit, Severity
+from tftool.doctor.check import REP103, REP105, checks_of, threads
+from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.shape_checks import base_of
 from tftool.doctor.stamp_stream import ZERO_QUATERNION, Track, last_part
@@ -13,11 +14,32 @@ from tftool.doctor.wording import metres
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import angles_between, unit
 
+check = checks_of(Area.VALUES)
+
 _OPTICAL = (-0.5, 0.5, -0.5, 0.5)
 _ENDINGS = ("_optical_frame", "_optical_link", "_optical")
 _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/CompressedImage")
 
 
+@check(
+    "nan-transform",
+    Severity.ERROR,
+    rule="a number of a transform is NaN or infinite",
+    headline="{where} {concerned:has|have} numbers that are none",
+    detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
+    consequence="the frame stands still or vanishes; what is placed through it is nowhere",
+    fixes=(
+        Fix(
+            "look at the source: a division by zero, a filter that diverged, a joint without state"
+        ),
+    ),
+    causes=(
+        "an estimator or simulation that diverged",
+        "a NaN joint command",
+        "a message that was never filled",
+    ),
+    links=threads("moveit/moveit2#298", "NVIDIA-ISAAC-ROS/isaac_ros_nvblox#16"),
+)
 def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     """NaN or infinity in a transform."""
     for track in model.tracks:
@@ -42,6 +64,27 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "bad-quaternion",
+    Severity.ERROR,
+    rule="a quaternion's squared length is below 10⁻¹² (an error), or off by more than "
+    "{length:g} (a warning)",
+    headline="{where} {concerned:has|have} rotations that are none",
+    detail="{edge}: {count} of {of} samples, first {numbers} (length {length:.4g}); {fate}",
+    consequence="the frame exists for one listener and not for another",
+    fixes=(Fix("fill the rotation (w = 1 for none), and normalise it before sending"),),
+    causes=(
+        "a message that was never filled (w = 0)",
+        "decimals typed by hand",
+        "zero extrinsics in a camera",
+    ),
+    links=threads(
+        "robomechanics/quad-sdk#346", "introlab/rtabmap_ros#153", "CCNYRoboticsLab/imu_tools#67"
+    ),
+    limits={"length": 0.01},
+    why="ROS 1 drops such a transform and ROS 2 normalises it: the frame is in one and not "
+    "in the other",
+)
 def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     """A rotation of length zero, or of a length that is off."""
     for track in model.tracks:
@@ -76,6 +119,45 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
                 )
 
 
+@check(
+    "teleport",
+    Severity.WARNING,
+    rule="a step above {metres:g} m faster than {speed:g} m/s (or above {radians:g} rad "
+    "faster than {turning:g} rad/s) and than {times:g} times the 95 % speed, in a "
+    "share of {share:g} of the steps or {few:g} of them; of {samples:g} samples or more",
+    headline="{where} {concerned:jumps|jump} {jump:m} within {within:span}",
+    detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}; usual {usual:.2g} m/s",
+    consequence="what is placed before and after does not fit{also}",
+    fixes=(
+        Fix(
+            "look at the source at that moment: encoder overflow, a reset of the filter, wheel slip"
+        ),
+    ),
+    causes=(
+        "encoder overflow",
+        "a reset of the filter",
+        "wheel slip",
+    ),
+    links=(
+        *threads("ROBOTIS-GIT/turtlebot3#926"),
+        REP105,
+    ),
+    limits={
+        "metres": 0.25,
+        "speed": 10.0,
+        "radians": 0.5,
+        "turning": 20.0,
+        "times": 8.0,
+        "share": 0.02,
+        "few": 3,
+        "samples": 10,
+    },
+    why="what moves steadily has a usual speed; more jumps than that are noise, or two publishers",
+    because_of=(
+        ("anything", "time-jump-back"),
+        ("child", "publisher-conflict two-parents"),
+    ),
+)
 def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
     """A frame jumps faster than anything moves."""
     for track in model.dynamic:
@@ -132,6 +214,23 @@ def _jumps(
     return found
 
 
+@check(
+    "optical-convention",
+    Severity.WARNING,
+    rule="an optical frame's turn in its body frame is more than {degrees:g}° off optical "
+    "axes (z forward, x right); where they share a name or lie within {metres:g} m",
+    headline="{where} {concerned:does|do} not have optical axes",
+    detail="{edge}: {off:.3g}° off",
+    consequence="images and clouds in it are turned on their side",
+    fixes=(Fix('make it a fixed joint with rpy="-1.5708 0 -1.5708", and name it in the driver'),),
+    causes=("the optical frame was given the axes of the body",),
+    links=(
+        REP103,
+        *threads("ros-simulation/gazebo_ros_pkgs#1329"),
+    ),
+    limits={"degrees": 5.0, "metres": 0.1},
+    why="calibrated cameras are off by up to 5°",
+)
 def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
     """An _optical frame without optical axes."""
     for track in model.parents.values():
@@ -166,6 +265,23 @@ def _stem(name: str) -> str | None:
     return None
 
 
+@check(
+    "image-not-optical",
+    Severity.NOTE,
+    rule='a picture\'s frame has no "optical" in its name',
+    headline="{where} {concerned:is|are} not in an optical frame",
+    detail="{topic} is in {frame}",
+    consequence="what projects its pixels looks along the wrong axis",
+    fixes=(
+        Fix('add a fixed joint with rpy="-1.5708 0 -1.5708", and name its frame in the driver'),
+    ),
+    causes=("the driver has one frame for body and picture",),
+    links=(
+        REP103,
+        *threads("usnistgov/ARIAC#345"),
+    ),
+    needs=("headers",),
+)
 def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
     """Images stamped in a body frame."""
     for heard in model.heard:
@@ -178,9 +294,26 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "odometry-tf-mismatch",
+    Severity.WARNING,
+    rule="an Odometry message and the transform of the same two names and the same stamp "
+    "are more than {metres:g} m or {degrees:g}° apart, in a share above {share:g} of "
+    "such pairs; a note where tf has no transform of these names",
+    headline="{topic} and tf disagree about {edge}",
+    detail="{found}",
+    consequence="what uses the message and what uses tf believe the robot in different places",
+    fixes=(Fix("let one node publish both, from one estimate"),),
+    causes=(
+        "the message is the wheels', the transform a filter's",
+        "the filter's publish_tf is off and another node sends the transform",
+    ),
+    limits={"metres": 0.05, "degrees": 2.0, "share": 0.5},
+    needs=("odometry",),
+)
 def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
     """Odometry message and transform of one name disagree."""
-    odometry = model.material.odometry
+    odometry = model.evidence.odometry
     if odometry is None:
         return
     tracks = {track.edge: track for track in model.tracks}
@@ -251,8 +384,19 @@ def _disagreement(
     )
 
 
+@check(
+    "suspect-units",
+    Severity.NOTE,
+    rule="a static below a base frame is longer than {metres:g} m",
+    headline="{where} {concerned:is|are} far away for a mount",
+    detail="{edge}: {away:m}",
+    consequence="if it was meant in millimetres, everything below is a thousand times too far",
+    fixes=(Fix("look whether it is in millimetres: tf is in metres"),),
+    causes=("a CAD export in millimetres",),
+    limits={"metres": 10.0},
+)
 def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A mount far from its parent inside one robot: millimetres?"""
+    """A mount far from its parent inside one robot: millimetres?."""
     if not model.trees:
         return
     bases = {base_of(tree) for tree in model.trees} - {""}
@@ -272,8 +416,18 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
             )
 
 
+@check(
+    "suspect-order",
+    Severity.NOTE,
+    rule="a static's rotation is exactly x = 1, y = z = w = 0",
+    headline="{where} {concerned:is|are} turned over: (1, 0, 0, 0)",
+    detail="{edge}: a half turn about x, or no turn written w first",
+    consequence="if no turn was meant, the frame is upside down",
+    fixes=(Fix("write quaternions as x y z w: no turn is 0 0 0 1"),),
+    causes=("a quaternion written w first",),
+)
 def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A static of exactly (1, 0, 0, 0): w first by mistake?"""
+    """A static of exactly (1, 0, 0, 0): w first by mistake?."""
     for track in model.statics:
         if any(word in track.child.lower() for word in ("imu", "flip", "optical")):
             continue

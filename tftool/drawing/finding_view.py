@@ -10,9 +10,9 @@ from tftool.base.counts import count
 from tftool.base.escaping import visible
 from tftool.base.report import Judgement, Report
 from tftool.base.stamps import as_seconds
-from tftool.doctor.catalogue import CHECKS, Check
+from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Finding, Severity
-from tftool.doctor.judge import Diagnosis
+from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
 from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
 from tftool.doctor.wording import filled, span
@@ -99,7 +99,7 @@ def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
 
 def head(model: Model) -> str:
     """What was read, in one line."""
-    material = model.material
+    material = model.evidence
     facts = [material.kind]
     if material.end > material.start and material.timed:
         facts.append(f"{as_seconds(material.end - material.start):.1f} s")
@@ -129,7 +129,7 @@ def areas(diagnosis: Diagnosis) -> str:
 
 
 def _latencies(model: Model, area: Area) -> str:
-    if area is not Area.CLOCKS or not model.material.timed:
+    if area is not Area.CLOCKS or not model.evidence.timed:
         return ""
     moving = [track.median_latency for track in model.dynamic if not track.is_localisation]
     parts = [f"{span(float(np.median(moving)))} tf"] if moving else []
@@ -230,7 +230,7 @@ def statistics(model: Model) -> "Table":
         is_track = isinstance(stream, Track)
         name = stream.name if isinstance(stream, Track) else f"{stream.topic} in {stream.frame}"
         kind = ("static" if stream.static else "moving") if isinstance(stream, Track) else "topic"
-        numbers = _numbers(stream, timed=model.material.timed)
+        numbers = _numbers(stream, timed=model.evidence.timed)
         if is_track and kind == "static":
             numbers = ("", "", "", "")
         table.add_row(Text(visible(name)), kind, f"{len(stream.stamps):,}", *numbers)
@@ -380,7 +380,7 @@ def _general(text: str) -> str:
 
 def as_object(diagnosis: Diagnosis) -> dict[str, Any]:
     """The report as JSON has it; stamps are whole nanoseconds, names exactly as recorded."""
-    material = diagnosis.model.material
+    material = diagnosis.model.evidence
     return {
         "schema": SCHEMA,
         "source": material.name,

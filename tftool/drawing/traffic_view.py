@@ -12,7 +12,7 @@ from tftool.base.fixed_width import middle_cut, wrap_words
 from tftool.base.short_numbers import short_duration
 from tftool.base.stamps import FRAME_TIMEOUT, Duration, Stamp, as_seconds
 from tftool.buffer.traffic import FrameTraffic, NetDelay, Series, Traffic
-from tftool.doctor.catalogue import CHECKS
+from tftool.doctor.findings import STALE_AFTER, STOPPED_AFTER, STOPPED_PERIODS
 from tftool.drawing.echo_view import in_words
 from tftool.drawing.table_columns import Cell, TableColumn, fit
 
@@ -234,10 +234,7 @@ def _silence(now: Stamp, series: Series) -> Duration:
 def _is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
     if is_static or series.rate is None:
         return False
-    limits = CHECKS["edge-stopped"].limits
-    return as_seconds(_silence(now, series)) > max(
-        limits["seconds"], limits["periods"] / series.rate
-    )
+    return as_seconds(_silence(now, series)) > max(STOPPED_AFTER, STOPPED_PERIODS / series.rate)
 
 
 def _late(now: Stamp, series: Series, is_static: bool) -> str:
@@ -245,7 +242,7 @@ def _late(now: Stamp, series: Series, is_static: bool) -> str:
     if _is_silent(now, series, is_static):
         return "red" if as_seconds(_silence(now, series)) > FRAME_TIMEOUT else "yellow"
     delay = series.average_delay
-    if is_static or delay is None or delay <= CHECKS["stale-stamp"].limits["transforms"]:
+    if is_static or delay is None or delay <= STALE_AFTER:
         return ""
     return "yellow"
 

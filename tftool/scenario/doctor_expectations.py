@@ -18,7 +18,7 @@ from tftool.world.world import TransformMessage, World
 
 if TYPE_CHECKING:
     from tftool.doctor.model import Settings
-    from tftool.doctor.session_evidence import Hearing
+    from tftool.frames.transform_log import TransformLog
 
 ENDING = ".doctor.yaml"
 """What the name of a recording's own list ends in."""
@@ -51,8 +51,8 @@ NO_RULES = DoctorRules()
 
 def check_or_area(node: Node, reading: Reading) -> str:
     """Read the id of a check, or an area of them."""
-    from tftool.doctor.catalogue import CHECKS
     from tftool.doctor.findings import Area
+    from tftool.doctor.judge import CHECKS
 
     word = reading.text(node, "a check").replace(" ", "-")
     known = (*CHECKS, *(area.value.replace(" ", "-") for area in Area))
@@ -64,7 +64,7 @@ def check_or_area(node: Node, reading: Reading) -> str:
 
 def limits(node: Node, reading: Reading) -> Mapping[str, Mapping[str, float]]:
     """Read thresholds: `gap.seconds: 2`."""
-    from tftool.doctor.catalogue import CHECKS
+    from tftool.doctor.judge import CHECKS
 
     found: dict[str, dict[str, float]] = {}
     number = values.quantity(values.NUMBER, least=0.0)
@@ -123,11 +123,11 @@ def _parsed(text: str, name: str) -> DoctorRules:
     return found
 
 
-def heard_in(world: World) -> "tuple[Hearing, list[Callable[[], None]]]":
+def heard_in(world: World) -> "tuple[TransformLog, list[Callable[[], None]]]":
     """Begin to listen to a world's transforms; what is returned beside ends it."""
-    from tftool.doctor.session_evidence import Hearing
+    from tftool.frames.transform_log import TransformLog
 
-    hearing = Hearing()
+    hearing = TransformLog()
 
     def hear(message: TransformMessage, *, is_static: bool) -> None:
         now = world.clock.now()

@@ -48,7 +48,7 @@ from tftool.world.log import LEVELS, LogRecord
 from tftool.world.world import World
 
 if TYPE_CHECKING:
-    from tftool.doctor.session_evidence import Hearing
+    from tftool.frames.transform_log import TransformLog
 
 
 class ScenarioWorld:
@@ -63,7 +63,7 @@ class ScenarioWorld:
         self.world = world
         self.start = start
         self.rules = rules
-        self.hearing: Hearing | None = None
+        self.hearing: TransformLog | None = None
         self.lines: dict[Logged, int] = {}
 
     @property
@@ -490,6 +490,7 @@ class Diagnosed(Subject):
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
         """Find the answer, now."""
+        from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
         from tftool.doctor.judge import judge
         from tftool.doctor.model import Settings
@@ -498,7 +499,7 @@ class Diagnosed(Subject):
             return []
         given = Settings(scene.world.buffer.cache_time)
         diagnosis = judge(
-            scene.hearing.material("scenario", "scenario", scene.start, scene.now),
+            evidence_of_log(scene.hearing, "scenario", "scenario", scene.start, scene.now),
             scene.rules.settings(given),
             ignore=(*scene.rules.ignore, *self.ignore),
         )

@@ -26,11 +26,11 @@ from tftool.frames.moment import At
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
-    from tftool.doctor.catalogue import Check
+    from tftool.doctor.check import Check
+    from tftool.doctor.evidence import Scope
     from tftool.doctor.findings import Severity
     from tftool.doctor.judge import Diagnosis
     from tftool.doctor.model import Settings
-    from tftool.doctor.scope import Scope
 
 
 class FailOn(StrEnum):
@@ -117,10 +117,9 @@ def doctor(
     from tftool.commands.fleet import fleet, fleet_tasks
     from tftool.commands.fleet.workers import workers_of
     from tftool.commands.shared.printer import line_width, write, write_file
+    from tftool.doctor.evidence import Scope, described_by
     from tftool.doctor.findings import Severity
     from tftool.doctor.judge import refuse_unknown
-    from tftool.doctor.recording_evidence import described_by
-    from tftool.doctor.scope import Scope
     from tftool.drawing import finding_view as view
 
     if listed:
@@ -276,8 +275,7 @@ def _status(rows: "Sequence[tuple[str, Diagnosis | str]]", fails: "Severity | No
 
 
 def _check(name: str) -> "Check":
-    from tftool.doctor.catalogue import CHECKS
-    from tftool.doctor.judge import unknown
+    from tftool.doctor.judge import CHECKS, unknown
 
     if name not in CHECKS:
         raise UsageError(unknown(name, list(CHECKS), "check"))

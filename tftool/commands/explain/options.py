@@ -114,7 +114,7 @@ def explain(
         topic,
     )
     found = traced(model, question)
-    if model.material.kind == LIVE:
+    if model.evidence.kind == LIVE:
         found = over_time(model, question, found)
     if for_programs:
         sys.stdout.write(json.dumps(view.as_object(found), indent=2, allow_nan=False) + "\n")

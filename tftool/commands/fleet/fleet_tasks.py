@@ -10,8 +10,8 @@ from tftool.base.stamps import as_seconds
 from tftool.commands.fleet.rows import ColumnKind, Row
 
 if TYPE_CHECKING:
+    from tftool.doctor.evidence import Scope
     from tftool.doctor.model import Settings
-    from tftool.doctor.scope import Scope
 
 _TEXT, _TEXTS, _INTEGER, _NUMBER = (
     ColumnKind.TEXT,
@@ -119,13 +119,14 @@ class Examination:
         return _told(self, source, place, partial(self._examined, source))
 
     def _examined(self, source: str, path: str) -> list[Row]:
+        from tftool.doctor.evidence import evidence_of_recording
         from tftool.doctor.judge import judge
         from tftool.recordings.recording import open_recording
         from tftool.scenario.doctor_expectations import rules_beside
 
         rules, _ = rules_beside(path)
         with open_recording(path) as recording:
-            material = self.scope.material(recording)
+            material = evidence_of_recording(recording, self.scope)
         diagnosis = judge(
             material,
             rules.settings(self.settings),
@@ -198,13 +199,13 @@ class Inventory:
 
     @staticmethod
     def _listed(source: str, path: str) -> list[Row]:
-        from tftool.doctor.evidence import Material
+        from tftool.doctor.evidence import Evidence
         from tftool.doctor.model import Model
         from tftool.recordings.recording import open_recording
 
         with open_recording(path) as recording:
             held, transforms = recording.source, recording.transforms
-            model = Model(Material(source, held.kind, transforms, start=held.start, end=held.end))
+            model = Model(Evidence(source, held.kind, transforms, start=held.start, end=held.end))
             row = {
                 "source": source,
                 "kind": held.kind,

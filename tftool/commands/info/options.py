@@ -114,13 +114,12 @@ def _one(connection: Connection, place: str, name: str, *, for_programs: bool) -
         if for_programs:
             sys.stdout.write(json.dumps(view.as_object(recording, name), indent=2) + "\n")
         else:
+            from tftool.doctor.evidence import Described, Scope, evidence_of_recording
             from tftool.doctor.judge import judge
-            from tftool.doctor.recording_evidence import Described
-            from tftool.doctor.scope import Scope
             from tftool.drawing.finding_view import brief
 
             given = None if connection.robot.urdf is None else Described(recording.robot)
-            diagnosis = judge(Scope(given).material(recording))
+            diagnosis = judge(evidence_of_recording(recording, Scope(given)))
             width = line_width()
             sys.stdout.write(view.as_text(recording, width, name))
             told = "\n".join(view.wrapped(brief(diagnosis), width))

@@ -220,7 +220,7 @@ def _refuse_places(topics: "Sequence[str]") -> None:
 
 
 def _check_finding(name: str) -> None:
-    from tftool.doctor.catalogue import CHECKS
+    from tftool.doctor.judge import CHECKS
 
     if name not in CHECKS:
         near = near_names(name, CHECKS, 3)

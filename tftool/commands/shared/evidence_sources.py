@@ -11,8 +11,7 @@ from tftool.commands.shared.hosting import NO_SESSION, join_session, open_sessio
 from tftool.commands.shared.notices import notice, tell_listening
 from tftool.commands.shared.observe import LISTEN
 from tftool.commands.shared.options import LISTENING
-from tftool.doctor.evidence import Material
-from tftool.doctor.scope import Scope
+from tftool.doctor.evidence import Evidence, Scope, evidence_of_log, evidence_of_recording
 from tftool.opener import named, scenario_named
 from tftool.recordings.find import Kind
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, heard_in, rules_beside
@@ -33,7 +32,7 @@ def material_of(
     word: str | None,
     lasting: Duration | None = None,
     scope: Scope = WHOLE,
-) -> Material:
+) -> Evidence:
     """What is known of the frames that FROM names.
 
     A recording is read whole, a scenario played on simulated time, a session listened to.
@@ -55,7 +54,7 @@ def material_of(
         from tftool.commands.shared import recorded
 
         with recorded.read(found, options=connection.recording) as recording:
-            return scope.material(recording)
+            return evidence_of_recording(recording, scope)
     if scope.tf_topics or scope.begin is not None or scope.end is not None:
         raise UsageError("--tf-topic, --from and --to are for recordings.")
     if found is not None and found.kind is Kind.DESCRIPTION:
@@ -80,14 +79,14 @@ def material_of(
     return _described(_heard(session, lasting or whole, "scenario"), scope)
 
 
-def _described(material: Material, scope: Scope) -> Material:
+def _described(material: Evidence, scope: Scope) -> Evidence:
     """What was heard, beside the description that was given."""
     if scope.described is None:
         return material
     return replace(material, robot=scope.described.robot, mistakes=scope.described.mistakes)
 
 
-def _heard(session: Session, lasting: Duration, kind: str) -> Material:
+def _heard(session: Session, lasting: Duration, kind: str) -> Evidence:
     """Listen to a world for `lasting` nanoseconds."""
     world = session.world
     hearing, stops = heard_in(world)
@@ -97,7 +96,7 @@ def _heard(session: Session, lasting: Duration, kind: str) -> Material:
     finally:
         for stop in stops:
             stop()
-    return hearing.material(session.name, kind, began, world.clock.now())
+    return evidence_of_log(hearing, session.name, kind, began, world.clock.now())
 
 
 def rules_of(word: str | None) -> DoctorRules:

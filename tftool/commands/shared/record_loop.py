@@ -13,7 +13,7 @@ from tftool.base.escaping import visible
 from tftool.base.short_numbers import short_size
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.shared.notices import notice
-from tftool.doctor.session_evidence import Hearing
+from tftool.frames.transform_log import TransformLog
 from tftool.messages.transforms import decode_transforms
 from tftool.recordings.compression import best_compression
 from tftool.recordings.rolling_writer import Kept, RollingRecording
@@ -86,12 +86,17 @@ class RecordingRun:
 
     def _look(self, now: Stamp) -> "Finding | None":
         """Whether the doctor finds it in what the ring holds."""
+        from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.judge import judge
 
         assert self._finding is not None
         held = self.rolling.held()
-        material = heard(held[-MOST_JUDGED:]).material(
-            "live session", "live session", held[0].log_time if held else now, now
+        material = evidence_of_log(
+            heard(held[-MOST_JUDGED:]),
+            "live session",
+            "live session",
+            held[0].log_time if held else now,
+            now,
         )
         diagnosis = judge(material, select=[self._finding])
         return next(iter(diagnosis.findings), None)
@@ -139,9 +144,9 @@ def recorded(world: World, path: Path, *, force: bool = False) -> Iterator[Rolli
         rolling.close()
 
 
-def heard(messages: list[Kept]) -> Hearing:
+def heard(messages: list[Kept]) -> TransformLog:
     """What some messages say, as the doctor hears it."""
-    hearing = Hearing()
+    hearing = TransformLog()
     for channel, log_time, payload, _ in messages:
         if channel.type != "tf2_msgs/msg/TFMessage":
             continue

@@ -182,7 +182,7 @@ class Waiter:
     def _because(self) -> str:
         """The cause and the cure, where `explain` knows more than that something is not there."""
         # Heavy imports wait until there is something to say.
-        from tftool.doctor.diagnose import explain
+        from tftool.doctor.explanation import explain
 
         buffer, now = self.world.buffer, self.world.clock.now()
         if self.pair.fixed_frame is not None or not buffer.frames():

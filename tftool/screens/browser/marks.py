@@ -4,9 +4,8 @@ from typing import Any, Final
 
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import Buffer
-from tftool.doctor.buffer_evidence import of_buffer
-from tftool.doctor.catalogue import CHECKS
-from tftool.doctor.coverage_checks import holes
+from tftool.doctor.coverage_checks import gap, holes
+from tftool.doctor.evidence import evidence_of_buffer
 from tftool.doctor.judge import judge
 from tftool.doctor.model import Settings
 from tftool.screens.browser.protocol import since
@@ -28,14 +27,13 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
     frames = buffer.snapshot(0).frames
     if not any(frame.samples > 1 and not frame.is_static for frame in frames):
         return {"type": "marks", "gaps": [], "findings": []}
-    diagnosis = judge(of_buffer(buffer), Settings())
-    limits = CHECKS["gap"].limits
+    diagnosis = judge(evidence_of_buffer(buffer), Settings())
     gaps = [
         (track.child, low, high)
         for track in diagnosis.model.dynamic
-        for low, high in holes(track, limits)
+        for low, high in holes(track, gap.limits)
     ]
-    gaps = sorted(gaps, key=lambda gap: gap[1] - gap[2])[:MOST_GAPS]
+    gaps = sorted(gaps, key=lambda hole: hole[1] - hole[2])[:MOST_GAPS]
     found = [one for one in diagnosis.findings if one.since is not None]
     found.sort(key=lambda one: one.severity.rank)
     return {

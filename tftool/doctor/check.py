@@ -1,0 +1,117 @@
+"""One check: its id, severity, thresholds, texts and links, beside the function that runs it.
+
+An id never changes its meaning, and one that is retired is not used again. Texts are
+filled with a finding's facts; see `wording` for how numbers are written.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from tftool.doctor.findings import Area, Fix, Hit, Severity
+from tftool.doctor.model import Limits, Model
+
+Run: TypeAlias = Callable[[Model, Limits], Iterator[Hit]]
+
+REP103 = "https://www.ros.org/reps/rep-0103.html"
+REP105 = "https://www.ros.org/reps/rep-0105.html"
+
+NEEDS = {
+    "log times": "a buffer keeps no log times",
+    "recording": "nothing was recorded",
+    "headers": "there are no messages with headers",
+    "durability": "what publishers offer to late subscribers is not recorded",
+    "odometry": "there are no odometry messages",
+    "description": "no URDF given",
+    "valid description": "the robot description has mistakes",
+    "joint states": "there are no joint states",
+}
+"""What a check may need beside transforms, and what is said where that is missing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One check, and all its texts.
+
+    Attributes:
+        id: Its name, for ever.
+        area: What it looks at.
+        severity: How bad what it finds is; a hit may say otherwise.
+        summary: What is wrong, in one line and in general: the docstring of its function.
+        run: Its function.
+        rule: When it speaks, with its thresholds as {names}.
+        headline: What is wrong, with a finding's facts; `{where}` names all of them,
+            `{concerned:one|many}` chooses by how many they are, as of any number or list.
+        detail: A line of evidence for each hit.
+        consequence: What it breaks.
+        fixes: What to do, beside what the hit itself says.
+        causes: What people found to be behind it, the most frequent first.
+        links: Threads about it, and standards.
+        limits: Its thresholds by name; seconds, metres, radians, shares, counts.
+        needs: Which keys of `NEEDS` it cannot run without.
+        why: Why the rule and its thresholds are as they are; empty where that is plain.
+        because_of: Which findings explain this one: what both must share, and the ids of the
+            causes. "edge", "child", "frame": at least one; "stream": an edge or a topic;
+            "path": an edge of the way to the sensor, or the topic; "anything": nothing.
+            The first that fits counts.
+    """
+
+    id: str
+    area: Area
+    severity: Severity
+    summary: str
+    run: Run
+    rule: str
+    headline: str
+    detail: str = ""
+    consequence: str = ""
+    fixes: tuple[Fix, ...] = ()
+    causes: tuple[str, ...] = ()
+    links: tuple[str, ...] = ()
+    limits: Mapping[str, float] = field(default_factory=dict)
+    needs: tuple[str, ...] = ()
+    why: str = ""
+    because_of: tuple[tuple[str, str], ...] = ()
+
+    def __call__(self, model: Model, limits: Limits | None = None) -> Iterator[Hit]:
+        """Run it, with its own thresholds unless others are given."""
+        return self.run(model, self.limits if limits is None else limits)
+
+
+class checks_of:  # noqa: N801 - a decorator
+    """A decorator that makes a check of a function, and keeps those of one area in order.
+
+    Attributes:
+        checks: All of them, as they are defined.
+    """
+
+    def __init__(self, area: Area) -> None:
+        self._area = area
+        self.checks: list[Check] = []
+
+    def __call__(self, id: str, severity: Severity, **texts: Any) -> Callable[[Run], Check]:
+        """Keep the function as a check; `texts` are the other attributes of `Check`."""
+
+        def keep(run: Run) -> Check:
+            check = Check(id, self._area, severity, _summary(run), run, **texts)
+            self.checks.append(check)
+            return check
+
+        return keep
+
+
+def _summary(run: Run) -> str:
+    """The docstring of a check's function as part of a sentence."""
+    text = " ".join((run.__doc__ or "").split()).removesuffix(".")
+    # A name keeps its capitals: NaN.
+    return text if any(letter.isupper() for letter in text.split()[0][1:]) else _lowered(text)
+
+
+def _lowered(text: str) -> str:
+    return text[:1].lower() + text[1:]
+
+
+def threads(*threads: str) -> tuple[str, ...]:
+    """Addresses of threads, each written owner/repository#number."""
+    pairs = (thread.split("#") for thread in threads)
+    return tuple(f"https://github.com/{repository}/issues/{number}" for repository, number in pairs)
