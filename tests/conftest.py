@@ -2,15 +2,14 @@
 
 import os
 import tempfile
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.command_line import Result, Simulated
 from tftool.app.main import main
-from tftool.commands.shared.connection import Connection, Providers
-from tftool.world.clock import SimClock
+from tftool.commands.shared.connection import Connection
 
 # No test compares wall time, so hypothesis may not either; and a build machine draws the
 # same examples in every run, so that a red build means a change and not a lucky draw.
@@ -56,26 +55,6 @@ def by_memory(monkeypatch):
 
     monkeypatch.setitem(MIDDLEWARES, "memory", f"{MemoryMiddleware.__module__}:MemoryMiddleware")
     monkeypatch.setattr(MemoryMiddleware, "members", [])
-
-
-@dataclass(frozen=True)
-class Result:
-    status: int
-    out: str
-    err: str
-
-
-class Simulated(Providers):
-    """Worlds live on simulated time, from the end of their head start on, and unshared."""
-
-    def wall_clock(self, rate=1.0, *, head_start=0):
-        return SimClock()
-
-    def still_clock(self, epoch, now):
-        return SimClock(epoch)
-
-    def link(self, options):
-        return None
 
 
 @pytest.fixture

@@ -188,7 +188,7 @@ def test_every_error_has_its_exit_status_and_nothing_in_it_acts_on_the_terminal(
     def fail(*_):
         raise error
 
-    monkeypatch.setattr("tftool.geometry.notation.static_arguments.parse", fail)
+    monkeypatch.setattr("tftool.commands.static.command.parse", fail)
 
     result = tftool("static")
 
@@ -202,7 +202,7 @@ def test_an_interrupted_run_says_what_failed_on_its_way_out(tftool, monkeypatch)
     def fail(*_):
         raise KeyboardInterrupt from NodeFailed("arm", OSError("disk full"))
 
-    monkeypatch.setattr("tftool.geometry.notation.static_arguments.parse", fail)
+    monkeypatch.setattr("tftool.commands.static.command.parse", fail)
 
     result = tftool("static")
 
@@ -399,7 +399,7 @@ def test_an_interrupt_that_reaches_it_is_130(monkeypatch):
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("tftool.geometry.notation.static_arguments.parse", interrupt)
+    monkeypatch.setattr("tftool.commands.static.command.parse", interrupt)
 
     assert app.main(["static"]) == 130
 

@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from tests.certificates import certificates, needs_openssl
-from tests.conftest import Simulated
+from tests.command_line import Simulated
 from tftool.commands.shared.connection import Connection, Mode, Providers
 from tftool.commands.shared.connection_options import with_connection
 

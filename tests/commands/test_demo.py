@@ -20,7 +20,7 @@ expect:
 @pytest.fixture
 def on_terminal(monkeypatch):
     """A terminal that everything is drawn for, but not on."""
-    monkeypatch.setattr(onscreen, "screen_lacks", lambda: "")
+    monkeypatch.setattr("tftool.commands.demo.command.screen_lacks", lambda: "")
     monkeypatch.setattr(showing, "show", partial(showing.show, headless=True))
     apps = []
     started = terminal.TurtleApp.on_mount

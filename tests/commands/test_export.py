@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 import tftool as library
 from tftool import Buffer, Transform, TransformStamped, seconds
 from tftool.base.errors import InputError
+from tftool.frames.export import digits
 from tftool.frames.export.digits import BLOCK
 from tftool.geometry.conversions import quaternion_from_rpy
 
@@ -450,7 +451,7 @@ def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number)
     # The signal comes while the second block of rows is written.
     before = sorted(tmp_path.iterdir())
     blocks = []
-    write = library.sinks.digits.rows
+    write = digits.rows
 
     def interrupted(*arguments, **words):
         blocks.append(1)

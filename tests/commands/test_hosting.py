@@ -2,7 +2,7 @@ import json
 
 import pytest
 
-from tests.conftest import Simulated
+from tests.command_line import Simulated
 from tftool.base.errors import InputError, NodeFailed, UsageError
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer

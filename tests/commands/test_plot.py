@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import tftool as library
-from tests.conftest import Simulated
+from tests.command_line import Simulated
 from tests.frames.test_series import SECOND, circling
 from tftool.app.main import main
 

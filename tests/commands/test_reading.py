@@ -18,7 +18,7 @@ from tests.terminals import ROOT, Terminal
 
 SLOW = """
 import sys
-from tftool.commands import app
+from tftool.app import main as app
 from tftool.recordings.mcap.read import Mcap
 
 FILE, TIMES = sys.argv[1:]

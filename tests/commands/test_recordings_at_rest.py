@@ -14,7 +14,7 @@ from tests.recordings.writers import SECOND, content, write_mcap, write_rosbag1
 from tests.terminals import Terminal
 from tests.world.link.processes import Process
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import open_session
+from tftool.commands.shared.hosting import first_look, open_session
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def test_a_recordings_world_stands_still_at_its_end(file):
 def test_the_first_look_is_at_a_moment_when_all_frames_are_there(file):
     with Connection() as connection:
         session = open_session(connection, str(file))
-    first = session.first_look()
+    first = first_look(session)
 
     assert 0 < first - session.world.clock.epoch < SECOND
     assert session.world.buffer.can_transform("map", "arm", first)

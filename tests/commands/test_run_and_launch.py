@@ -493,7 +493,8 @@ def test_of_what_ros2s_words_do_not_find_that_alone_is_said(tftool, words, told)
 
 
 @pytest.mark.parametrize(
-    ("words", "told"), [(["topic"], "list, echo, hz"), (["topic", "echo"], "--once")]
+    ("words", "told"),
+    [(["topic"], "list, echo, find, hz, bw, delay"), (["topic", "echo"], "--once")],
 )
 def test_a_word_of_ros2s_has_help_as_there(capsys, words, told):
     with pytest.raises(SystemExit) as ended:

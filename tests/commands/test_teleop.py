@@ -3,8 +3,7 @@ from functools import partial
 import pytest
 
 from tftool.base.errors import UsageError
-from tftool.commands.shared import on_screen as onscreen
-from tftool.commands.teleop.options import press_there
+from tftool.commands.teleop.command import press_there
 from tftool.messages.turtle_values import Pose2D
 from tftool.screens.terminal import run_screen as showing
 from tftool.world.clock import SimClock, run
@@ -90,7 +89,7 @@ def pressing(monkeypatch):
             await shown(app, life, headless=True)
 
         shown = showing.show
-        monkeypatch.setattr(onscreen, "screen_lacks", lambda: "")
+        monkeypatch.setattr("tftool.commands.teleop.command.screen_lacks", lambda: "")
         monkeypatch.setattr(showing, "show", see)
         return apps
 

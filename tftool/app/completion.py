@@ -271,10 +271,11 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
     """The commands of ROS 2's own command line, then the verbs of the one that is named."""
-    from tftool.commands.ros2.options import verbs_of
+    from tftool.ros.host.ros2_words import verbs
 
     if len(before) < 2:
-        yield from ((word, "") for word in verbs_of(before))
+        known = verbs()
+        yield from ((word, "") for word in (known.get(before[0], []) if before else known))
 
 
 _WORDS: Final[dict[str, Callable[[Sequence[str]], Iterator[Offer]]]] = {

@@ -1,6 +1,8 @@
 """Every command: what the help says of it, which options it has, and where it is."""
 
 from collections.abc import Callable
+from functools import wraps
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -82,10 +84,21 @@ RECORDED = ("demo", "echo", "explain", "export", "info", "monitor", "play", "plo
 """Commands whose FROM may be a recording."""
 
 
-def load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
-    """Import a command, and give it all its options."""
-    from importlib import import_module
+def _running(name: str, declared: Callable[..., Any]) -> Callable[..., Any]:
+    """Return what a declaration of options stands for: its command's `run`, imported when called.
 
+    Help and completion need the options alone, and pay for no more.
+    """
+
+    @wraps(declared)
+    def run(*args: Any, **options: Any) -> Any:
+        return import_module(f"tftool.commands.{name}.command").run(*args, **options)
+
+    return run
+
+
+def load(name: str, providers: "Providers | None") -> Callable[..., Any]:
+    """Import a command, and give it all its options."""
     from tftool.commands.shared.connection_options import (
         RECORDING_OPTIONS,
         ROBOT_OPTIONS,
@@ -96,6 +109,8 @@ def load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     # Only `help` asks for other commands.
     home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}.options"
     command: Callable[..., Any] = getattr(import_module(home), name)
+    if name != "help":
+        command = _running(name, command)
     if name in ALONE:
         return command
     options = {

@@ -1,32 +1,15 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
-import sys
-from contextlib import nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.base.errors import UsageError
-from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, Stamp
-from tftool.commands.shared.options import (
-    Ascii,
-    Json,
-    Light,
-    option,
-    refuse_long_simulation,
-    seconds_option,
-    within,
-)
+from tftool.base.stamps import Duration
+from tftool.commands.shared.options import Ascii, Json, Light, option, seconds_option, within
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
-    from tftool.commands.shared.hosting import JoinDecision
-    from tftool.scenario.scenario import Scenario
-    from tftool.world.link.session_world import Session
-    from tftool.world.world import World
 
 
 def demo(
@@ -70,7 +53,7 @@ def demo(
     ascii_only: Ascii = False,
     light: Light = False,
     for_programs: Json = False,
-) -> ExitStatus:
+) -> None:
     """Show turtle2 following turtle1 (ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py).
 
     On a terminal: a picture of the frames, their tree, and a pair of them over time; the
@@ -84,213 +67,3 @@ def demo(
     tftool demo carrot --source-frame carrot1
     tftool demo time_travel --rate 2 --set delay=3
     """
-    from tftool.commands.shared.hosting import HOME
-    from tftool.commands.shared.on_screen import screen_lacks
-    from tftool.opener import named, scenario_named
-
-    if listing:
-        _list(for_programs=for_programs)
-        return ExitStatus.DONE
-    if recording is not None and recording.exists():
-        # Said before the screen comes up.
-        raise UsageError(f"'{recording}' exists: --record takes a name that is free.")
-    arguments = _arguments(settings or (), source_frame)
-    if scenario is not None and named(scenario).kind.is_recording:
-        if arguments or rate != 1.0 or lasting is not None or for_programs:
-            raise UsageError(
-                "A recording stands still: leave out --set, --source-frame, --rate, --for and "
-                "--json. 'tftool play' plays it."
-            )
-        _show_recording(connection, scenario, ascii_only=ascii_only, light=light)
-        return ExitStatus.DONE
-    chosen = scenario_named(scenario or HOME, arguments)
-    lacking = screen_lacks()
-    if for_programs or lacking:
-        from tftool.commands.shared.notices import notice
-        from tftool.scenario.summary import as_json, play_through, written
-
-        if connection.needs_link:
-            raise UsageError(
-                "Without a terminal the demo plays on simulated time, which cannot be shared. "
-                "'tftool monitor' and 'tftool view' share a session without one."
-            )
-        refuse_long_simulation(lasting)
-        if not for_programs and sys.stdout.isatty():
-            # Who looks on expects a screen.
-            notice(f"The demo's screen needs a terminal, and {lacking}: played without it.")
-        defaults = scenario_named(scenario or HOME).arguments if arguments else chosen.arguments
-        if recording is None:
-            played = play_through(chosen, defaults, lasting)
-        else:
-            from functools import partial
-
-            from tftool.commands.shared.record_loop import recorded
-
-            watch = partial(recorded, path=recording)
-            played = play_through(chosen, defaults, lasting, watch=watch)
-        typer.echo(as_json(played) if for_programs else written(played))
-        return ExitStatus.DONE if played.verdict.ok else ExitStatus.FAILED
-
-    show = _Showing(connection, rate, lasting, recording, still, ascii_only, light)
-    # Without a wish of the user's, what runs here already is shown.
-    wanted = scenario or (HOME if arguments or rate != 1.0 else None)
-    other = show.scenario(chosen, wanted)
-    while other is not None:
-        other = show.scenario(scenario_named(other), other)
-    return ExitStatus.DONE
-
-
-@dataclass(frozen=True, slots=True)
-class _Showing:
-    """Puts scenarios on the terminal, one after the other, as the options say."""
-
-    connection: "Connection"
-    rate: float
-    lasting: Duration | None
-    recording: Path | None
-    still: bool
-    ascii_only: bool
-    light: bool
-
-    def scenario(self, chosen: "Scenario", wanted: str | None) -> str | None:
-        """Show one, or the session that runs; give what the user chose to see instead.
-
-        Args:
-            chosen: The scenario.
-            wanted: Its name, where it was asked for; None to show what runs here, if it does.
-        """
-        from tftool.commands.shared.hosting import join_or_host
-
-        found = join_or_host(self.connection, wanted, needs_turtles=True)
-        if found.session is None:
-            return self._hosted(chosen, found)
-        if self.recording is not None:
-            raise UsageError(
-                "A session runs here, which 'tftool record' records: --record is for a world of "
-                "the demo's own (--host)."
-            )
-        return self._joined(found.session)
-
-    def _until(self, world: "World") -> Stamp | None:
-        """When it ends, counted from here: the screen takes a while to come up."""
-        return None if self.lasting is None else world.clock.now() + self.lasting
-
-    def _joined(self, session: "Session") -> str | None:
-        """Show the session that runs."""
-        from tftool.commands.shared.on_screen import driver_of, run_app
-        from tftool.screens.terminal.screen_options import Setting
-
-        world, live = session.world, session.live
-
-        async def life() -> None:
-            await live(self._until(world))
-
-        driver = None if self.connection.read_only else driver_of(world, "turtle1")
-        title = f"tftool demo, in {session.name}"
-        setting = Setting(ascii_only=self.ascii_only, light=self.light, title=title)
-        return run_app(world, life(), driver, setting)
-
-    def _hosted(self, chosen: "Scenario", found: "JoinDecision") -> str | None:
-        """Show a scenario in a world of its own, which others can join."""
-        from tftool.commands.shared.on_screen import driver_of, run_app, simulator_of
-        from tftool.scenario import builtin
-        from tftool.scenario.play import Watch, build, left_to_a_person
-        from tftool.screens.terminal.screen_options import Setting
-        from tftool.world.link.session_world import shared
-
-        recording = self.recording
-        around: Watch = nullcontext
-        if recording is not None:
-            from functools import partial
-
-            from tftool.commands.shared.record_loop import recorded
-
-            around = partial(recorded, path=recording)
-        play = build(left_to_a_person(chosen), self.connection.providers.wall_clock(self.rate))
-        world, link = play.world, found.link
-        if found.alone:
-            # What was said before the screen came up is hidden behind it.
-            world.log.warn("session", found.alone)
-
-        async def life() -> None:
-            until = self._until(world)
-            with around(world), shared(link, world):
-                await play.live(until, endless=until is None)
-
-        driver = None if simulator_of(world) is None else driver_of(world, "turtle1")
-        idle = None
-        if driver is not None and not self.still:
-            from tftool.world.nodes.idle_drawing import IdleDrawing
-
-            # Whatever joins sees the turtle at rest, and has it to itself.
-            idle = IdleDrawing(world, is_alone=lambda: link is None or not link.graph.processes())
-        setting = Setting(
-            ascii_only=self.ascii_only,
-            light=self.light,
-            title=f"tftool demo {chosen.name}",
-            pair=("turtle2", dict(chosen.arguments).get("source_frame", "turtle1")),
-            scenarios=None if recording is not None else builtin.abouts,
-        )
-        return run_app(world, life(), driver, setting, idle)
-
-
-def _list(*, for_programs: bool) -> None:
-    """Print the built-in scenarios."""
-    import json
-
-    from tftool.scenario import builtin
-
-    listed = builtin.abouts()
-    if for_programs:
-        typer.echo(json.dumps([{"name": name, "about": about} for name, about in listed]))
-        return
-    from rich.table import Table
-    from rich.text import Text
-
-    from tftool.commands.shared.printer import write
-
-    table = Table.grid(padding=(0, 2), pad_edge=False)
-    for name, about in listed:
-        table.add_row(Text(name), Text(about))
-    write(table)
-
-
-def _show_recording(connection: "Connection", word: str, *, ascii_only: bool, light: bool) -> None:
-    """Show a recording at rest, from its beginning on."""
-    from pathlib import Path
-
-    from tftool.base.escaping import visible
-    from tftool.commands.shared.hosting import first_look, open_session
-    from tftool.commands.shared.on_screen import run_app, screen_lacks
-    from tftool.screens.terminal.screen_options import Setting
-
-    if lacking := screen_lacks():
-        raise UsageError(
-            f"The demo's screen needs a terminal, and {lacking}: 'tftool tree {visible(word)}' "
-            f"prints its frames, 'tftool view {visible(word)}' shows them in a browser."
-        )
-    session = open_session(connection, word)
-
-    async def life() -> None:
-        await session.live(None)
-
-    title = f"tftool demo {visible(Path(word).name)}"
-    setting = Setting(title=title, ascii_only=ascii_only, light=light, at=first_look(session))
-    run_app(session.world, life(), None, setting)
-
-
-def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:
-    """Read NAME=VALUE words.
-
-    Raises:
-        UsageError: If one is something else, or a name comes twice.
-    """
-    found: dict[str, str] = {} if source_frame is None else {"source_frame": source_frame}
-    for setting in settings:
-        name, equals, value = setting.partition("=")
-        if not equals or not name:
-            raise UsageError(f"--set takes NAME=VALUE, such as --set delay=3, not {setting!r}.")
-        if name in found:
-            raise UsageError(f"The argument {name!r} is set twice.")
-        found[name] = value
-    return found

@@ -1,22 +1,13 @@
 """`tftool diff`: what differs between two sets of frames."""
 
-import json
-import sys
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from tftool.base.errors import UsageError
-from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.options import OUTPUT, Json, RunFor, not_negative, option
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
-    from tftool.frames.differences import Side
-
-SESSION = "session"
-"""The word that names the session that runs."""
 
 
 def diff(
@@ -62,7 +53,7 @@ def diff(
     markdown: Annotated[
         bool, option("Print it for an issue on the web.", "--markdown", panel=OUTPUT)
     ] = False,
-) -> ExitStatus:
+) -> None:
     """Say what differs between two sets of frames, link by link.
 
     Links that came, went, hang from another frame, or are static in one and move in the
@@ -74,48 +65,3 @@ def diff(
     tftool diff calibrated.launch.py session --mm 0.5
     tftool diff run1.mcap run2.mcap --align start --json
     """
-    from tftool.base.escaping import visible
-    from tftool.commands.shared.notices import notice
-    from tftool.commands.shared.printer import line_width
-    from tftool.drawing import difference_view as view
-    from tftool.frames.differences import Allowance, compare
-
-    if for_programs and markdown:
-        raise UsageError("--json and --markdown are two ways to print it: leave one out.")
-    if first == second == SESSION:
-        raise UsageError("The session that runs is one: name what it is compared with.")
-    found = compare(
-        _side(connection, first, lasting),
-        _side(connection, second, lasting),
-        Allowance(millimetres, degrees, rate_percent),
-        align_starts=align == "start",
-    )
-    for note in found.notes:
-        notice(visible(note))
-    if for_programs:
-        sys.stdout.write(json.dumps(view.as_object(found), indent=2, allow_nan=False) + "\n")
-    elif markdown:
-        sys.stdout.write(view.as_markdown(found))
-    else:
-        sys.stdout.write(view.lines(found, line_width(), everything=everything))
-    return ExitStatus.FAILED if found else ExitStatus.DONE
-
-
-def _side(connection: "Connection", word: str, lasting: Duration | None) -> "Side":
-    """The frames that a word names, as one side.
-
-    Raises:
-        InputError: If it names nothing, or cannot be read.
-        LinkError: If it is the session, and none runs.
-    """
-    from tftool.commands.shared.robot_at_rest import RobotAtRest
-    from tftool.commands.shared.stored import session_frames, stored_frames
-    from tftool.frames.diff import joints_of
-    from tftool.frames.differences import Side
-
-    if word == SESSION:
-        heard = session_frames(connection, lasting or seconds(5))
-        return Side(heard.name, heard.buffer, heard.start)
-    found = stored_frames(connection, word, lasting, is_one_of_several=True)
-    joints = joints_of(found.robot) if isinstance(found, RobotAtRest) else frozenset()
-    return Side(found.name, found.buffer, found.start, joints)

@@ -1,14 +1,10 @@
 """`tftool edit`: surgery on the frames of recordings; repairs, joins, cuts."""
 
-import json
-import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from tftool.base.errors import UsageError
-from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration
 from tftool.commands.shared.options import (
     OUTPUT,
@@ -22,11 +18,6 @@ from tftool.commands.shared.options import (
     seconds_option,
 )
 from tftool.frames.moment import At
-
-if TYPE_CHECKING:
-    from tftool.buffer.sample import TransformStamped
-    from tftool.recordings.edit.changes import LinkName
-    from tftool.recordings.edit.rewrite import EditReport
 
 NAMES = "Names"
 LINKS = "Links"
@@ -152,7 +143,7 @@ def edit(
         bool, option("Say what would be done, and write nothing.", "--dry-run", panel=OUTPUT)
     ] = False,
     for_programs: Json = False,
-) -> ExitStatus:
+) -> None:
     """Change the frames of a recording; repair, join, cut or convert it.
 
     What is not touched stays as it is, byte for byte. Without any change a damaged
@@ -164,201 +155,3 @@ def edit(
     tftool edit cut_off.mcap -o whole.mcap
     tftool edit a.bag b.bag -o both --from 10 --to 60
     """
-    from tftool.base.escaping import visible
-    from tftool.commands.shared.interrupts import interruptible
-    from tftool.commands.shared.recorded import Bar
-    from tftool.recordings.edit.changes import Edits
-    from tftool.recordings.edit.rewrite import edit as rewrite
-
-    if restamp not in (None, "log"):
-        raise UsageError("--restamp takes 'log': the time a message was received.")
-    low, high = _moments(names, start, end, by_record_time=by_record_time)
-    edits: Edits = Edits(
-        drop=tuple(_link("--drop", text) for text in drop or ()),
-        rename=dict(_renamed(text) for text in rename or ()),
-        prefix=_prefix(prefix) if prefix is not None else "",
-        strip_slash=strip_slash,
-        poses=dict(_pose(text) for text in poses or ()),
-        reparent=dict(_reparented(text) for text in reparent or ()),
-        statics_first=statics_first,
-        statics_from=_statics(statics_from) if statics_from is not None else (),
-        start=low,
-        end=high,
-        by_record_time=by_record_time,
-        shift=shift,
-        restamp=restamp == "log",
-        everywhere=everywhere,
-        split_every=split_every,
-    )
-    if everywhere and not (edits.names or edits.stamps):
-        raise UsageError("--everywhere goes with --rename, --prefix, --strip-slash or --shift.")
-    bar = Bar(f"Editing {visible(names[0])}")
-    try:
-        with interruptible():
-            report = rewrite(names, output, edits, force=force, dry_run=dry_run, progress=bar)
-    finally:
-        bar.stop()
-    _tell(report, output, dry_run=dry_run, for_programs=for_programs)
-    return ExitStatus.DONE
-
-
-def _tell(report: "EditReport", output: Path, *, dry_run: bool, for_programs: bool) -> None:
-    from tftool.base.escaping import visible
-    from tftool.commands.shared.notices import notice
-
-    if for_programs:
-        document = {
-            "output": str(output),
-            "files": report.files,
-            "written": not dry_run,
-            "messages": report.messages,
-            "changes": dict(report.counts),
-            "notes": report.notes,
-        }
-        sys.stdout.write(json.dumps(document, indent=2) + "\n")
-        return
-    for note in report.notes:
-        notice(visible(note))
-    for what, count in report.counts.items():
-        sys.stdout.write(f"{count:>9,} {what}\n")
-    done = "would be written" if dry_run else "written, read again and found equal"
-    many = f" ({len(report.files)} files)" if len(report.files) > 1 else ""
-    sys.stdout.write(f"{report.messages:>9,} messages {done}: {visible(str(output))}{many}\n")
-
-
-def _moments(
-    names: list[str], start: At | None, end: At | None, *, by_record_time: bool
-) -> tuple[int | None, int | None]:
-    """First and last moment, as stamps."""
-    if start is None and end is None:
-        if by_record_time:
-            raise UsageError("--record-time goes with --from or --to.")
-        return None, None
-    epoch = 0
-    if any(one is not None and not one.is_stamp for one in (start, end)):
-        from tftool.recordings.recording import open_recording
-
-        found = []
-        for name in names:
-            with open_recording(name) as recording:
-                found.append(recording.source.start if by_record_time else recording.start)
-        epoch = min((one for one in found if one), default=0)
-    low = start.stamp(epoch) if start is not None else None
-    high = end.stamp(epoch) if end is not None else None
-    if low is not None and high is not None and high < low:
-        raise UsageError("--to lies before --from.")
-    return low, high
-
-
-def _link(option: str, text: str) -> "LinkName":
-    from tftool.buffer.forest import stripped
-
-    parent, colon, child = text.partition(":")
-    if not colon or not parent or not child:
-        raise UsageError(f"{option} takes PARENT:CHILD, such as base_link:laser, not '{text}'.")
-    return stripped(parent), stripped(child)
-
-
-def _renamed(text: str) -> tuple[str, str]:
-    from tftool.buffer.forest import stripped
-
-    old, equals, new = text.partition("=")
-    if not equals or not old or not new:
-        raise UsageError(f"--rename takes OLD=NEW, such as laser=lidar, not '{text}'.")
-    return stripped(old), _frame("--rename", new)
-
-
-def _prefix(text: str) -> str:
-    name = _frame("--prefix", text)
-    if name[-1].isalnum():
-        # ROS 1's tf_prefix put a slash there, ROS 2's frame_prefix puts none.
-        raise UsageError(
-            f"--prefix {text} would make {name}base_link of base_link: end it in a slash, "
-            f"--prefix {name}/"
-        )
-    return name
-
-
-def _frame(option: str, text: str) -> str:
-    """A name, or the beginning of one, as tf2 keeps it: without the slash in front."""
-    from tftool.buffer.forest import stripped
-    from tftool.messages.transform_rows import LONGEST_NAME
-
-    name = stripped(text)
-    if not name.strip():
-        raise UsageError(f"{option}: '{text}' is empty, and tf2 has no frame without a name.")
-    if name != name.strip() or not name.isprintable() or len(name.encode()) > LONGEST_NAME:
-        raise UsageError(f"{option}: '{text}' is no name of a frame.")
-    if name.startswith("/") or "//" in name:
-        raise UsageError(f"{option}: '{text}' has an empty part between its slashes.")
-    return name
-
-
-def _pose(text: str) -> "tuple[LinkName, tuple[float, ...]]":
-    import math
-
-    from tftool.geometry.conversions import quaternion_from_rpy
-
-    name, _, listed = text.partition("=")
-    link = _link("--set", name)
-    numbers = []
-    for word in listed.split(","):
-        plain = word.strip().removesuffix("deg")
-        try:
-            value = float(plain)
-        except ValueError:
-            raise UsageError(f"--set {name}: '{word.strip()}' is not a number.") from None
-        if not math.isfinite(value):
-            raise UsageError(f"--set {name}: '{word.strip()}' is not a finite number.")
-        numbers.append(math.radians(value) if plain != word.strip() else value)
-    if len(numbers) == 6:
-        return link, (*numbers[:3], *quaternion_from_rpy(*numbers[3:]))
-    if len(numbers) != 7:
-        raise UsageError(
-            f"--set {name} takes 6 numbers (x, y, z, roll, pitch, yaw) or 7 (x, y, z and the "
-            f"quaternion x, y, z, w), not {len(numbers)}."
-        )
-    length = math.sqrt(sum(value * value for value in numbers[3:]))
-    if abs(length - 1.0) > 1e-3:
-        raise UsageError(f"--set {name}: the quaternion's length is {length:g}, not 1.")
-    return link, (*numbers[:3], *(value / length for value in numbers[3:]))
-
-
-def _reparented(text: str) -> "tuple[LinkName, str]":
-    from tftool.buffer.forest import stripped
-
-    name, equals, new = text.partition("=")
-    link = _link("--reparent", name)
-    if not equals or not new:
-        raise UsageError(f"--reparent takes PARENT:CHILD=NEW, not '{text}'.")
-    return link, stripped(new)
-
-
-def _statics(name: str) -> "tuple[TransformStamped, ...]":
-    """The statics of another recording, the last of each child; or the fixed joints of a robot."""
-    from tftool.buffer.sample import TransformStamped
-    from tftool.geometry.rigid import Transform
-    from tftool.recordings.find import Kind, find
-    from tftool.recordings.recording import open_recording
-    from tftool.robots.robot_model import load_urdf
-
-    found = find(name)
-    samples: dict[str, TransformStamped] = {}
-    if found.kind is Kind.DESCRIPTION:
-        robot = load_urdf(found.paths[0])
-        for sample in robot.transforms():
-            if robot.joint_above(sample.child_frame_id).type == "fixed":
-                samples[sample.child_frame_id] = sample
-    else:
-        with open_recording(name) as recording:
-            edges = [edge for edge in recording.edges if edge.static and len(edge)]
-        for edge in sorted(edges, key=lambda one: int(one.messages[-1])):
-            x, y, z = edge.translations[-1].tolist()
-            qx, qy, qz, qw = edge.rotations[-1].tolist()
-            pose = Transform((x, y, z), (qx, qy, qz, qw))
-            samples[edge.child] = TransformStamped(
-                int(edge.stamps[-1]), edge.parent, edge.child, pose
-            )
-    if not samples:
-        raise UsageError(f"'{name}' holds no statics.")
-    return tuple(samples.values())

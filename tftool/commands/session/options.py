@@ -1,15 +1,10 @@
 """`tftool session`: who is there, what they publish, how often, since when."""
 
-import sys
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
-from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, as_seconds, seconds
-from tftool.commands.shared.connection import Connection, Mode
+from tftool.base.stamps import Duration, seconds
+from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.options import Json, option, seconds_option
-
-if TYPE_CHECKING:
-    from tftool.world.link.session import Link
 
 
 def session(
@@ -26,7 +21,7 @@ def session(
         bool, option("List the services of parameters and actions, too.", "--verbose", "-v")
     ] = False,
     for_programs: Json = False,
-) -> ExitStatus:
+) -> None:
     """Show who shares the session that runs here (ros2 node list, ros2 topic list and hz).
 
     Every process of tftool, its command and since when it is there; every node; every
@@ -37,112 +32,3 @@ def session(
     tftool session
     tftool session --connect tcp/localhost:7447
     """
-    import json
-
-    from tftool.base.errors import LinkError, UsageError
-    from tftool.commands.shared.notices import notice
-
-    if connection.mode is Mode.HOST:
-        raise UsageError("session lists who is there: it has nothing to --host.")
-    link = connection.open_link()
-    if link is None:
-        raise LinkError("there is no link to other processes here")
-    if link.unanswering:
-        notice(link.unanswering)
-    elif link.graph.is_empty:
-        notice(
-            f"No process is here in domain {connection.domain}: start 'tftool demo', for example."
-        )
-    found = _as_object(link, _rates(connection, link, listen_for))
-    text = json.dumps(found) if for_programs else _written(found, verbose=verbose)
-    sys.stdout.write(text + "\n")
-    return ExitStatus.DONE
-
-
-def _rates(connection: Connection, link: "Link", lasting: Duration) -> dict[str, float]:
-    """Listen for a while: messages a second of each topic on which one came in."""
-    import asyncio
-
-    from tftool.world.clock import run
-    from tftool.world.endpoints import PUBLISHER
-    from tftool.world.link.seam import Arrived
-    from tftool.world.link.session import is_plain
-
-    counts: dict[str, int] = {}
-    clock = connection.providers.wall_clock()
-
-    def count(name: str) -> Any:
-        def heard(_: Arrived) -> None:
-            counts[name] = counts.get(name, 0) + 1
-
-        return heard
-
-    async def listen() -> None:
-        link.middleware.start(asyncio.get_running_loop())
-        for name, ros_type in {(one.name, one.ros_type) for one in link.graph.entities(PUBLISHER)}:
-            # What a stranger calls otherwise is listed, and cannot be listened to.
-            if is_plain(name) and is_plain(ros_type):
-                link.middleware.listen(name, ros_type, count(name))
-        link.settle()
-        await clock.sleep(lasting)
-
-    if not link.graph.is_empty:
-        run(clock, listen())
-    return {name: count / as_seconds(lasting) for name, count in counts.items()}
-
-
-def _as_object(link: "Link", rates: dict[str, float]) -> dict[str, Any]:
-    """Everything that is known of a session; `rates` of topics in hertz."""
-    from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
-    from tftool.world.link.graph import NODE, SERVER
-
-    graph = link.graph
-    topics: dict[str, dict[str, Any]] = {}
-    for one in graph.entities(PUBLISHER, SUBSCRIPTION):
-        rate = rates.get(one.name, 0.0)
-        topic = topics.setdefault(
-            one.name, {"type": one.ros_type, "publishers": [], "subscribers": [], "rate": rate}
-        )
-        topic["publishers" if one.kind == PUBLISHER else "subscribers"].append(one.node)
-    for topic in topics.values():
-        topic["publishers"].sort()
-        topic["subscribers"].sort()
-    return {
-        "domain": link.options.domain,
-        "processes": [
-            {
-                "command": one.command,
-                "pid": one.pid,
-                "role": one.role.value,
-                "since": as_seconds(one.since),
-                "nodes": sorted(
-                    {each.node for each in graph.entities(NODE) if each.session == one.session}
-                ),
-            }
-            for one in graph.processes()
-        ],
-        "nodes": sorted({one.node for one in graph.entities(NODE)}),
-        "topics": {name: topics[name] for name in sorted(topics)},
-        "services": {
-            one.name: {"type": one.ros_type, "node": one.node}
-            for one in sorted(graph.entities(SERVER), key=lambda one: one.name)
-        },
-    }
-
-
-def _written(found: dict[str, Any], *, verbose: bool) -> str:
-    """The lines for a person: in the width of the terminal, or as long as they get."""
-    from tftool.drawing import session_view as view
-
-    if not sys.stdout.isatty():
-        return "\n".join(line.plain for line in view.lines(found, verbose=verbose))
-    from rich.console import Console
-    from rich.text import Text
-
-    console = Console()
-    lines = view.lines(
-        found, verbose=verbose, width=console.width, ascii_only=console.options.ascii_only
-    )
-    with console.capture() as captured:
-        console.print(Text("\n").join(lines), soft_wrap=True, end="")
-    return captured.get()

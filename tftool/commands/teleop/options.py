@@ -1,28 +1,13 @@
 """`tftool teleop`: arrow keys drive a turtle."""
 
-import math
-import sys
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.base.errors import UsageError
-from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import seconds
 from tftool.commands.shared.options import Ascii, Light, option
-from tftool.messages.turtle_values import Pose2D
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
-    from tftool.world.world import World
-
-START = seconds(5)
-"""When the first scripted key is pressed: by then every turtle of the world is there."""
-
-LOOK = seconds(0.1)
-PATIENCE = seconds(10)
-"""For how long a key's turtle is waited for; no key's effect lasts as long."""
 
 
 def teleop(
@@ -38,7 +23,7 @@ def teleop(
     ] = None,
     ascii_only: Ascii = False,
     light: Light = False,
-) -> ExitStatus:
+) -> None:
     """Drive a turtle with the arrow keys (ros2 run turtlesim turtle_teleop_key).
 
     One press moves the turtle for a second. The eight letters round f turn it to
@@ -48,143 +33,3 @@ def teleop(
     tftool teleop turtle2
     tftool teleop --keys "up up left up"
     """
-    from tftool.commands.shared.hosting import open_session
-    from tftool.commands.shared.on_screen import driver_of, run_app, screen_lacks
-    from tftool.world.nodes.turtle_teleop import BANNER
-
-    connection.refuse_read_only("drive")
-    if keys is not None:
-        typer.echo(press_all(connection, turtle, keys))
-        return ExitStatus.DONE
-    if lacking := screen_lacks():
-        raise UsageError(
-            f"teleop reads keys from a terminal, and {lacking}. "
-            'Give the keys on the command line instead: --keys "up up left".'
-        )
-
-    from tftool.screens.terminal.screen_options import Setting
-
-    session = open_session(connection, needs_turtles=True, by_hand=True)
-    driver = driver_of(session.world, turtle)
-    # Said before the screen is taken, so that it can be read after it is given back too.
-    sys.stdout.write("\n".join(BANNER) + "\n")
-    sys.stdout.flush()
-
-    async def live() -> None:
-        await session.live(None)
-
-    run_app(
-        session.world,
-        live(),
-        driver,
-        Setting(
-            title=f"tftool teleop {turtle}",
-            drive_only=True,
-            banner=BANNER,
-            ascii_only=ascii_only,
-            light=light,
-        ),
-    )
-    return ExitStatus.DONE
-
-
-def press_all(connection: "Connection", turtle: str, keys: str) -> str:
-    """Press keys, each when what the one before it did is over.
-
-    Args:
-        connection: What the command's options say.
-        turtle: The one they drive.
-        keys: Words between blanks: "up up left g".
-
-    Returns:
-        A sentence that says where the turtle is then.
-
-    Raises:
-        UsageError: If there is no such key, or no such turtle.
-    """
-    from tftool.commands.shared.hosting import join_session, open_session
-    from tftool.commands.shared.on_screen import driver_of, simulator_of
-    from tftool.world.nodes.turtle_teleop import KEYS
-
-    words = keys.replace(",", " ").split()
-    for word in words:
-        if word.lower() not in KEYS:
-            raise UsageError(f"{word!r} is no key of teleop; there are {', '.join(KEYS)}.")
-    if not words:
-        raise UsageError('--keys needs at least one key, such as --keys "up up left".')
-    joined = join_session(connection, needs_turtles=True)
-    if joined is not None:
-        return joined.run(press_there(joined.world, turtle, words))
-    session = open_session(connection, simulated=True, by_hand=True)
-    world = session.world
-    driver, simulator = driver_of(world, turtle), simulator_of(world)
-
-    async def press() -> str:
-        await world.clock.sleep(START)
-        if simulator is None or turtle not in simulator.turtles:
-            there = ", ".join(simulator.turtles) if simulator is not None else "none"
-            raise UsageError(f"There is no turtle {turtle!r} here; there are {there}.")
-        for word in words:
-            if driver.press(word) == "quit":
-                break
-            end = world.clock.now() + PATIENCE
-            await world.clock.sleep(LOOK)
-            while world.clock.now() < end:
-                pose = simulator.turtles[turtle].pose
-                if pose.linear_velocity == 0.0 and pose.angular_velocity == 0.0:
-                    break
-                await world.clock.sleep(LOOK)
-        pose = simulator.turtles[turtle].pose
-        return (
-            f"{turtle} is at x {pose.x:.3f}, y {pose.y:.3f}, "
-            f"heading {math.degrees(pose.theta):.1f}°."
-        )
-
-    return session.run(press())
-
-
-async def press_there(world: "World", turtle: str, words: list[str]) -> str:
-    """Press keys in a joined session, where a turtle is known by its poses alone.
-
-    Raises:
-        UsageError: If it is not there.
-    """
-    from tftool.commands.shared.on_screen import driver_of
-
-    poses = world.topic(f"{turtle}/pose", Pose2D)
-    # Subscribed, so that they come in.
-    stop = poses.subscribe(lambda pose: None)
-    clock = world.clock
-
-    async def seen(past: int, condition: Callable[[Pose2D], bool]) -> None:
-        end = clock.now() + PATIENCE
-        while clock.now() < end:
-            if poses.count > past and poses.latest is not None and condition(poses.latest):
-                return
-            await clock.sleep(LOOK)
-
-    try:
-        await seen(0, lambda pose: True)
-        if poses.latest is None:
-            # Our own subscription made a topic of the one that is not there.
-            names = sorted(set(world.topics()) - {poses.name})
-            there = ", ".join(name.removesuffix("/pose") for name in names if "/pose" in name)
-            raise UsageError(f"There is no turtle {turtle!r} here; there are {there or 'none'}.")
-        driver = driver_of(world, turtle)
-        for word in words:
-            past = poses.count
-            if driver.press(word) == "quit":
-                break
-            await clock.sleep(LOOK)
-            # It takes a few poses until the command has crossed and shows.
-            await seen(past + 10, _is_at_rest)
-        pose = poses.latest
-    finally:
-        stop()
-    return (
-        f"{turtle} is at x {pose.x:.3f}, y {pose.y:.3f}, heading {math.degrees(pose.theta):.1f}°."
-    )
-
-
-def _is_at_rest(pose: Pose2D) -> bool:
-    return pose.linear_velocity == 0.0 and pose.angular_velocity == 0.0

@@ -1,0 +1,152 @@
+"""`tftool check`: play scenarios on simulated time and judge their expectations."""
+
+import glob
+import json
+import os
+import re
+import sys
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from rich.console import Console
+
+from tftool.base.errors import InputError
+from tftool.base.escaping import visible, visible_lines
+from tftool.base.exit_status import ExitStatus
+from tftool.base.report import Report
+from tftool.commands.shared.notices import complain, notice
+from tftool.commands.shared.printer import write, write_file
+from tftool.drawing import report_view as judgements
+from tftool.opener import scenario_named
+from tftool.recordings.find import METADATA
+from tftool.scenario import builtin
+from tftool.scenario.play import run_scenario
+from tftool.scenario.scenario import Scenario
+from tftool.scenario.verdict import Verdict
+
+SUFFIXES = (".yaml", ".yml")
+"""What scenario files in a folder end in."""
+
+
+def _unfolded(word: str) -> list[str]:
+    """The files that a glob or a folder of scenarios stands for: not every shell unfolds globs."""
+    files: list[str] = []
+    if builtin.path_of(word) is None:
+        if os.path.isdir(word):
+            listed = sorted(os.listdir(word))
+            if METADATA not in listed:
+                files = [os.path.join(word, one) for one in listed if one.endswith(SUFFIXES)]
+        elif not os.path.lexists(word):
+            files = sorted(glob.glob(word))
+    return files or [word]
+
+
+def _judge(
+    word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
+) -> "tuple[Report, bool]":
+    """Report on one scenario, and whether it could be read; what could not is told at once."""
+    try:
+        scenario = scenario_named(word)
+    except InputError as error:
+        why = str(error)
+        if Path(word).is_dir():  # in which recordings were looked for as well
+            why = f"No scenario ({', '.join(SUFFIXES)}) is in the folder '{word}'."
+        complain("tftool", why)
+        return Report(Path(word).stem or word, word, (), failure=why), False
+    for mistake in scenario.not_a_tree if own_nodes else ():
+        notice(visible_lines(str(mistake)))
+    if kept is None:
+        return judge(scenario).report(), True
+    return _recorded(scenario, judge, kept.place(scenario.name)).report(), True
+
+
+class _Kept:
+    """The folder in which recordings of one run are kept, each under a name of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._names: set[str] = set()
+
+    def place(self, name: str) -> Path:
+        """Where a scenario's recording is kept: by its name, numbered where that is taken."""
+        plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
+        number = 1
+        while free in self._names:
+            number += 1
+            free = f"{plain}_{number}"
+        self._names.add(free)
+        return self._folder / f"{free}.mcap"
+
+
+def _recorded(scenario: Scenario, judge: Callable[..., Verdict], kept: Path) -> Verdict:
+    """Judge a scenario; its recording stays if something did not hold."""
+    try:
+        kept.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(
+            f"'{visible(str(kept.parent))}' cannot be written to: {reason}."
+        ) from error
+    # What records brings every container's writer.
+    from tftool.commands.shared.record_loop import recorded
+
+    # Beside its name until it is judged: one of an earlier run stays where nothing fails.
+    played = kept.with_name(f".{kept.name}")
+    verdict = judge(scenario, watch=partial(recorded, path=played, force=True))
+    if verdict.ok:
+        played.unlink(missing_ok=True)
+    else:
+        played.replace(kept)
+        notice(f"Recorded: {visible(str(kept))}")
+    return verdict
+
+
+def run(
+    scenarios: list[str],
+    programs: list[str] | None,
+    launched: str | None,
+    force: bool,
+    junit: Path | None,
+    recordings: Path | None,
+    verbose: bool,
+    for_programs: bool,
+) -> ExitStatus:
+    """Run `tftool check`; the parameters are its options."""
+    kept = None if recordings is None else _Kept(recordings)
+    judging: AbstractContextManager[Callable[..., Verdict]]
+    if programs or launched is not None:
+        # Users' programs need all of `ros`; the scenario's own nodes need none of it.
+        from tftool.commands.check.programs import judge_with
+
+        judging = judge_with(programs or (), launched, force=force, verbose=verbose)
+    else:
+        judging = nullcontext(run_scenario)
+    with judging as judge:
+        judged = [
+            _judge(word, judge, kept, own_nodes=launched is None)
+            for words in scenarios
+            for word in _unfolded(words)
+        ]
+    reports = [report for report, _ in judged]
+    if for_programs:
+        sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
+    else:
+        if Console().is_terminal and sys.stderr.isatty():
+            # The terminal has the whole sentence already.
+            reports = [
+                report if readable else replace(report, failure="cannot be read")
+                for report, readable in judged
+            ]
+        write(
+            judgements.render_all(reports) if verbose else judgements.render(reports),
+            is_wide=not verbose,
+        )
+        sys.stdout.write(f"{judgements.summary(reports)}\n")
+    if junit is not None:
+        write_file(junit, judgements.as_junit(reports))
+    if not all(readable for _, readable in judged):
+        return ExitStatus.UNREADABLE
+    return ExitStatus.DONE if all(report.ok for report in reports) else ExitStatus.FAILED

@@ -1,0 +1,82 @@
+"""Programs of the user's that a scenario is judged with, in the place of its own nodes."""
+
+import re
+import shlex
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible_lines
+from tftool.commands.shared.notices import FoldedLog, notice
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch import packages
+from tftool.scenario.exercise import Entrant, Exercise
+from tftool.scenario.scenario import Scenario
+from tftool.scenario.verdict import Verdict
+
+_IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
+
+
+@contextmanager
+def judge_with(
+    programs: Sequence[str], launched: str | None, *, force: bool, verbose: bool
+) -> Iterator[Callable[..., Verdict]]:
+    """Give a function that plays and judges a scenario with the user's programs.
+
+    Args:
+        programs: "FILE", or "NODE=FILE" to run it in the place of one of the scenario's nodes.
+        launched: A launch file and its arguments, as one text.
+        force: Run without ROS although one is sourced.
+        verbose: Whether every line of their logs is shown.
+
+    Raises:
+        UsageError: If a text is no command line.
+    """
+    entrants = [_entrant(text) for text in programs]
+    launch = () if launched is None else _words("--launch", launched)
+    for one in entrants:
+        if not one.node:
+            notice(
+                f"'{visible_lines(one.words[0])}' runs beside the scenario's own nodes; "
+                "--run NODE=FILE runs it in the place of one."
+            )
+    workspace = Workspace(Path.cwd())
+    for skipped in workspace.skipped if verbose else ():
+        notice(visible_lines(skipped))
+    log = FoldedLog(whole=verbose)
+
+    def judge(scenario: Scenario, **given: Any) -> Verdict:
+        try:
+            return exercise.judge(scenario, **given)
+        finally:
+            log.end()
+
+    with ros_free(force=force):
+        packages.use(workspace)
+        exercise = Exercise(workspace, entrants, launch, tell=log.tell)
+        yield judge
+
+
+def _entrant(text: str) -> Entrant:
+    """Read [NODE=]WORDS."""
+    match = _IN_PLACE.fullmatch(text)
+    node, rest = (match[1], match[2]) if match else ("", text)
+    return Entrant(_words("--run", rest), node)
+
+
+def _words(option: str, text: str) -> tuple[str, ...]:
+    """Split words as a shell does.
+
+    Raises:
+        UsageError: If there is none, or a quote is not closed.
+    """
+    try:
+        words = tuple(shlex.split(text))
+    except ValueError as error:
+        raise UsageError(f"{option} {text!r}: {str(error).lower()}") from None
+    if not words:
+        raise UsageError(f"{option} wants what follows 'tftool {option[2:]}', not nothing")
+    return words

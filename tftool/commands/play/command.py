@@ -1,0 +1,173 @@
+"""`tftool play`: a recording as a session that lives."""
+
+import asyncio
+from dataclasses import dataclass
+from typing import Literal
+
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible
+from tftool.base.exit_status import ExitStatus
+from tftool.base.stamps import Duration, Stamp, as_seconds
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import join_or_host
+from tftool.commands.shared.keypresses import keyboard
+from tftool.commands.shared.notices import notice
+from tftool.commands.shared.playback import Display, press
+from tftool.frames.moment import At
+from tftool.opener import named
+from tftool.recordings.recording import Recording
+from tftool.recordings.timeline import Timeline
+from tftool.world.clock import Clock, FollowedClock
+from tftool.world.clock import run as run_loop
+from tftool.world.endpoints import PUBLISHER
+from tftool.world.link.feed import TopicFeed
+from tftool.world.link.session import Link
+from tftool.world.link.session_world import shared
+from tftool.world.nodes.player import Player
+from tftool.world.supervisor import beside, live
+from tftool.world.world import World
+
+
+def _refuse_to_mix(link: Link) -> None:
+    """Keep a recording's transforms out of the graph of a robot that sends its own.
+
+    Raises:
+        UsageError: If transforms are published there.
+    """
+    nodes = sorted({one.node for one in link.graph.entities(PUBLISHER, name="tf")})
+    if nodes:
+        some = ", ".join(f"'{visible(node)}'" for node in nodes[:3])
+        raise UsageError(
+            f"/tf has publishers here, {some}: what is played would mix with it, and a robot "
+            "would act on both. Choose another --domain, or --force it."
+        )
+
+
+def _span(
+    recording: Recording, timeline: Timeline, begin: At | None, until: At | None
+) -> tuple[Stamp, Stamp]:
+    """From where to where to play.
+
+    Raises:
+        UsageError: If there is nothing between.
+    """
+    # Received later than it was stamped, the last message lies behind the last stamp.
+    low, high = min(timeline.start, recording.start), max(timeline.end, recording.end)
+    first = timeline.start if begin is None else begin.stamp(recording.start)
+    last = timeline.end if until is None else until.stamp(recording.start)
+    for asked, stamp in ((begin, first), (until, last)):
+        if asked is not None and not low <= stamp <= high:
+            lasts = f"{as_seconds(high - recording.start):g} s"
+            raise UsageError(f"The recording lasts {lasts}: {asked} lies outside it.")
+    if first > last:
+        raise UsageError(f"--from {begin} lies after --to {until}.")
+    return first, last
+
+
+@dataclass(frozen=True, slots=True)
+class _Playing:
+    """What is to be played, and how; the fields are those of `Player`."""
+
+    recording: Recording
+    timeline: Timeline
+    span: tuple[Stamp, Stamp]
+    rate: float
+    is_paused: bool
+    is_looping: bool
+    is_restamped: bool
+    sends_all: bool
+    duration: Duration | None
+
+    async def play(self, pace: Clock, link: Link | None) -> None:
+        """Play, and share it."""
+        world = World(pace if self.is_restamped else FollowedClock(max(self.span[0], 1)))
+        with shared(link, world):
+            player = self._player(world, pace, link)
+            display = Display(player, pace)
+            stop_telling = world.log.listen(display.tell, "console")
+            try:
+                with keyboard(lambda key: press(player, key)) as display.has_keys:
+                    helper = self._until_over(world, pace, display)
+                    await beside(live(world), helper)
+            finally:
+                display.clear()
+                stop_telling()
+
+    def _player(self, world: World, pace: Clock, link: Link | None) -> Player:
+
+        return Player(
+            world,
+            "player",
+            timeline=self.timeline,
+            pace=pace,
+            span=self.span,
+            rate=self.rate,
+            is_paused=self.is_paused,
+            is_looping=self.is_looping,
+            is_restamped=self.is_restamped,
+            feed=self._feed(link) if self.sends_all else None,
+        )
+
+    def _feed(self, link: Link | None) -> TopicFeed | None:
+
+        if link is None:
+            notice("--all sends nothing else: no other process can join this world.")
+            return None
+        feed = TopicFeed(link, self.recording.source, self.timeline.clock, "player")
+        for sentence in feed.left_out:
+            notice(visible(sentence))
+        return feed
+
+    async def _until_over(self, world: World, pace: Clock, display: Display) -> None:
+        """Show where it stands; end the world when the time is up."""
+        showing = asyncio.ensure_future(display.keep())
+        try:
+            if self.duration is None:
+                await showing
+            else:
+                await pace.sleep(self.duration)
+                world.stop()
+        finally:
+            showing.cancel()
+
+
+def run(
+    connection: Connection,
+    file: str,
+    rate: float,
+    begin: At | None,
+    until: At | None,
+    loop: bool,
+    paused: bool,
+    restamp: Literal["now"] | None,
+    everything: bool,
+    force: bool,
+    run_for: int | None,
+) -> ExitStatus:
+    """Run `tftool play`; the parameters are its options."""
+    connection.refuse_read_only("play")
+    found = named(file)
+    if not found.kind.is_recording:
+        word = visible(file)
+        raise UsageError(f"'{word}' is a {found.kind.value}: a recording is needed here.")
+    recording = connection.open_stored(found)
+    assert isinstance(recording, Recording)
+    timeline = Timeline(recording.source, recording.transforms)
+    playing = _Playing(
+        recording,
+        timeline,
+        _span(recording, timeline, begin, until),
+        rate,
+        is_paused=paused,
+        is_looping=loop,
+        is_restamped=restamp is not None,
+        sends_all=everything,
+        duration=run_for,
+    )
+    # Last of all: while it has not been decided who hosts, other processes wait.
+    link = join_or_host(connection, file).link
+    if link is not None and connection.dds is not None and not force:
+        _refuse_to_mix(link)
+    pace = connection.providers.wall_clock()
+    run_loop(pace, playing.play(pace, link))
+    return ExitStatus.DONE

@@ -1,0 +1,65 @@
+"""`tftool ros2`: the words of ROS 2's own command line, over our sessions."""
+
+from pathlib import Path
+
+import typer
+
+from tftool.base.errors import NodeFailed, TftoolError, UsageError
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import NO_SESSION, open_session
+from tftool.commands.shared.notices import tell_record
+from tftool.ros import ros2 as ros2_command
+from tftool.ros import running
+from tftool.ros.host import user_code
+from tftool.ros.host.program import Program
+from tftool.ros.host.workspace import Workspace
+
+_ELSEWHERE = {
+    "run": "run",
+    "launch": "launch",
+    "bag info": "info",
+    "bag play": "play",
+    "bag record": "record",
+    "bag convert": "edit",
+    "doctor": "doctor",
+    "wtf": "doctor",
+    "pkg create": "new",
+}
+"""Words of ROS 2's command line that are commands of their own."""
+
+
+def run(
+    connection: Connection,
+    words: list[str],
+    place: str | None,
+    run_for: int | None,
+) -> int:
+    """Run `tftool ros2`; the parameters are its options."""
+    for length in (2, 1):
+        asked = " ".join(words[:length])
+        if asked in _ELSEWHERE:
+            raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here.")
+    workspace = Workspace(Path.cwd())
+    body = ros2_command.body(words, workspace, typer.echo)
+    if words[0] in ("interface", "pkg"):
+        body()
+        return 0
+    session = open_session(connection, place, needs_messages=True, because=NO_SESSION)
+    world = session.world
+    world.log.listen(
+        lambda record: tell_record(record) if record.level in ("WARN", "ERROR") else None, "console"
+    )
+    ending = running.Ending(world)
+
+    async def work() -> None:
+        Program(world, world.free_name("ros2"), user_code.whole(body), argv=words, on_exit=ending)
+        await running.until(world, ending.over, run_for)
+
+    session.run(work())
+    try:
+        return ending.judge()
+    except NodeFailed as failed:
+        # No program of the user's has failed: what was named is not there.
+        if isinstance(failed.__cause__, UsageError):
+            raise TftoolError(str(failed.__cause__)) from failed
+        raise

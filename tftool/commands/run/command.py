@@ -1,0 +1,126 @@
+"""`tftool run`: a node of the user's own, without ROS."""
+
+import itertools
+from collections.abc import Collection, Sequence
+
+from typer.models import Context
+
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import (
+    NO_SESSION,
+    open_empty_session,
+    open_session,
+    tell_where_to_look,
+)
+from tftool.commands.shared.notices import notice
+from tftool.commands.shared.options import refuse_long_simulation
+from tftool.commands.shared.programs import tell_log, workspace_here
+from tftool.commands.teleop.command import run as drive
+from tftool.ros import running
+from tftool.ros.host.importing import ros_free
+from tftool.ros.launch import packages
+from tftool.world.link.session_world import Session
+
+ROBOTS = ("robot_state_publisher", "joint_state_publisher")
+"""Packages whose nodes publish a robot."""
+
+
+KEYBOARD = ("turtlesim", "turtle_teleop_key")
+"""What `tftool teleop` stands for."""
+
+
+SIMULATED = "Simulated time is a world's own, and shares no session"
+
+
+def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
+    """Hints about words for the node that look like options of this command, or of ROS 2.
+
+    Args:
+        words: What stands after FILE.
+        own: The names of this command's options.
+    """
+    told = []
+    before = ""
+    for word in itertools.takewhile(lambda word: word != "--ros-args", words):
+        option = word.partition("=")[0]
+        if option.startswith("--") and option in own:
+            told.append(
+                f"'{visible(option)}' after FILE goes to the node; "
+                "tftool's own options stand before FILE."
+            )
+        elif before in ("-p", "-r", "--param", "--remap") and ":=" in word:
+            told.append(
+                f"'{before} {visible(word)}' goes to the node as it is; "
+                "ROS 2's arguments stand after --ros-args."
+            )
+        before = word
+    return told
+
+
+def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
+    """The session a node runs in; `alone` brings all there is to see."""
+    if alone:
+        return open_empty_session(connection, simulated=simulated)
+    return open_session(
+        connection,
+        place,
+        simulated=simulated,
+        head_start=0,
+        needs_messages=True,
+        without=None if place else lambda node: node.kind != "turtlesim",
+        because=SIMULATED if simulated else NO_SESSION,
+    )
+
+
+def run(
+    connection: Connection,
+    context: Context,
+    target: str,
+    rest: list[str] | None,
+    place: str | None,
+    force: bool,
+    run_for: int | None,
+    simulated: bool,
+    verbose: bool,
+) -> int:
+    """Run `tftool run`; the parameters are its options."""
+    if simulated and run_for is None:
+        raise UsageError("on simulated time a run needs an end: --for SECONDS")
+    if simulated:
+        refuse_long_simulation(run_for)
+    words = list(rest or [])
+    own = {name for option in context.command.params for name in option.opts if name[0] == "-"}
+    for word in misplaced(words, own):
+        notice(word)
+    workspace = workspace_here(verbose=verbose)
+    if (target, *words[:1]) == KEYBOARD and target not in workspace.packages:
+        if place is not None or simulated or run_for is not None:
+            raise UsageError(
+                "'turtlesim turtle_teleop_key' reads keys until q is pressed, in the session "
+                "that runs or beside a turtle of its own; --in, --for and --simulated go with nodes"
+            )
+        return drive(
+            connection, running.driven_turtle(words[1:]), None, ascii_only=False, light=False
+        )
+    # These bring all there is to see; turtles have no place beside them.
+    simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
+    alone = simulator or (target in ROBOTS and place is None)
+    with ros_free(force=force):
+        packages.use(workspace)
+        running.check_program(workspace, target, words)
+        session = _opened(connection, place, alone=alone, simulated=simulated)
+        connection.tell_read_only()
+        tell_where_to_look(connection, session)
+        world = session.world
+        tell_log(world)
+        ending: list[running.Ending] = []
+
+        async def work() -> None:
+            ending.append(running.Ending(world))
+            running.start_program(world, workspace, target, words, on_exit=ending[0])
+            await running.until(world, ending[0].over, run_for)
+
+        session.run(work())
+        return ending[0].judge()

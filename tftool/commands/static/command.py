@@ -1,0 +1,82 @@
+"""`tftool static`: publish one transform that holds for all time."""
+
+import os
+import sys
+
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible
+from tftool.base.exit_status import ExitStatus
+from tftool.buffer.sample import TransformStamped
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import open_empty_session
+from tftool.commands.shared.notices import notice
+from tftool.drawing.pose_words import lines
+from tftool.geometry.notation.static_arguments import StaticArguments, advice, parse
+from tftool.world.link.session_world import Session
+
+
+def publish(connection: Connection, said: StaticArguments, *, spin: bool) -> None:
+    """Publish a static transform, say what it is, and hold on to it.
+
+    Raises:
+        UsageError: If no buffer would take it, or nothing is to be published.
+    """
+    connection.refuse_read_only("publish")
+    if said.parent == said.child:
+        raise UsageError(
+            f"cannot publish static transform from '{said.parent}' to '{said.child}': "
+            "child_frame_id cannot equal frame_id."
+        )
+    session = open_empty_session(connection)
+    session.run(_published(session, said, spin))
+
+
+async def _published(session: Session, said: StaticArguments, spin: bool) -> None:
+
+    world = session.world
+    name = f"static_transform_publisher_{os.getpid()}"
+    sample = TransformStamped(world.clock.now(), said.parent, said.child, said.transform)
+    world.broadcast([sample], name, static=True)
+    if not world.static_transforms(name):
+        raise UsageError(world.log.records[-1].text)
+    for sentence in advice(said):
+        notice(visible(sentence))
+    if spin:
+        sys.stdout.write("Spinning until stopped - publishing transform\n")
+    sys.stdout.write(lines(said.parent, said.child, said.transform))
+    sys.stdout.flush()
+    if spin:
+        await session.lasting(None)
+
+
+def run(
+    connection: Connection,
+    words: list[str] | None,
+    x: str | None,
+    y: str | None,
+    z: str | None,
+    roll: str | None,
+    pitch: str | None,
+    yaw: str | None,
+    qx: str | None,
+    qy: str | None,
+    qz: str | None,
+    qw: str | None,
+    frame_id: str | None,
+    child_frame_id: str | None,
+    once: bool,
+) -> ExitStatus:
+    """Run `tftool static`; the parameters are its options."""
+    given = {
+        "x": x, "y": y, "z": z, "roll": roll, "pitch": pitch, "yaw": yaw,
+        "qx": qx, "qy": qy, "qz": qz, "qw": qw,
+        "frame-id": frame_id, "child-frame-id": child_frame_id,
+    }  # fmt: skip
+    options = [
+        word for name, value in given.items() if value is not None for word in (f"--{name}", value)
+    ]
+    said = parse([*(words or ()), *options])
+    if said is None:  # pragma: no cover - help never comes this far
+        return ExitStatus.DONE
+    publish(connection, said, spin=not once)
+    return ExitStatus.DONE

@@ -1,0 +1,273 @@
+"""`tftool view`: the frames in 3-D, in a browser."""
+
+import asyncio
+import shutil
+import sys
+import webbrowser
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.escaping import visible
+from tftool.base.exit_status import ExitStatus
+from tftool.base.short_numbers import short_size
+from tftool.base.stamps import Duration, as_seconds
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import first_look, open_session, recording_of, refuse_to_share
+from tftool.commands.shared.interrupts import interruptible
+from tftool.commands.shared.notices import notice
+from tftool.commands.shared.recorded import Bar
+from tftool.commands.shared.robot_at_rest import (
+    RobotAtRest,
+    StoredFrames,
+    load_described,
+    tell_beyond,
+)
+from tftool.commands.shared.stored import stored_frames
+from tftool.frames.export.trajectory_files import whole_file
+from tftool.opener import named
+from tftool.recordings.find import Found, Kind
+from tftool.recordings.target import refuse_existing
+from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import parse_description
+from tftool.screens.browser.live_messages import LiveDisplays
+from tftool.screens.browser.meshes import MeshFolders
+from tftool.screens.browser.recorded_messages import IN_A_FILE, recorded_tracks, tracks_named
+from tftool.screens.browser.robots import ShownRobot
+from tftool.screens.browser.server import PageServer
+from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
+from tftool.screens.first_moment import first_moment
+from tftool.world.link.session_world import Session, lived
+from tftool.world.nodes.joints import (
+    DESCRIPTION,
+    LATCHED,
+    JointStatePublisher,
+    RobotStatePublisher,
+    description_type,
+)
+from tftool.world.world import World
+
+_MOST_TOLD = 5
+
+
+def _write(
+    connection: Connection,
+    place: str | None,
+    output: Path,
+    run_for: Duration | None,
+    meshes: Sequence[Path],
+    force: bool,
+    open_browser: bool,
+) -> ExitStatus:
+    """Write the page with its data into one file."""
+    if output.suffix.lower() not in (".html", ".htm"):
+        raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
+    refuse_existing(output, force=force)
+    data = _page_data(connection, place, run_for, meshes)
+    if not data.buffer.frames():
+        raise InputError(f"{visible(data.name)} has no frames: there is nothing to show.")
+    bar = Bar("Packing")
+    with interruptible(), whole_file(output, force=force) as file:
+        try:
+            page = standalone_page(data, progress=bar)
+        finally:
+            bar.stop()
+        file.write(page.content)
+    if data.robot is not None:
+        _tell_missing(data.robot)
+    size = len(page.content)
+    notice(visible(f"Wrote {output}, {short_size(size)}: it opens in any browser, from disk."))
+    if page.is_rounded:
+        notice(
+            "Its numbers are rounded to a micrometre, and to 1e-7 in quaternions, because all "
+            f"digits would not fit {MOST_BYTES / 1e6:g} MB."
+        )
+    if size > MOST_BYTES:
+        notice("'tftool edit --from --to' cuts a part out of a recording, which is smaller.")
+    if open_browser and not webbrowser.open(output.resolve().as_uri()):
+        notice("No browser could be started: open the file yourself.")
+    return ExitStatus.DONE
+
+
+def _page_data(
+    connection: Connection, place: str | None, run_for: Duration | None, meshes: Sequence[Path]
+) -> StandaloneData:
+    """Read or listen to everything that a page without a server shows."""
+    published: list[ShownRobot] = []
+    displays: list[LiveDisplays] = []
+
+    def listen(world: World) -> None:
+        _hear_description(world, published.append, meshes)
+        displays.append(LiveDisplays(world, IN_A_FILE))
+
+    stored = stored_frames(connection, place, run_for, beside=listen)
+    # 0 would mean the latest; what only holds at all times has no other moment.
+    epoch = max(1, stored.start)
+    now = max(epoch, stored.end)
+    robot = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
+    begin = first_moment(stored.buffer, epoch, now)
+    recording = recording_of(stored)
+    if recording is not None:
+        tracks = recorded_tracks(recording, IN_A_FILE)
+    else:
+        tracks = [track for one in displays for track in one.latest(IN_A_FILE.points)]
+    return StandaloneData(stored.name, stored.buffer, epoch, now, begin, robot, tracks=tracks)
+
+
+def _robot_of(
+    connection: Connection, stored: StoredFrames, meshes: Sequence[Path]
+) -> ShownRobot | None:
+    """The robot of a description, or that of a recording."""
+    robot = getattr(stored, "robot", None)
+    if robot is None:
+        return None
+
+    described = connection.robot.urdf
+    rest = None
+    if isinstance(stored, RobotAtRest):
+        described = named(stored.name).paths[0]
+        rest = robot.positions(connection.robot.joints)
+    return ShownRobot(robot, MeshFolders(described, meshes), rest=rest)
+
+
+def _alive(
+    connection: Connection, found: Found, meshes: Sequence[Path]
+) -> "tuple[Session, ShownRobot]":
+    """A world with one robot, whose joints the page moves."""
+    refuse_to_share(connection, found.name)
+    robot = load_described(found, connection.robot)
+    joints = connection.robot.joints
+    robot.positions(joints)
+    tell_beyond(robot, joints)
+    world = World(connection.providers.wall_clock())
+    RobotStatePublisher(world, robot=robot, publish_frequency=0.0)
+    mover = JointStatePublisher(world, robot=robot, positions=joints, rate=30.0)
+    name = f"robot description '{visible(found.name)}'"
+    session = Session(world, True, name, lived(world, None, "host"))
+    return session, ShownRobot(robot, MeshFolders(found.paths[0], meshes), mover)
+
+
+def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
+    """Show the robot whose description is published, as soon as it is."""
+
+    def show(shown: ShownRobot) -> None:
+        page.show_robot(shown)
+        _tell_missing(shown)
+
+    _hear_description(session.world, show, meshes)
+
+
+def _hear_description(
+    world: World, show: Callable[[ShownRobot], object], meshes: Sequence[Path]
+) -> None:
+    """Hand on each robot whose description is published."""
+
+    def described(message: Any) -> None:
+        try:
+            robot = Robot(parse_description(message.data))
+        except InputError as error:
+            notice(f"The description on /{DESCRIPTION} is not shown: {visible(str(error))}")
+            return
+        show(ShownRobot(robot, MeshFolders(given=meshes)))
+
+    world.subscribe("view", DESCRIPTION, description_type(), described, LATCHED)
+
+
+def _tell_missing(shown: ShownRobot) -> None:
+
+    missing = shown.missing
+    for sentence in missing[:_MOST_TOLD]:
+        notice(f"A box stands for a mesh: {visible(sentence)}.")
+    if len(missing) > _MOST_TOLD:
+        notice(f"... and for {len(missing) - _MOST_TOLD} more.")
+
+
+async def _show(
+    session: Session, page: PageServer, duration: Duration | None, open_browser: bool
+) -> None:
+
+    async with page:
+        if page.asked_port not in (0, page.port):
+            notice(f"Port {page.asked_port} is not free: taking {page.port}.")
+        # What is all there is shown from its beginning on, and stands still.
+        begin = first_look(session)
+        at = 0 if begin is None else as_seconds(begin - session.world.clock.epoch)
+        url = page.url if begin is None else f"{page.url}#at={at:.9f}"
+        said = f"The frames of {session.name} are at"
+        # An address that is broken at the edge of the terminal cannot be clicked.
+        is_long = len(f"{said} {url}") > shutil.get_terminal_size().columns
+        between = "\n" if is_long and sys.stdout.isatty() else " "
+        sys.stdout.write(f"{said}{between}{url}\n")
+        sys.stdout.flush()
+        if open_browser and not await _opened(url):
+            notice("No browser could be started: open that address yourself.")
+        tasks = {
+            asyncio.ensure_future(page.run()),
+            asyncio.ensure_future(session.lasting(duration)),
+        }
+        try:
+            ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            for task in ended:
+                task.result()
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def _opened(url: str) -> bool:
+
+    # Some browsers are started and waited for: not in the loop the world lives in.
+    return await asyncio.get_running_loop().run_in_executor(None, webbrowser.open, url)
+
+
+def run(
+    connection: Connection,
+    place: str | None,
+    port: int,
+    open_browser: bool,
+    run_for: int | None,
+    rate: float,
+    cache_time: int | None,
+    meshes: list[Path] | None,
+    output: Path | None,
+    force: bool,
+) -> ExitStatus:
+    """Run `tftool view`; the parameters are its options."""
+    if output is not None:
+        if cache_time is not None:
+            raise UsageError("A file holds everything: leave out --cache-time.")
+        return _write(connection, place, output, run_for, meshes or [], force, open_browser)
+    if force:
+        raise UsageError("--force goes with -o FILE.")
+    try:
+        from tftool.screens.browser.server import PageServer
+    except ModuleNotFoundError as error:
+        if error.name is None or error.name.partition(".")[0] != "websockets":
+            raise
+        raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
+
+    found = None if place is None else named(place)
+    shown = None
+    if found is not None and found.kind is Kind.DESCRIPTION:
+        session, shown = _alive(connection, found, meshes or [])
+    else:
+        session = open_session(connection, place, cache_time=cache_time)
+        if session.robot is not None:
+            folders = MeshFolders(connection.robot.urdf, meshes or [])
+            shown = ShownRobot(session.robot, folders)
+    page = PageServer(session.world, port=port, rate=rate, tell=notice, name=session.name)
+    recording = session.recording
+    if recording is not None:
+        page.show_tracks(partial(tracks_named, recording.name))
+    else:
+        page.show_live(LiveDisplays(session.world))
+    if shown is not None:
+        page.show_robot(shown)
+        _tell_missing(shown)
+    else:
+        _listen(session, page, meshes or [])
+    session.run(_show(session, page, run_for, open_browser))
+    return ExitStatus.DONE
