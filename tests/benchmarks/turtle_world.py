@@ -4,7 +4,7 @@ import statistics
 import time
 
 from tftool.base.stamps import as_seconds, seconds
-from tftool.messages.turtle_values import Color
+from tftool.messages.turtle_messages import ColorMessage
 from tftool.scenario import builtin, load
 from tftool.scenario.play import run_scenario
 from tftool.world.clock import SimClock, run
@@ -45,7 +45,7 @@ def rounds(*, square: bool, color: bool = False, count: int = 7) -> list[float]:
             DrawSquare(world, reset=False)
         if color:
             for number in (1, 2):
-                world.topic(f"turtle{number}/color_sensor", Color).subscribe(lambda _: None)
+                world.topic(f"turtle{number}/color_sensor", ColorMessage).subscribe(lambda _: None)
         started = time.process_time()
         run(world.clock, live(world, until=world.clock.epoch + seconds(SIMULATED)))
         ratios.append(SIMULATED / (time.process_time() - started))

@@ -4,7 +4,7 @@ import pytest
 
 from tftool.base.errors import UsageError
 from tftool.commands.teleop.command import press_there
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.turtle_messages import Pose, Twist
 from tftool.screens.terminal import run_screen as showing
 from tftool.world.clock import SimClock, run
 from tftool.world.nodes.turtle_teleop import BANNER
@@ -63,8 +63,8 @@ def test_what_cannot_be_pressed_is_refused_with_a_sentence(tftool, words, senten
 
 def test_a_turtle_that_is_not_in_the_joined_session_is_told_with_those_that_are():
     world = World(SimClock())
-    world.topic("turtle1/pose", Pose2D)
-    world.topic("turtle2/pose", Pose2D)
+    world.topic("turtle1/pose", Pose)
+    world.topic("turtle2/pose", Pose)
 
     with pytest.raises(UsageError, match="no turtle 'bob' here; there are turtle1, turtle2"):
         run(world.clock, press_there(world, "bob", ["up"]))
@@ -105,13 +105,7 @@ def test_on_a_terminal_the_banner_comes_first_and_the_keys_drive(tftool, pressin
     assert result.status == 0
     assert result.out == "\n".join(BANNER) + "\n"
     assert app.scene.simulator.turtles["turtle1"].pose.linear_velocity >= 0.0
-    assert app.scene.world.topic("turtle1/cmd_vel", _twist()).latest.linear_x == 2.0
-
-
-def _twist():
-    from tftool.geometry.motion.twist import Twist2D
-
-    return Twist2D
+    assert app.scene.world.topic("turtle1/cmd_vel", Twist).latest.linear.x == 2.0
 
 
 def test_a_turtle_that_is_not_there_is_told_when_a_key_is_pressed(tftool, pressing):

@@ -6,6 +6,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
+from tftool.base.color import Color
 from tftool.drawing import paper, sprites, theme
 from tftool.drawing.canvas import Canvas
 from tftool.drawing.plane import (
@@ -18,7 +19,6 @@ from tftool.drawing.plane import (
     grid_step,
 )
 from tftool.geometry.motion.unicycle import CENTRE, FIELD
-from tftool.messages.turtle_values import Color
 
 PEN = Color(179, 184, 255)
 

@@ -1,7 +1,7 @@
 import pytest
 
+from tftool.base.color import BACKGROUND
 from tftool.drawing import theme
-from tftool.messages.turtle_values import BACKGROUND
 
 
 def test_a_name_has_one_colour_and_neighbours_differ():

@@ -48,10 +48,10 @@ def test_the_square_is_drawn_and_mimicked(ros_runtime):
         ros_runtime, "turtlesim", "mimic", "--ros-args",
         "-r", "/input/pose:=/s1/turtle1/pose", "-r", "/output/cmd_vel:=/s2/turtle1/cmd_vel",
     )  # fmt: skip
-    from tftool.geometry.motion.twist import Twist2D
+    from tftool.messages.turtle_messages import Twist, twist
 
     def drive():
-        ros_runtime.world.topic("s1/turtle1/cmd_vel", Twist2D).publish(Twist2D(1.0))
+        ros_runtime.world.topic("s1/turtle1/cmd_vel", Twist).publish(twist(1.0))
 
     ros_runtime.sleep(0.1)
     ros_runtime.ask(drive)

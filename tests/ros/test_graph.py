@@ -2,7 +2,7 @@
 
 import pytest
 
-from tftool.messages.turtle_values import KeyPress
+from tftool.world.nodes.turtle_teleop import KeyPress
 from tftool.world.nodes.turtlesim import Turtlesim
 
 

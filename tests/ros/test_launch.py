@@ -585,7 +585,7 @@ def test_every_element_of_xml_has_its_meaning(tmp_path):
 def test_the_tutorial_runs_live_too():
     import asyncio
 
-    from tftool.geometry.motion.twist import Twist2D
+    from tftool.messages.turtle_messages import Twist
     from tftool.ros.launch import packages
     from tftool.ros.launch.engine import Launch
     from tftool.world.clock import WallClock, run
@@ -594,14 +594,14 @@ def test_the_tutorial_runs_live_too():
 
     async def until_driven(world):
         driven = asyncio.Event()
-        world.topic("turtle2/cmd_vel", Twist2D).subscribe(lambda twist: driven.set())
+        world.topic("turtle2/cmd_vel", Twist).subscribe(lambda twist: driven.set())
         living = asyncio.ensure_future(live(world))
         waiting = asyncio.ensure_future(driven.wait())
         await asyncio.wait({living, waiting}, return_when=asyncio.FIRST_COMPLETED)
         for task in (living, waiting):
             task.cancel()
         await asyncio.gather(living, waiting, return_exceptions=True)
-        return world.topic("turtle2/cmd_vel", Twist2D).latest
+        return world.topic("turtle2/cmd_vel", Twist).latest
 
     with ros_free():
         workspace = Workspace(TUTORIAL)
@@ -611,8 +611,8 @@ def test_the_tutorial_runs_live_too():
         first = run(world.clock, until_driven(world))
 
     # The first command is the tutorial's, from where both turtles stand at the start.
-    assert first.linear_x == pytest.approx(1.933157795, abs=1e-6)
-    assert first.angular_z == pytest.approx(1.159866862, abs=1e-4)
+    assert first.linear.x == pytest.approx(1.933157795, abs=1e-6)
+    assert first.angular.z == pytest.approx(1.159866862, abs=1e-4)
 
 
 def test_a_command_for_a_text_has_a_time_limit(tmp_path, monkeypatch):

@@ -125,7 +125,8 @@ def test_our_own_nodes_may_ask_a_users_service(node, ros_runtime):
 
     from turtlesim.srv import Spawn as RosSpawn
 
-    from tftool.messages.turtle_values import Spawn
+    from tftool.messages.classes import build
+    from tftool.messages.turtle_messages import Spawn
 
     def spawn(request, response):
         response.name = f"{request.name} at {request.x}"
@@ -135,7 +136,9 @@ def test_our_own_nodes_may_ask_a_users_service(node, ros_runtime):
     answers = []
 
     async def ask():
-        answers.append(await ros_runtime.world.call("spawn", Spawn(1.5, 2.0, name="me")))
+        answers.append(
+            await ros_runtime.world.call("spawn", build(Spawn.Request, 1.5, 2.0, name="me"))
+        )
 
     import asyncio
 

@@ -123,13 +123,13 @@ def test_what_is_no_type_or_callback_is_refused(node, make, told):
 def test_points_travel_as_our_own_nodes_send_them(node, ros_runtime):
     from geometry_msgs.msg import PointStamped as RosPoint
 
-    from tftool.messages.turtle_values import PointStamped
+    from tftool.messages.turtle_messages import PointStamped, point_stamped
 
     heard = []
     node.create_subscription(RosPoint, "points", heard.append, 1)
     ros_runtime.ask(
         lambda: ros_runtime.world.topic("points", PointStamped).publish(
-            PointStamped(1_500_000_000, "world", 1.0, 2.0, 3.0)
+            point_stamped(1_500_000_000, "world", 1.0, 2.0, 3.0)
         )
     )
     spin(node, 0.1)

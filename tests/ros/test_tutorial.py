@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 from tests.ros.tutorial import TUTORIAL, start
-from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_messages import Twist, twist
 from tftool.ros.testing import RosRuntime
 from tftool.world.nodes.turtlesim import Turtlesim
 
@@ -45,9 +45,9 @@ def commands(runtime, turtle="turtle2"):
 
     def told(twist):
         place = world.node("turtlesim").turtles[turtle].place
-        rows.append((runtime.elapsed(), *place, twist.linear_x, twist.angular_z))
+        rows.append((runtime.elapsed(), *place, twist.linear.x, twist.angular.z))
 
-    runtime.ask(lambda: world.topic(f"{turtle}/cmd_vel", Twist2D).subscribe(told))
+    runtime.ask(lambda: world.topic(f"{turtle}/cmd_vel", Twist).subscribe(told))
     return rows
 
 
@@ -140,7 +140,7 @@ def test_a_parameter_callback_judges_what_is_set(ros_runtime):
     assert not successful
     assert "is of type {DOUBLE}, setting it to {INTEGER} is not allowed: write 1.0" in reason
     ros_runtime.sleep(1)
-    assert ros_runtime.world.topic("turtle1/cmd_vel", Twist2D).latest == Twist2D(0.5)
+    assert ros_runtime.world.topic("turtle1/cmd_vel", Twist).latest == twist(0.5)
 
 
 def test_ctrl_c_reaches_every_node_and_destroys_it(tmp_path):

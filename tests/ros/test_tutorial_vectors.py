@@ -8,8 +8,8 @@ from tests.ros.tutorial import TUTORIAL, start
 from tests.world.nodes.harness import After, At, Before, log_texts, new_world, play
 from tests.world.nodes.loop import Loop
 from tests.world.nodes.vectors import VECTORS, close, ids, rows
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.turtle_values import Kill, Spawn, TeleportAbsolute
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Kill, Spawn, TeleportAbsolute, Twist, twist
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
@@ -150,7 +150,7 @@ def test_travelling_in_time_steers_as_the_reference_does(case):
     world, loop = stage(
         last,
         [(-period, (program, "--ros-args", "-p", f"period:={period}"))],
-        turtles=[Spawn(4.0, 2.0, 0.0, "turtle2")],
+        turtles=[build(Spawn.Request, 4.0, 2.0, 0.0, "turtle2")],
         square=True,
     )
     play(world, HEAD_START + last)
@@ -165,7 +165,11 @@ def test_a_lost_leader_is_followed_blindly_until_the_cache_forgets():
     expected = rows(case)
     last = expected[-1]["t"]
     world, loop = stage(last, [listener(case["period"])])
-    After(world, (HEAD_START + 2.1, lambda: world.call("kill", Kill("turtle1"))), name="killer")
+    After(
+        world,
+        (HEAD_START + 2.1, lambda: world.call("kill", build(Kill.Request, "turtle1"))),
+        name="killer",
+    )
     play(world, HEAD_START + last)
 
     assert loop.errors(expected) == {}
@@ -183,16 +187,16 @@ def test_one_look_at_the_leader_gives_the_command_of_the_reference(case):
     async def place():
         for name in ("turtle1", "turtle2"):
             x, y, theta = case[name]
-            request = TeleportAbsolute(x + aside, y + aside, theta)
+            request = build(TeleportAbsolute.Request, x + aside, y + aside, theta)
             await world.call(f"{name}/teleport_absolute", request)
 
     At(world, (HEAD_START - 0.5, place))
     play(world, HEAD_START)
     command = loop.commands[0.0]
 
-    assert close(command.linear_x, case["linear"], "linear")
+    assert close(command.linear.x, case["linear"], "linear")
     # Straight behind, either way round is the shorter one.
-    angular = abs(command.angular_z) if case["angular"] > 3.14159 else command.angular_z
+    angular = abs(command.angular.z) if case["angular"] > 3.14159 else command.angular.z
     assert close(angular, case["angular"], "angular")
 
 
@@ -248,7 +252,7 @@ def test_the_static_turtles_arguments_mean_what_the_reference_says(case):
 @pytest.mark.parametrize("case", VECTORS["rotate_absolute"], ids=ids(VECTORS["rotate_absolute"]))
 def test_the_action_client_hears_of_a_rotation_what_the_reference_says(case):
     world = new_world()
-    probe = Spawn(5.5, 5.5, case["start_theta"], "probe")
+    probe = build(Spawn.Request, 5.5, 5.5, case["start_theta"], "probe")
     sim = Turtlesim(world, turtles=[probe])
     patience = ["10"] if case["outcome"] == "canceled" else []
     start(
@@ -258,8 +262,8 @@ def test_the_action_client_hears_of_a_rotation_what_the_reference_says(case):
         *("--ros-args", "-r", "/turtle1/rotate_absolute:=/probe/rotate_absolute"),
     )
     if case["outcome"] == "aborted":
-        stop = world.topic("probe/cmd_vel", Twist2D)
-        At(world, (0.16, lambda: stop.publish(Twist2D())))
+        stop = world.topic("probe/cmd_vel", Twist)
+        At(world, (0.16, lambda: stop.publish(twist())))
     play(world, 4.0)
 
     delta, count = f"{case['result_delta']:.4f}", case["feedback_count"]

@@ -11,7 +11,7 @@ import pytest
 import tftool
 from tftool.base.errors import NodeFailed, ScenarioError, TftoolError, UsageError
 from tftool.base.stamps import seconds
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.turtle_messages import Pose
 from tftool.scenario import builtin
 from tftool.scenario.load import load, parse
 from tftool.scenario.play import build, left_to_a_person, run_scenario
@@ -185,7 +185,7 @@ FIELD = "duration: 5 s\nnodes:\n  - turtlesim\n  - broadcaster: {turtle: turtle1
 
 def pose(played, turtle="turtle1"):
     """Where a turtle ended up."""
-    return played.world.topic(f"{turtle}/pose", Pose2D).latest
+    return played.world.topic(f"{turtle}/pose", Pose).latest
 
 
 def test_a_drive_moves_for_its_time_and_stops():

@@ -2,12 +2,13 @@ import math
 
 import pytest
 
+from tftool.base.color import Color
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.drawing import theme
 from tftool.geometry.planar import heading
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Clear, Color
+from tftool.messages.turtle_messages import Empty
 from tftool.screens.terminal import frames_picture as frames_seen
 from tftool.screens.terminal.scene import Scene
 from tftool.world.clock import run
@@ -130,7 +131,7 @@ def test_a_wiped_trail_can_be_gone_back_to(turtles):
 
 
 def _clear(world):
-    return world.call("clear", Clear())
+    return world.call("clear", Empty.Request())
 
 
 def test_a_wiped_trail_is_forgotten_with_the_buffer(turtles):

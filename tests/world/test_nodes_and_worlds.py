@@ -7,7 +7,8 @@ from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Pose
 from tftool.world.clock import Phase, SimClock, run
 from tftool.world.node import Node
 from tftool.world.supervisor import live
@@ -139,8 +140,8 @@ def test_a_node_that_raises_ends_the_run_and_is_named():
 def test_a_subscriber_that_raises_is_blamed_and_not_the_publisher():
     world = World(SimClock())
     listener = Node(world, "listener")
-    listener.subscribe("pose", Pose2D, lambda _: 1 / 0)
-    Script(world, "talker", seconds(1), lambda: listener.publish("pose", Pose2D(0, 0, 0)))
+    listener.subscribe("pose", Pose, lambda _: 1 / 0)
+    Script(world, "talker", seconds(1), lambda: listener.publish("pose", build(Pose, 0, 0, 0)))
 
     with pytest.raises(NodeFailed, match="'listener'"):
         lived(world)
@@ -193,14 +194,14 @@ def test_a_node_may_join_and_leave_a_living_world():
 def test_a_node_that_leaves_takes_its_subscriptions_and_services_along():
     world = World(SimClock())
     node = Node(world, "listener")
-    node.subscribe("pose", Pose2D, lambda _: None)
+    node.subscribe("pose", Pose, lambda _: None)
     node.serve("spawn", lambda _: None)
     node.serve_action("rotate", lambda _: None)
     Script(world, "bouncer", seconds(1), lambda: world.remove(node))
 
     lived(world)
 
-    assert world.topic("pose", Pose2D).subscribers == 0
+    assert world.topic("pose", Pose).subscribers == 0
     assert not world.has_service("spawn")
     assert not world.actions()
 
@@ -321,9 +322,9 @@ def test_a_log_keeps_its_lines_and_hands_them_on():
 def test_a_callback_that_fails_while_nobody_runs_the_world_raises_where_it_is():
     world = World(SimClock())
     node = Node(world, "listener")
-    node.subscribe("pose", Pose2D, lambda _: 1 / 0)
+    node.subscribe("pose", Pose, lambda _: 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        node.publish("pose", Pose2D(0, 0, 0))
+        node.publish("pose", build(Pose, 0, 0, 0))
 
 
 def test_what_a_node_started_beside_its_run_fails_as_the_node_with_its_line():
@@ -398,10 +399,10 @@ def test_a_node_that_awaits_what_another_one_cancelled_has_failed():
 def test_an_observer_that_raises_is_told_of_under_its_own_name_and_harms_no_node():
     world = World(SimClock())
     node = Node(world, "talker")
-    world.topic("pose", Pose2D).subscribe(lambda _: 1 / 0, "plotter")
+    world.topic("pose", Pose).subscribe(lambda _: 1 / 0, "plotter")
     heard = []
-    world.topic("pose", Pose2D).subscribe(heard.append)
-    Script(world, "hands", seconds(1), lambda: node.publish("pose", Pose2D(0, 0, 0)))
+    world.topic("pose", Pose).subscribe(heard.append)
+    Script(world, "hands", seconds(1), lambda: node.publish("pose", build(Pose, 0, 0, 0)))
 
     lived(world)
 
@@ -434,11 +435,11 @@ def test_each_registration_of_one_callback_stands_alone(place):
 
     register, act = {
         "topic": (
-            world.topic("pose", Pose2D).subscribe,
-            lambda: node.publish("pose", Pose2D(0, 0, 0)),
+            world.topic("pose", Pose).subscribe,
+            lambda: node.publish("pose", build(Pose, 0, 0, 0)),
         ),
         "log": (world.log.listen, lambda: node.info("said")),
-        "watch": (world.watch, lambda: world.topic("new", Pose2D)),
+        "watch": (world.watch, lambda: world.topic("new", Pose)),
         "buffer": (world.buffer.listen, lambda: node.broadcast(transform("turtle1"))),
     }[place]
     first = register(callback)

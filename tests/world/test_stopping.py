@@ -17,7 +17,7 @@ PROGRAM = """\
 import asyncio, resource, sys, tty
 from tftool import Node, SimClock, WallClock, World, live, run, seconds
 from tftool.base.errors import NodeFailed
-from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_messages import twist
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world import clock as clocks
 
@@ -52,7 +52,7 @@ PUBLISHES = """
         await self.clock.sleep(1)
         for count in (1_000, 1_000_000):
             for _ in range(count):
-                self.publish("turtle1/cmd_vel", Twist2D(1.0, 1.0))
+                self.publish("turtle1/cmd_vel", twist(1.0, 1.0))
             print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, flush=True)
         self.world.stop()
 """

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_messages import Twist, twist
 from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
 from tftool.world.topics import GoalHandle
@@ -14,7 +14,7 @@ def test_a_watcher_is_told_of_topics_services_actions_and_nodes():
     seen = []
     stop = world.watch(lambda: seen.append((sorted(world.topics()), sorted(world.services()))))
 
-    world.topic("turtle1/cmd_vel", Twist2D)
+    world.topic("turtle1/cmd_vel", Twist)
     withdraw = world.serve("spawn", lambda request: request)
     withdraw()
     world.serve_action("rotate", lambda goal: None)
@@ -28,7 +28,7 @@ def test_a_watcher_is_told_of_topics_services_actions_and_nodes():
     assert seen[1][1] == ["spawn"]
     assert seen[2][1] == []
     stop()
-    world.topic("late", Twist2D)
+    world.topic("late", Twist)
     assert len(seen) == 7
 
 
@@ -37,18 +37,18 @@ def test_a_watcher_hears_of_a_topic_before_its_first_value():
     heard = []
 
     def listen():
-        world.topic("new", Twist2D).subscribe(heard.append)
+        world.topic("new", Twist).subscribe(heard.append)
         stop()
 
     stop = world.watch(listen)
-    world.topic("new", Twist2D).publish(Twist2D(1.0))
+    world.topic("new", Twist).publish(twist(1.0))
 
-    assert heard == [Twist2D(1.0)]
+    assert heard == [twist(1.0)]
 
 
 def test_a_topic_tells_of_demand_when_a_listener_comes_and_when_it_goes():
     world = World(SimClock())
-    world.topic("new", Twist2D)
+    world.topic("new", Twist)
     topic = world.topics()["new"]
     counts = []
     topic.on_demand = lambda: counts.append(topic.subscribers)

@@ -3,8 +3,8 @@
 import math
 from typing import TypeAlias
 
+from tftool.base.color import Color
 from tftool.drawing.sprites import Cell
-from tftool.messages.turtle_values import Color
 
 PIXELS_PER_METRE = 45.0
 

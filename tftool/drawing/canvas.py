@@ -13,6 +13,7 @@ from typing import Final, TypeAlias
 
 from rich.segment import Segment
 
+from tftool.base.color import Color
 from tftool.base.fixed_width import fitted
 from tftool.drawing import sprites, theme
 from tftool.drawing.braille_trail import Ink, LooseInk, Stroke, sign_of
@@ -40,7 +41,6 @@ from tftool.drawing.plane import (
 )
 from tftool.drawing.sprites import Cell
 from tftool.geometry.motion.unicycle import FIELD
-from tftool.messages.turtle_values import Color
 
 _Overlay: TypeAlias = dict[int, dict[int, Cell]]
 

@@ -8,9 +8,9 @@ from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 
+from tftool.base.color import Color
 from tftool.drawing import theme
 from tftool.drawing.sprites import Cell
-from tftool.messages.turtle_values import Color
 
 Line: TypeAlias = list[Segment]
 

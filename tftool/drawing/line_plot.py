@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 from rich.text import Text
 
+from tftool.base.color import Color
 from tftool.base.escaping import visible
 from tftool.base.fixed_width import fitted
 from tftool.base.stamps import Stamp
@@ -26,7 +27,6 @@ from tftool.frames.pair_series import (
     thinned,
 )
 from tftool.geometry.rigid_arrays import Floats
-from tftool.messages.turtle_values import Color
 
 LABELS: Final = 10
 """Cells left of a panel, for what its axis says."""

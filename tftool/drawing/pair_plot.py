@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 from rich.text import Text
 
+from tftool.base.color import Color
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme
@@ -14,7 +15,6 @@ from tftool.drawing.braille_trail import Ink
 from tftool.drawing.line_plot import draw_curve
 from tftool.frames.pair_samples import trajectory_of
 from tftool.frames.pair_series import PlotPanel, axis_number, panels
-from tftool.messages.turtle_values import Color
 
 LABELS: Final = 7
 """Cells left of a curve, for what its axis says."""

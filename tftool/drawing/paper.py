@@ -2,8 +2,8 @@
 
 from typing import Final, NamedTuple
 
+from tftool.base.color import Color
 from tftool.drawing import theme
-from tftool.messages.turtle_values import Color
 
 
 class PaperColors(NamedTuple):

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple, TypeAlias
 
+from tftool.base.color import BACKGROUND, Color
 from tftool.drawing.braille_trail import Stroke
 from tftool.geometry.motion.unicycle import FIELD
-from tftool.messages.turtle_values import BACKGROUND, Color
 
 _APART: Final = 3.4
 """Rows of the terminal between two lines of a grid, at the least."""

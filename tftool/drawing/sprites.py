@@ -8,8 +8,8 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from tftool.base.color import Color
 from tftool.drawing import theme
-from tftool.messages.turtle_values import Color
 
 ARROWS = "→↗↑↖←↙↓↘"
 ASCII_ARROWS = ">7^F<LvJ"

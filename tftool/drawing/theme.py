@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
+from tftool.base.color import Color
 from tftool.base.stamps import FRAME_TIMEOUT
-from tftool.messages.turtle_values import Color
 
 if TYPE_CHECKING:
     from rich.style import Style

@@ -9,12 +9,14 @@ from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Any
 
+from tftool.base.color import Color
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.motion.pid import Gains
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Color, Spawn
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Spawn
 from tftool.scenario import document
 from tftool.scenario import robot_node as robots
 from tftool.scenario import units as values
@@ -116,15 +118,15 @@ def _color(node: document.Node, reading: Reading) -> Color:
     return Color(**reading.record(node, {"r": channel, "g": channel, "b": channel}, "a colour"))
 
 
-def _turtle(node: document.Node, reading: Reading) -> Spawn:
-    """A turtle to begin with."""
+def _turtle(node: document.Node, reading: Reading) -> Any:
+    """Read a turtle to begin with, as a request of Spawn."""
     known = {
         "name": Key(values.turtle),
         "x": Key(values.length),
         "y": Key(values.length),
         "theta": Key(values.angle, 0.0),
     }
-    return Spawn(**reading.record(node, known, "a turtle"))
+    return build(Spawn.Request, **reading.record(node, known, "a turtle"))
 
 
 def _static(

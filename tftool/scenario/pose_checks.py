@@ -12,7 +12,6 @@ from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.planar import wrap
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid import Quaternion, Transform
-from tftool.messages.turtle_values import Pose2D
 from tftool.scenario import document
 from tftool.scenario import units as values
 from tftool.scenario.answer_checks import NEAR, AnswerCheck, Form, Judged
@@ -207,7 +206,7 @@ class TurtlePoseCheck(AnswerCheck):
     wanted: Mapping[str, float]
     tolerance: Tolerance
 
-    def judge(self, answer: Pose2D | None) -> Judged:
+    def judge(self, answer: Any) -> Judged:
         """Compare an answer."""
         if answer is None:
             return Judged(False, "nothing was published")

@@ -18,8 +18,7 @@ from tftool.buffer.sample import FrameInfo
 from tftool.buffer.velocity import Velocity
 from tftool.geometry import planar
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_messages import message_class
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.turtle_messages import Pose
 from tftool.scenario import units as values
 from tftool.scenario.answer_checks import (
     CleanForm,
@@ -439,12 +438,10 @@ class PoseOf(Subject):
     short: ClassVar[str] = "turtle"
     turtle: str = reads(values.turtle)
 
-    def answer(self, scene: ScenarioWorld) -> Pose2D | None:
-        """Find the answer, now."""
+    def answer(self, scene: ScenarioWorld) -> Any:
+        """Return its last Pose message; None where there is none."""
         topic = scene.world.topics().get(f"{self.turtle}/pose")
-        if topic is None or topic.kind is not message_class(Pose2D):
-            return None
-        return scene.world.value_topic(topic, Pose2D).latest
+        return topic.latest if topic is not None and topic.kind is Pose else None
 
     def __str__(self) -> str:
         return f"pose of {self.turtle}"

@@ -13,27 +13,27 @@ from typing import ClassVar
 from tftool.base.stamps import Duration, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
-from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.motion.unicycle import CENTRE
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import (
-    Clear,
-    KeyPress,
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import (
+    Empty,
     Kill,
-    Reset,
     RotateAbsolute,
     SetPen,
     Spawn,
-    Spawned,
     TeleportAbsolute,
     TeleportRelative,
+    Twist,
+    twist,
 )
 from tftool.scenario import units as values
 from tftool.scenario.fields import reads
 from tftool.scenario.script import Script, StepFailed
 from tftool.scenario.units import RelativeMoment
+from tftool.world.node import PATIENCE
 from tftool.world.nodes.turtle import PEN_COLOR, PEN_WIDTH
-from tftool.world.nodes.turtle_teleop import KEYS
+from tftool.world.nodes.turtle_teleop import KEYS, KeyPress
 
 REFRESH: Duration = seconds(0.5)
 """How often a drive repeats its command; a turtle stops a second after the last one."""
@@ -91,16 +91,16 @@ class Drive(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        topic = script.publisher(f"{self.turtle}/cmd_vel", Twist2D)
+        topic = script.publisher(f"{self.turtle}/cmd_vel", Twist)
         at = script.clock.now()
         end = at + self.lasting
         heard = topic.subscribers > 0
         while at < end:
-            topic.publish(Twist2D(self.linear, self.angular, self.sideways))
+            topic.publish(twist(self.linear, self.angular, self.sideways))
             at = min(at + REFRESH, end)
             await script.wait_until(at)
             heard = heard or topic.subscribers > 0
-        topic.publish(Twist2D())
+        topic.publish(twist())
         if not heard:
             raise StepFailed(f"nothing subscribes to '{topic.name}'")
 
@@ -118,8 +118,8 @@ class SpawnTurtle(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        request = Spawn(self.x, self.y, self.theta, self.name)
-        spawned: Spawned = await script.call("spawn", request)
+        request = build(Spawn.Request, self.x, self.y, self.theta, self.name)
+        spawned = await script.call("spawn", request)
         if not spawned.name:
             raise StepFailed(f"the simulator refused a turtle named '{self.name}'")
 
@@ -136,7 +136,7 @@ class KillTurtle(Action):
         """Do it, now."""
         # The answer says nothing, as in ROS 2.
         is_there = script.world.has_service(f"{self.turtle}/set_pen")
-        await script.call("kill", Kill(self.turtle))
+        await script.call("kill", build(Kill.Request, self.turtle))
         if not is_there:
             raise StepFailed(f"there is no turtle '{self.turtle}'")
 
@@ -153,7 +153,7 @@ class Teleport(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        request = TeleportAbsolute(self.x, self.y, self.theta)
+        request = build(TeleportAbsolute.Request, self.x, self.y, self.theta)
         await script.call(f"{self.turtle}/teleport_absolute", request)
 
 
@@ -168,7 +168,7 @@ class Hop(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        request = TeleportRelative(self.linear, self.angular)
+        request = build(TeleportRelative.Request, self.linear, self.angular)
         await script.call(f"{self.turtle}/teleport_relative", request)
 
 
@@ -182,8 +182,8 @@ class Rotate(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        goal = RotateAbsolute(self.theta)
-        await script.world.send_goal(f"{self.turtle}/rotate_absolute", goal)
+        goal = build(RotateAbsolute.Goal, self.theta)
+        script.world.send_goal(f"{self.turtle}/rotate_absolute", goal, patience=PATIENCE)
 
 
 _channel = values.whole(0, 255)
@@ -203,7 +203,7 @@ class Pen(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        request = SetPen(self.r, self.g, self.b, self.width, int(self.off))
+        request = build(SetPen.Request, self.r, self.g, self.b, self.width, int(self.off))
         await script.call(f"{self.turtle}/set_pen", request)
 
 
@@ -215,7 +215,7 @@ class ClearField(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        await script.call("clear", Clear())
+        await script.call("clear", Empty.Request())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -226,7 +226,7 @@ class ResetField(Action):
 
     async def do(self, script: Script) -> None:
         """Do it, now."""
-        await script.call("reset", Reset())
+        await script.call("reset", Empty.Request())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

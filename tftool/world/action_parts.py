@@ -125,7 +125,7 @@ class ActionParts:
             # Deciding takes a while, in which the same goal may come again.
             self._undecided.add(goal_id)
             try:
-                goal = self._world.hand_over(self._name, asked.goal, goal_id=goal_id)
+                goal = self._world.send_goal(self._name, asked.goal, goal_id=goal_id)
                 accepted = await self._enters(goal)
             finally:
                 self._undecided.discard(goal_id)

@@ -18,6 +18,9 @@ T = TypeVar("T")
 CATCH_UP = 5
 """How many late ticks of a timer are made up for before it slips."""
 
+PATIENCE = 5.0
+"""Seconds that nodes of ours wait for an answer from another process."""
+
 LATE = seconds(1.0)
 """From how far behind a timer on it is said."""
 
@@ -153,8 +156,11 @@ class Node(Resident):
         return self._until_end(self.world.serve_action(name, accept, kind, node=self.name))
 
     async def call(self, service: str, request: Any) -> Any:
-        """Ask a service and wait for its answer."""
-        return await self.world.call(service, request)
+        """Ask a service and wait for its answer; see `World.call`.
+
+        A server of another process has `PATIENCE`.
+        """
+        return await self.world.call(service, request, patience=PATIENCE)
 
     def broadcast(self, *transforms: TransformStamped) -> bool:
         """Put transforms into the buffer, under this node's name; whether it took them all."""

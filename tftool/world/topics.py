@@ -9,7 +9,7 @@ import itertools
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass
-from typing import Any, Generic, Literal, NamedTuple, TypeVar
+from typing import Any, Generic, Literal, TypeVar
 
 from tftool.base.listeners import Listeners, Report
 from tftool.world.endpoints import Endpoint
@@ -19,20 +19,6 @@ T = TypeVar("T")
 Status = Literal["succeeded", "aborted", "canceled"]
 
 
-class Unmade(NamedTuple):
-    """A value on a topic of messages, whose message is made when it is first asked for.
-
-    Between nodes of ours it never is: to make every pose a message costs a fifth of a world.
-
-    Attributes:
-        value: The value.
-        pack: Makes the message of it.
-    """
-
-    value: Any
-    pack: Callable[[Any], Any]
-
-
 class Topic(Generic[T]):
     """A named stream of values of one type that keeps its latest value.
 
@@ -40,7 +26,7 @@ class Topic(Generic[T]):
         name: The topic's name, without a leading slash.
         kind: The type every value has.
         count: How many values were published.
-        held: The value published last, as it was published.
+        latest: The value published last, None before the first.
         on_demand: Called when a subscriber comes or goes; None without a link.
         sender: The publisher of the value that is being delivered; None when not known.
         relay: What carries values to other processes, told last; None without a link.
@@ -48,20 +34,18 @@ class Topic(Generic[T]):
         is_far: Whether it is here only to be listed: other processes have it, and it was not
             asked for by its name here.
         is_removed: Whether the world has forgotten it: another one may have its name by now.
-        readers: How many subscribers take messages and no `Unmade`.
     """
 
     __slots__ = (
         "_subscribers",
         "count",
         "far_subscribers",
-        "held",
         "is_far",
         "is_removed",
         "kind",
+        "latest",
         "name",
         "on_demand",
-        "readers",
         "relay",
         "sender",
     )
@@ -70,8 +54,7 @@ class Topic(Generic[T]):
         """Begin without a value; `report` takes what subscribers raise, see `Listeners`."""
         self.name = name
         self.kind = kind
-        self.held: T | Unmade | None = None
-        self.readers = 0
+        self.latest: T | None = None
         self.count = 0
         self.on_demand: Callable[[], object] | None = None
         self.sender: Endpoint | None = None
@@ -80,14 +63,6 @@ class Topic(Generic[T]):
         self.is_far = False
         self.is_removed = False
         self._subscribers: Listeners[T] = Listeners(report)
-
-    @property
-    def latest(self) -> T | None:
-        """The value published last, None before the first."""
-        if isinstance(self.held, Unmade):
-            self.held = self.held.pack(self.held.value)
-        made: Any = self.held
-        return made  # type: ignore[no-any-return]
 
     def publish(self, value: T, sender: Endpoint | None = None) -> None:
         """Keep `value` and tell every subscriber at once, and who sent it if that is known.
@@ -99,35 +74,24 @@ class Topic(Generic[T]):
             raise TypeError(
                 f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
             )
-        self.tell(value, sender)
-
-    def tell(self, value: "T | Unmade", sender: Endpoint | None = None) -> None:
-        """Publish what is known to be of the topic's kind.
-
-        It may be `Unmade` where there are no `readers`, and no relay.
-        """
-        self.held = value
+        self.latest = value
         self.count += 1
-        told: Any = value
         relay = self.relay
         before, self.sender = self.sender, sender
         try:
-            self._subscribers.call(told)
+            self._subscribers.call(value)
             if relay is not None:
-                relay(told)
+                relay(value)
         finally:
             self.sender = before
 
-    def subscribe(
-        self, callback: Callable[[T], object], owner: str = "", *, takes_unmade: bool = False
-    ) -> Callable[[], None]:
+    def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
         """Have `callback` called with every value to come; call what is returned to stop.
 
         What it raises is reported under the name of its `owner`, and does not reach the
-        publisher. One that takes `Unmade` as well keeps messages from being made for it.
+        publisher.
         """
         withdraw = self._subscribers.add(callback, owner)
-        self.readers += not takes_unmade
         is_there = True
         if self.on_demand is not None:
             self.on_demand()
@@ -136,7 +100,6 @@ class Topic(Generic[T]):
             nonlocal is_there
             if is_there:
                 is_there = False
-                self.readers -= not takes_unmade
                 withdraw()
                 if self.on_demand is not None:
                     self.on_demand()

@@ -5,19 +5,17 @@ import inspect
 import math
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterable, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Generic, TypeVar, cast
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 from tftool.base.errors import LinkError, NodeFailed, TftoolError
 from tftool.base.listeners import Listeners, listener_text
 from tftool.base.stamps import CACHE_TIME, Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.messages import turtle_messages as values
+from tftool.messages.turtle_messages import interface_name, is_part
 from tftool.world import transform_wait as waiting
 from tftool.world.clock import Clock
-from tftool.world.doors import Goal, ValueGoal, ValueTopic, accepting, serving
 from tftool.world.endpoints import (
     PUBLISHER,
     SUBSCRIPTION,
@@ -31,29 +29,25 @@ from tftool.world.log import Log
 from tftool.world.memory_limit import MemoryBound, allowed
 from tftool.world.offers import NamedOffers, Offer
 from tftool.world.resident import Resident, Supervision
-from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic, Unmade
+from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic
 
 T = TypeVar("T")
 
 MOST_REFUSALS = 1_000
 """How many kinds of what the buffer refuses are told apart while they are counted."""
 
-PATIENCE = 5.0
-"""Seconds that nodes of ours wait for an answer from another process."""
 
-
-@dataclass(frozen=True, slots=True)
-class TransformMessage:
-    """What travels on topics `tf` and `tf_static`: transforms and who sent them."""
-
-    interface__: ClassVar[str] = "tf2_msgs/msg/TFMessage"
-
+class _Transforms(NamedTuple):
     transforms: tuple[TransformStamped, ...]
     authority: str
 
 
-def _transform_message(sent: tuple[tuple[TransformStamped, ...], str]) -> TransformMessage:
-    return TransformMessage(*sent)
+class TransformMessage(_Transforms):
+    """Transforms and their sender, as topics `tf` and `tf_static` carry them."""
+
+    __slots__ = ()
+
+    interface__: ClassVar[str] = "tf2_msgs/msg/TFMessage"
 
 
 class TopicPublisher(Generic[T]):
@@ -64,7 +58,7 @@ class TopicPublisher(Generic[T]):
         kind: The type of every value.
     """
 
-    __slots__ = ("_door", "_endpoint", "_topic", "_withdraw", "_world", "kind", "name")
+    __slots__ = ("_endpoint", "_topic", "_withdraw", "_world", "kind", "name")
 
     def __init__(
         self, world: "World", node: str, name: str, kind: type[T], quality: Quality
@@ -77,32 +71,25 @@ class TopicPublisher(Generic[T]):
         self._endpoint, self._withdraw = world.enter(
             PUBLISHER, node, self.name, kind, quality, keeps=latched
         )
-        self._door: Topic[T] | ValueTopic[T] | None = None
-        self._topic: Topic[Any] | None = None
+        self._topic: Topic[T] | None = None
 
     def publish(self, value: T) -> None:
         """Publish a value; a topic that was removed meanwhile is created again."""
-        door = self._door
-        if door is None or self._topic is None or self._topic.is_removed:
-            door = self._open()
-        if self._endpoint is not None and self._endpoint.kept is not None:
-            carried = door.message_of(value) if isinstance(door, ValueTopic) else value
-            self._endpoint.kept.append(carried)
-        door.publish(value, self._endpoint)
+        topic = self._topic
+        if topic is None or topic.is_removed:
+            topic = self._topic = self._world.topic(self.name, self.kind)
+        endpoint = self._endpoint
+        if endpoint is not None and endpoint.kept is not None:
+            endpoint.kept.append(value)
+        topic.publish(value, endpoint)
 
     @property
     def subscribers(self) -> int:
         """How many subscribe to the topic, those in other processes included."""
         topic = self._topic
         if topic is None or topic.is_removed:
-            return self._open().subscribers
+            topic = self._topic = self._world.topic(self.name, self.kind)
         return topic.subscribers
-
-    def _open(self) -> "Topic[T] | ValueTopic[T]":
-        """The topic as the world has it now."""
-        door = self._door = self._world.topic(self.name, self.kind)
-        self._topic = door.topic if isinstance(door, ValueTopic) else door
-        return door
 
     def close(self) -> None:
         """Publish no more: the node is no publisher of that topic any longer."""
@@ -149,7 +136,6 @@ class World:
         self.nodes: list[Resident] = []
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
-        self._doors: dict[str, ValueTopic[Any]] = {}
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
         self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
@@ -167,24 +153,19 @@ class World:
 
     # Topics
 
-    def topic(self, name: str, kind: type[T]) -> Topic[T] | ValueTopic[T]:
-        """The topic of that name, made when it is first named.
+    def topic(self, name: str, kind: type[T]) -> Topic[T]:
+        """Return the topic of that name; make it when it is first named.
 
         Args:
             name: Its name.
-            kind: A message's class, or one of our values, to publish and take values there.
+            kind: The class of its messages.
 
         Raises:
             TftoolError: If it is there already and carries something else.
         """
-        name = name.removeprefix("/")
-        door = self._doors.get(name)
-        if door is not None and door.kind is kind:
-            door.topic.is_far = False
-            return door
-        topic = self._topic(name, values.message_class(kind))
+        topic = self._topic(name.removeprefix("/"), kind)
         topic.is_far = False
-        return topic if topic.kind is kind else self.value_topic(topic, kind)
+        return topic
 
     def name_topic(self, name: str, kind: type[Any]) -> None:
         """List a topic that only other processes have, until it is asked for here."""
@@ -196,18 +177,9 @@ class World:
             topic = self._topics[name] = Topic(name, kind, self.report)
             self._changed()
         elif topic.kind is not kind:
-            carried, named = (
-                values.interface_name(one) or one.__name__ for one in (topic.kind, kind)
-            )
+            carried, named = (interface_name(one) or one.__name__ for one in (topic.kind, kind))
             raise TftoolError(f"topic '{name}' carries {carried}, not {named}")
         return topic
-
-    def value_topic(self, topic: Topic[Any], kind: type[T]) -> ValueTopic[T]:
-        """The door to a topic of messages for a type of our values."""
-        door = self._doors.get(topic.name)
-        if door is None or door.topic is not topic:
-            door = self._doors[topic.name] = ValueTopic(topic, kind)
-        return cast("ValueTopic[T]", door)
 
     def publisher(
         self, node: str, name: str, kind: type[T], quality: Quality = USUAL
@@ -240,12 +212,7 @@ class World:
             quality: What it asks for. A latched one gets at once what latched publishers of
                 this process sent before, and what those of others did as soon as it comes.
         """
-        door = self.topic(name, kind)
-        topic: Topic[Any]
-        if isinstance(door, ValueTopic):
-            topic, callback = door.topic, door.taker(callback)
-        else:
-            topic = door
+        topic = self.topic(name, kind)
         taken: Callable[[Any], object] = callback
         deliver: Callable[[Any, Endpoint | None], object] | None = None
         if quality.is_latched and kind is not TransformMessage:
@@ -262,7 +229,7 @@ class World:
 
         # Entered first: the link shows a subscriber without a name for what is not.
         _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality, deliver=deliver)
-        stop = topic.subscribe(taken, node, takes_unmade=isinstance(door, ValueTopic))
+        stop = topic.subscribe(taken, node)
         if deliver is not None:
             for publisher in self.endpoints.of(topic.name, PUBLISHER):
                 for value in publisher.kept or ():
@@ -313,7 +280,6 @@ class World:
     def remove_topic(self, name: str) -> None:
         """Forget a topic; what is published on a `Topic` still held reaches no new subscriber."""
         name = name.removeprefix("/")
-        self._doors.pop(name, None)
         topic = self._topics.pop(name, None)
         if topic is not None:
             topic.is_removed = True
@@ -335,9 +301,8 @@ class World:
 
         Args:
             name: The service's name.
-            handler: Answers a request, now or when awaited.
-            kind: The service's ROS class, or our type of its requests: then the handler takes
-                and gives values. None for one that stays inside this process.
+            handler: Answers a request, now or when awaited; None is an answer of defaults.
+            kind: The service's ROS class. None for one that stays inside this process.
             node: The node that answers.
             is_remote: Whether it answers from another process.
             shares: Whether another may serve that name already, as in ROS: who came first
@@ -346,9 +311,7 @@ class World:
         Raises:
             TftoolError: If a node here serves that name already.
         """
-        take = serving(handler, kind) if kind in values.SERVICES else handler
-        offer = Offer(take, values.interface_class(kind), node, is_remote)
-        return self._services.add(name, offer, shares=shares)
+        return self._services.add(name, Offer(handler, kind, node, is_remote), shares=shares)
 
     def has_service(self, name: str) -> bool:
         """Whether any node answers that service."""
@@ -362,17 +325,17 @@ class World:
         """Every service by its name, read-only."""
         return self._services.by_name
 
-    async def call(self, name: str, request: Any) -> Any:
+    async def call(self, name: str, request: Any, *, patience: float | None = None) -> Any:
         """Ask a service and wait for its answer.
 
         Args:
             name: The service's name.
-            request: A message; or a value of ours, which is answered by a value, and which a
-                server of another process has `PATIENCE` to answer.
+            request: A message.
+            patience: Seconds that a server of another process has to answer; None for any.
 
         Raises:
             TftoolError: If no node serves that name, or the request is of another type.
-            LinkError: If another process does not answer a value in time.
+            LinkError: If another process does not answer in time.
         """
         offer = self._services.get(name)
         if offer is None:
@@ -380,19 +343,18 @@ class World:
         kind = offer.kind
         if kind is not None:
             _require(request, "Request", kind, f"service '{name}'")
-        if kind is None or type(request) not in values.SERVICES:
-            return await _awaited(offer.take(request))
-        message = values.as_message(request, kind.Request)
         try:
-            async with asyncio.timeout(PATIENCE if offer.is_remote else None) as limit:
-                answer = await _awaited(offer.take(message))
+            async with asyncio.timeout(patience if offer.is_remote else None) as limit:
+                answer = offer.take(request)
+                if inspect.isawaitable(answer):
+                    answer = await answer
         except TimeoutError:
             if not limit.expired():
                 raise
             raise LinkError(
-                f"service '{name}': no server answered within {PATIENCE:g} s, or it has left"
+                f"service '{name}': no server answered within {patience:g} s, or it has left"
             ) from None
-        return values.as_value(answer, values.SERVICES[type(request)][1])
+        return kind.Response() if answer is None and kind is not None else answer
 
     def serve_action(
         self,
@@ -411,9 +373,7 @@ class World:
         Raises:
             TftoolError: If a node here serves that action already.
         """
-        take = accepting(accept, kind) if kind in values.ACTIONS else accept
-        offer = Offer(take, values.interface_class(kind), node, is_remote)
-        return self._actions.add(name, offer, shares=shares)
+        return self._actions.add(name, Offer(accept, kind, node, is_remote), shares=shares)
 
     def actions(self) -> Mapping[str, Offer[Acceptor]]:
         """Every action by its name, read-only."""
@@ -428,59 +388,38 @@ class World:
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
-    def hand_over(
+    def send_goal(
         self,
         name: str,
         goal: Any,
         on_feedback: Callable[[Any], object] | None = None,
+        *,
+        patience: float | None = None,
         goal_id: bytes | None = None,
     ) -> GoalHandle:
-        """Hand a goal in messages to an action's server; see `send_goal`."""
-        handle = GoalHandle(goal, on_feedback, goal_id=goal_id)
-        self._take_goal(name, self._server_for(name, goal), handle)
-        return handle
+        """Hand a goal to an action's server.
 
-    def _take_goal(self, name: str, offer: Offer[Acceptor], handle: GoalHandle) -> None:
-        if name in self._goal_watchers:
-            self._goal_watchers[name].call(handle)
-        offer.take(handle)
+        Args:
+            name: The action's name.
+            goal: A message.
+            on_feedback: Called with each feedback.
+            patience: Seconds that a server of another process has to take the goal; None for
+                any.
+            goal_id: Its sixteen bytes, where the client has chosen them.
 
-    def _server_for(self, name: str, goal: Any) -> Offer[Acceptor]:
+        Raises:
+            TftoolError: If no node serves that action, or the goal is of another type.
+        """
         offer = self._actions.get(name)
         if offer is None:
             raise TftoolError(f"no node serves the action '{name}'")
         if offer.kind is not None:
             _require(goal, "Goal", offer.kind, f"action '{name}'")
-        return offer
-
-    async def send_goal(
-        self, name: str, goal: Any, on_feedback: Callable[[Any], object] | None = None
-    ) -> Goal:
-        """Hand a goal to an action's server.
-
-        Args:
-            name: The action's name.
-            goal: A message; or a value of ours, whose feedback and result are values then.
-            on_feedback: Called with each feedback.
-
-        Raises:
-            TftoolError: If no node serves that action, or the goal is of another type.
-        """
-        offer = self._server_for(name, goal)
-        kind = offer.kind
-        if kind is None or type(goal) not in values.ACTIONS:
-            handle = GoalHandle(goal, on_feedback)
-            self._take_goal(name, offer, handle)
-            return handle
-        said = values.ACTIONS[type(goal)][2]
-
-        def fed(feedback: Any) -> None:
-            if on_feedback is not None:
-                on_feedback(values.as_value(feedback, said))
-
-        handle = GoalHandle(values.as_message(goal, kind.Goal), fed, PATIENCE)
-        self._take_goal(name, offer, handle)
-        return ValueGoal(handle, type(goal))
+        handle = GoalHandle(goal, on_feedback, patience, goal_id)
+        if name in self._goal_watchers:
+            self._goal_watchers[name].call(handle)
+        offer.take(handle)
+        return handle
 
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Have `callback` called when a topic, service, action or node comes or goes.
@@ -518,15 +457,8 @@ class World:
             accepted = tuple([one for one in sent if put(one, authority)])
             self.memory.note(len(accepted))
             if accepted:
-                self._publish_tf(accepted, authority)
+                self.tf.publish(TransformMessage(accepted, authority))
         return len(accepted) == len(sent)
-
-    def _publish_tf(self, transforms: tuple[TransformStamped, ...], authority: str) -> None:
-        tf = self.tf
-        if tf.readers or tf.relay is not None:
-            tf.tell(TransformMessage(transforms, authority))
-        else:
-            tf.tell(Unmade((transforms, authority), _transform_message))
 
     def receive_static(
         self, transforms: Iterable[TransformStamped], authority: str
@@ -717,16 +649,12 @@ def _nothing() -> None:
     """Take nothing out."""
 
 
-async def _awaited(answer: Any) -> Any:
-    return await answer if inspect.isawaitable(answer) else answer
-
-
 def _require(asked: Any, part: str, kind: Any, what: str) -> None:
     """Refuse what is not the request of a service's class, or the goal of an action's.
 
     Raises:
         TftoolError: If it is not.
     """
-    if not values.is_part(asked, part, kind):
+    if not is_part(asked, part, kind):
         given = getattr(asked, "interface__", "") or type(asked).__name__
         raise TftoolError(f"{what} is of type {kind.interface__}, which takes no {given}")

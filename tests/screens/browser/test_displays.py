@@ -6,7 +6,6 @@ import shutil
 import struct
 import threading
 import urllib.request
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,7 +18,7 @@ from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import INTERFACES
-from tftool.messages.turtle_values import PointStamped
+from tftool.messages.turtle_messages import PointStamped, point_stamped
 from tftool.screens.browser.displays import cloud, path, point, scan
 from tftool.screens.browser.live_messages import LiveDisplays
 from tftool.screens.browser.recorded_messages import Limits, recorded_tracks
@@ -185,7 +184,7 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
 
     def early(world):
         points = world.publisher("test", "early", PointStamped)
-        points.publish(PointStamped(world.clock.epoch + seconds(1), "turtle", 0.0, 1.0, 0.0))
+        points.publish(point_stamped(world.clock.epoch + seconds(1), "turtle", 0.0, 1.0, 0.0))
 
     stage.do(early)
     page = Page(chromium, stage, "fixed=world")
@@ -195,9 +194,9 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
     def late(world):
         epoch = world.clock.epoch
         points = world.publisher("test", "turtle3/turtle_point_stamped", PointStamped)
-        points.publish(PointStamped(epoch + seconds(1), "world", 4.0, 2.0, 0.0))
-        points.publish(PointStamped(epoch + seconds(1.5), "turtle", 0.5, 0.0, 0.0))
-        points.publish(PointStamped(epoch + seconds(3), "turtle", 0.5, 0.0, 0.0))
+        points.publish(point_stamped(epoch + seconds(1), "world", 4.0, 2.0, 0.0))
+        points.publish(point_stamped(epoch + seconds(1.5), "turtle", 0.5, 0.0, 0.0))
+        points.publish(point_stamped(epoch + seconds(3), "turtle", 0.5, 0.0, 0.0))
         # Its transform comes behind the point.
         pose = TransformStamped(epoch + seconds(3), "world", "turtle", Transform((7.0, 0.0, 0.0)))
         world.broadcast([pose], "test")
@@ -223,10 +222,11 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
 def test_of_a_topic_of_a_session_the_last_message_is_told_within_a_round_of_so_many_bytes():
     world = World(SimClock())
     displays = LiveDisplays(world)
-    place = PointStamped(world.clock.epoch, "world", 1.0, 2.0, 0.0)
+    place = point_stamped(world.clock.epoch, "world", 1.0, 2.0, 0.0)
     goal = world.publisher("test", "goal", PointStamped)
     for x in range(3):
-        goal.publish(replace(place, x=float(x)))
+        place.point.x = float(x)
+        goal.publish(place)
     kind = INTERFACES.message(cloud.TYPE)
     large = cloud_of(CLASSES, np.random.default_rng(1).normal(size=(200_000, 3)), frame="lidar")
     world.broadcast([TransformStamped(0, "world", "lidar", Transform())], "test", static=True)
@@ -253,7 +253,7 @@ def test_what_is_kept_of_a_session_is_the_last_message_of_each_topic_thinned_out
     many = cloud_of(CLASSES, np.random.default_rng(1).normal(size=(1000, 3)), frame="lidar")
     world.publisher("test", "cloud", type(many)).publish(many)
     for x in (1.0, 2.0):
-        goal.publish(PointStamped(world.clock.epoch, "world", x, 0.0, 0.0))
+        goal.publish(point_stamped(world.clock.epoch, "world", x, 0.0, 0.0))
 
     for _ in range(2):  # told to pages meanwhile, or not
         kept = {track.topic: track for track in displays.latest(300)}
@@ -268,12 +268,12 @@ def test_a_message_waits_for_the_transform_of_its_stamp_but_not_for_ever():
     world = World(SimClock())
     displays = LiveDisplays(world)
     points = world.publisher("test", "goal", PointStamped)
-    points.publish(PointStamped(world.clock.epoch, "nowhere", 1.0, 2.0, 0.0))
+    points.publish(point_stamped(world.clock.epoch, "nowhere", 1.0, 2.0, 0.0))
     waited = [len(displays.round()) for _ in range(8)]
     assert sum(waited) == 1
     assert waited[0] == 0
 
-    points.publish(PointStamped(world.clock.epoch + 5, "robot", 1.0, 2.0, 0.0))
+    points.publish(point_stamped(world.clock.epoch + 5, "robot", 1.0, 2.0, 0.0))
     assert displays.round() == {}
     pose = TransformStamped(world.clock.epoch + 5, "world", "robot", Transform((4.0, 0.0, 0.0)))
     world.broadcast([pose], "test")
@@ -291,7 +291,7 @@ def test_a_topic_of_another_type_here_is_left_alone_and_one_that_changes_its_qua
 
     world.broadcast([TransformStamped(0, "world", "robot", Transform())], "test", static=True)
     for publisher in (first, second):
-        publisher.publish(PointStamped(world.clock.epoch, "world", 1.0, 0.0, 0.0))
+        publisher.publish(point_stamped(world.clock.epoch, "world", 1.0, 0.0, 0.0))
         assert set(displays.round()) == {"goal"}
     subscriptions = world.endpoints.of("goal", SUBSCRIPTION)
     assert [(one.quality.is_reliable, one.quality.is_latched) for one in subscriptions] == [

@@ -6,8 +6,8 @@ import pytest
 
 from tests.patience import PATIENCE
 from tests.world.link.conftest import new_world, until
-from tftool.messages.classes import INTERFACES
-from tftool.messages.turtle_values import Rotated
+from tftool.messages.classes import INTERFACES, build
+from tftool.messages.turtle_messages import RotateAbsolute
 from tftool.world import action_parts
 from tftool.world.clock import WallClock, run
 from tftool.world.link.actions import ActionServer
@@ -91,7 +91,7 @@ def test_of_the_goals_that_ended_the_oldest_makes_way_for_a_new_one():
         for number in range(1, 4):
             await stranger.send(number)
         for goal in stranger.goals[1:]:
-            goal.finish("succeeded", Rotated(0.0))
+            goal.finish("succeeded", build(RotateAbsolute.Result, 0.0))
 
         assert await stranger.send(4)
         assert await stranger.cancel(1) == 0

@@ -8,9 +8,9 @@ from tests.world.link.conftest import new_world, until
 from tests.world.link.two import play
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.messages.classes import INTERFACES
+from tftool.messages.classes import INTERFACES, build
 from tftool.messages.codec import codec
-from tftool.messages.turtle_values import Pose2D, Spawn, Spawned
+from tftool.messages.turtle_messages import Pose, Spawn
 from tftool.world.endpoints import PUBLISHER, Quality, conflict
 from tftool.world.link import session
 from tftool.world.link.graph import Role
@@ -54,9 +54,9 @@ def test_transforms_and_topics_cross_whatever_carries_them():
             await until(lambda: pair.other.buffer.can_transform("a", "c", 5))
 
             heard = []
-            pair.other.topic("turtle1/pose", Pose2D).subscribe(heard.append)
-            pose = Pose2D(1.0, 2.0, 0.5)
-            topic = pair.one.topic("turtle1/pose", Pose2D)
+            pair.other.topic("turtle1/pose", Pose).subscribe(heard.append)
+            pose = build(Pose, 1.0, 2.0, 0.5)
+            topic = pair.one.topic("turtle1/pose", Pose)
             await until(lambda: topic.subscribers)
             topic.publish(pose)
             await until(lambda: heard)
@@ -114,16 +114,16 @@ def test_a_message_that_overtakes_the_word_of_its_publisher_is_heard_as_one_from
 def test_services_and_actions_answer_whatever_carries_them():
     async def ask():
         with Pair() as pair:
-            pair.one.serve("spawn", lambda request: Spawned(request.name), Spawn)
+            pair.one.serve("spawn", lambda request: build(Spawn.Response, request.name), Spawn)
             await until(lambda: "spawn" in pair.other.services())
-            answer = await pair.other.call("spawn", Spawn(1.0, 1.0, 0.0, "turtle9"))
-            assert answer == Spawned("turtle9")
+            answer = await pair.other.call("spawn", build(Spawn.Request, 1.0, 1.0, 0.0, "turtle9"))
+            assert answer == build(Spawn.Response, "turtle9")
 
             goals = []
             pair.one.serve_action("count", goals.append, FIBONACCI)
             await until(lambda: "count" in pair.other.actions())
             fed = []
-            goal = await pair.other.send_goal("count", FIBONACCI.Goal(order=3), fed.append)
+            goal = pair.other.send_goal("count", FIBONACCI.Goal(order=3), fed.append)
             await until(lambda: goals)
             goals[0].publish_feedback(FIBONACCI.Feedback(sequence=[1]))
             goals[0].finish("succeeded", FIBONACCI.Result(sequence=[1, 2]))

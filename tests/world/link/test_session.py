@@ -4,15 +4,17 @@ import asyncio
 
 from tests.world.link.conftest import new_world, until
 from tests.world.link.two import Two, play, sample, texts
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.turtle_values import (
-    Clear,
-    Color,
-    Pose2D,
+from tftool.base.color import Color
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import (
+    ColorMessage,
+    Empty,
+    Pose,
     SetPen,
     Spawn,
-    Spawned,
     TeleportAbsolute,
+    Twist,
+    twist,
 )
 from tftool.world.link.graph import Role, hosts
 from tftool.world.link.link_options import Options
@@ -44,8 +46,8 @@ def test_a_session_with_more_tokens_than_a_queue_of_zenoh_holds_can_be_joined():
             here = new_world()
             first.attach(here, role=Role.HOST)
             for number in range(150):
-                here.topic(f"turtle{number}/pose", Pose2D).subscribe(lambda pose: None)
-                here.topic(f"turtle{number}/pose", Pose2D).publish(Pose2D(1.0, 2.0, 0.0))
+                here.topic(f"turtle{number}/pose", Pose).subscribe(lambda pose: None)
+                here.topic(f"turtle{number}/pose", Pose).publish(build(Pose, 1.0, 2.0, 0.0))
             # Somebody in between knows them all, so whoever comes is told all at once.
             with Link(Options("echo")) as second:
                 second.attach(new_world(), role=Role.GUEST)
@@ -61,14 +63,14 @@ def test_a_session_with_more_tokens_than_a_queue_of_zenoh_holds_can_be_joined():
 def test_a_topic_is_known_to_all_and_travels_to_who_listens():
     async def send():
         async with Two() as two:
-            pose = Pose2D(1.5, 2.5, 0.5, 1.0, -1.0)
-            two.here.topic("turtle1/pose", Pose2D).publish(pose)
+            pose = build(Pose, 1.5, 2.5, 0.5, 1.0, -1.0)
+            two.here.topic("turtle1/pose", Pose).publish(pose)
             await until(lambda: "turtle1/pose" in two.there.topics())
             heard = []
-            stop = two.there.topic("turtle1/pose", Pose2D).subscribe(heard.append)
+            stop = two.there.topic("turtle1/pose", Pose).subscribe(heard.append)
             await until(lambda: two.host.graph.entities("subscription", name="turtle1/pose"))
 
-            two.here.topic("turtle1/pose", Pose2D).publish(pose)
+            two.here.topic("turtle1/pose", Pose).publish(pose)
             await until(lambda: heard)
             assert heard == [pose]
 
@@ -83,17 +85,17 @@ def test_a_topic_that_others_had_goes_with_them_unless_somebody_here_asked_for_i
         two = Two()
         names = {f"turtle{number}/pose" for number in range(1, 4)}
         for name in names:
-            two.here.topic(name, Pose2D).publish(Pose2D(1.0, 2.0, 0.0))
+            two.here.topic(name, Pose).publish(build(Pose, 1.0, 2.0, 0.0))
         await until(lambda: names <= two.there.topics().keys())
         stop = two.there.topics()["turtle1/pose"].subscribe(lambda pose: None)
-        held = two.there.topic("turtle2/pose", Pose2D)
+        held = two.there.topic("turtle2/pose", Pose)
         two.host.close()
         await until(lambda: "turtle3/pose" not in two.there.topics())
 
-        assert two.there.topics()["turtle2/pose"] is held.topic
+        assert two.there.topics()["turtle2/pose"] is held
         assert "turtle1/pose" in two.there.topics()
         stop()
-        two.there.topic("something", Pose2D)
+        two.there.topic("something", Pose)
         await until(lambda: "turtle1/pose" not in two.there.topics())
         two.guest.close()
 
@@ -103,9 +105,11 @@ def test_a_topic_that_others_had_goes_with_them_unless_somebody_here_asked_for_i
 def test_colours_are_asked_for_only_while_somebody_far_away_wants_them():
     async def send():
         async with Two() as two:
-            colors = two.here.topic("turtle1/color_sensor", Color)
+            colors = two.here.topic("turtle1/color_sensor", ColorMessage)
             assert colors.subscribers == 0
-            stop = two.there.topic("turtle1/color_sensor", Color).subscribe(lambda color: None)
+            stop = two.there.topic("turtle1/color_sensor", ColorMessage).subscribe(
+                lambda color: None
+            )
             await until(lambda: colors.subscribers == 1)
             stop()
             await until(lambda: colors.subscribers == 0)
@@ -120,14 +124,14 @@ def test_a_guest_drives_and_looks_at_the_hosts_turtle():
             living = asyncio.ensure_future(live(two.here))
             poses = []
             await until(lambda: "turtle1/pose" in two.there.topics())
-            two.there.topic("turtle1/pose", Pose2D).subscribe(poses.append)
+            two.there.topic("turtle1/pose", Pose).subscribe(poses.append)
             await until(lambda: poses)
 
-            two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(2.0))
+            two.there.topic("turtle1/cmd_vel", Twist).publish(twist(2.0))
             await until(lambda: poses[-1].linear_velocity == 2.0)
-            answer = await two.there.call("spawn", Spawn(4.0, 2.0, 0.0, "turtle2"))
+            answer = await two.there.call("spawn", build(Spawn.Request, 4.0, 2.0, 0.0, "turtle2"))
 
-            assert answer == Spawned("turtle2")
+            assert answer == build(Spawn.Response, "turtle2")
             await until(lambda: two.there.has_service("turtle2/set_pen"))
             await until(lambda: [node.node for node in two.guest.graph.entities("node")] == ["sim"])
             living.cancel()
@@ -142,8 +146,10 @@ def test_a_guest_sees_the_hosts_background_and_the_strokes_of_its_pens():
             simulator = Turtlesim(two.here, background=Color(150, 0, 10))
             living = asyncio.ensure_future(live(two.here))
             await until(lambda: two.here.has_service("turtle1/set_pen"))
-            await two.here.call("turtle1/set_pen", SetPen(255, 0, 0, 9, 0))
-            await two.here.call("turtle1/teleport_absolute", TeleportAbsolute(1.0, 1.0, 0.0))
+            await two.here.call("turtle1/set_pen", build(SetPen.Request, 255, 0, 0, 9, 0))
+            await two.here.call(
+                "turtle1/teleport_absolute", build(TeleportAbsolute.Request, 1.0, 1.0, 0.0)
+            )
             await until(lambda: simulator.trail.segments)
 
             far = FarTurtles(two.there)
@@ -181,9 +187,9 @@ def test_who_only_looks_shows_nothing_and_sends_nothing():
         async with Two(guest=Options("monitor", read_only=True)) as two:
             heard = []
             two.here.tf.subscribe(heard.append)
-            two.here.serve("clear", lambda request: None, Clear)
+            two.here.serve("clear", lambda request: None, Empty)
             two.there.broadcast([sample(1)], "sneaky")
-            two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(1.0))
+            two.there.topic("turtle1/cmd_vel", Twist).publish(twist(1.0))
             steps = iter(range(2, 10_000))
 
             # Sent until heard: who shows nothing cannot be seen to listen.
@@ -266,11 +272,11 @@ def test_a_guest_that_comes_and_goes_is_told():
 def test_the_second_host_of_the_same_turtle_is_told():
     async def host():
         async with Two() as two:
-            two.here.serve("spawn", lambda request: Spawned("turtle1"), Spawn)
+            two.here.serve("spawn", lambda request: build(Spawn.Response, "turtle1"), Spawn)
             await until(lambda: two.there.has_service("spawn"))
             with Link(Options("demo")) as second:
                 world = new_world()
-                world.serve("spawn", lambda request: Spawned("turtle1"), Spawn)
+                world.serve("spawn", lambda request: build(Spawn.Response, "turtle1"), Spawn)
                 second.attach(world, role=Role.HOST)
 
                 (told,) = texts(world)

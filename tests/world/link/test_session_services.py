@@ -9,16 +9,8 @@ import pytest
 from tests.world.link.conftest import new_world, until
 from tests.world.link.two import Two, play
 from tftool.base.errors import LinkError, TftoolError
-from tftool.messages.classes import INTERFACES
-from tftool.messages.turtle_values import (
-    Clear,
-    Kill,
-    RotateAbsolute,
-    Rotated,
-    Rotating,
-    Spawn,
-    Spawned,
-)
+from tftool.messages.classes import INTERFACES, build
+from tftool.messages.turtle_messages import Empty, Kill, RotateAbsolute, Spawn
 from tftool.world.action_parts import ActionParts
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
 from tftool.world.link.graph import Role
@@ -33,15 +25,15 @@ def test_a_service_of_the_host_is_one_of_the_guests_world():
 
             async def spawn(request):
                 asked.append(request)
-                return Spawned(request.name)
+                return build(Spawn.Response, request.name)
 
             stop = two.here.serve("spawn", spawn, Spawn)
             await until(lambda: two.there.has_service("spawn"))
 
-            answer = await two.there.call("spawn", Spawn(4.0, 2.0, 0.0, "turtle2"))
+            answer = await two.there.call("spawn", build(Spawn.Request, 4.0, 2.0, 0.0, "turtle2"))
 
-            assert answer == Spawned("turtle2")
-            assert asked == [Spawn(4.0, 2.0, 0.0, "turtle2")]
+            assert answer == build(Spawn.Response, "turtle2")
+            assert asked == [build(Spawn.Request, 4.0, 2.0, 0.0, "turtle2")]
             stop()
             await until(lambda: not two.there.has_service("spawn"))
 
@@ -55,13 +47,17 @@ def test_what_a_watcher_of_the_world_changes_while_the_link_looks_at_it_is_carri
             def changed():
                 # A service of another process has just been entered: by the link itself.
                 if two.there.has_service("clear") and not two.there.has_service("spawn"):
-                    two.there.serve("spawn", lambda request: Spawned("turtle2"), Spawn)
+                    two.there.serve(
+                        "spawn", lambda request: build(Spawn.Response, "turtle2"), Spawn
+                    )
 
             two.there.watch(changed)
-            two.here.serve("clear", lambda request: None, Clear)
+            two.here.serve("clear", lambda request: None, Empty)
             await until(lambda: two.here.has_service("spawn"))
 
-            assert await two.here.call("spawn", Spawn(4.0, 2.0)) == Spawned("turtle2")
+            assert await two.here.call("spawn", build(Spawn.Request, 4.0, 2.0)) == build(
+                Spawn.Response, "turtle2"
+            )
 
     play(answer())
 
@@ -77,7 +73,7 @@ def test_a_refusal_of_a_service_comes_back_as_a_sentence():
             await until(lambda: two.there.has_service("spawn"))
 
             with pytest.raises(LinkError, match="'spawn': it was refused: no room for another"):
-                await two.there.call("spawn", Spawn(4.0, 2.0))
+                await two.there.call("spawn", build(Spawn.Request, 4.0, 2.0))
 
     play(ask())
 
@@ -92,9 +88,9 @@ def test_a_question_whose_server_leaves_ends():
             await asyncio.get_running_loop().create_future()
 
         two.here.serve("kill", never, Kill)
-        two.here.serve("clear", never, Clear)
+        two.here.serve("clear", never, Empty)
         await until(lambda: two.there.has_service("clear"))
-        question = asyncio.ensure_future(two.there.call("clear", Clear()))
+        question = asyncio.ensure_future(two.there.call("clear", Empty.Request()))
         await waits.wait()
         two.host.close()
 
@@ -120,19 +116,22 @@ def test_a_goal_travels_with_its_feedback_and_its_end():
             await until(lambda: "turtle1/rotate_absolute" in two.there.actions())
             feedback = []
 
-            goal = await two.there.send_goal(
-                "turtle1/rotate_absolute", RotateAbsolute(1.5), feedback.append
+            goal = two.there.send_goal(
+                "turtle1/rotate_absolute", build(RotateAbsolute.Goal, 1.5), feedback.append
             )
             await until(lambda: rotation.goals)
             (served,) = rotation.goals
-            assert served.request == RotateAbsolute(1.5)
-            served.publish_feedback(Rotating(0.5))
+            assert served.request == build(RotateAbsolute.Goal, 1.5)
+            served.publish_feedback(build(RotateAbsolute.Feedback, 0.5))
             await until(lambda: feedback)
-            served.finish("succeeded", Rotated(-1.5))
+            served.finish("succeeded", build(RotateAbsolute.Result, -1.5))
             result = await goal.result()
 
-            assert feedback == [Rotating(0.5)]
-            assert (result.status, result.value) == ("succeeded", Rotated(-1.5))
+            assert feedback == [build(RotateAbsolute.Feedback, 0.5)]
+            assert (result.status, result.value) == (
+                "succeeded",
+                build(RotateAbsolute.Result, -1.5),
+            )
 
     play(turn())
 
@@ -158,7 +157,7 @@ def test_what_an_action_says_inside_a_process_too_goes_over_the_link_once():
             two.there.topic(name, fibonacci.Impl.FeedbackMessage).subscribe(heard.append)
             graph = two.host.graph
             await until(lambda: graph.entities(SUBSCRIPTION, name=name))
-            await here.send_goal("count", fibonacci.Goal())
+            here.send_goal("count", fibonacci.Goal())
             for number in range(3):
                 goals[0].publish_feedback(fibonacci.Feedback(sequence=[number]))
             await until(lambda: heard and list(heard[-1].feedback.sequence) == [2])
@@ -174,13 +173,13 @@ def test_a_goal_is_called_off_over_the_link():
         async with Two() as two:
             rotation = Rotation(two.here)
             await until(lambda: "turtle1/rotate_absolute" in two.there.actions())
-            goal = await two.there.send_goal("turtle1/rotate_absolute", RotateAbsolute(1.5))
+            goal = two.there.send_goal("turtle1/rotate_absolute", build(RotateAbsolute.Goal, 1.5))
             await until(lambda: rotation.goals)
             served = rotation.goals[0]
 
             goal.cancel()
             await until(lambda: served.cancel_requested)
-            served.finish("canceled", Rotated(0.25))
+            served.finish("canceled", build(RotateAbsolute.Result, 0.25))
 
             assert (await goal.result()).status == "canceled"
 
@@ -192,7 +191,7 @@ def test_a_goal_whose_host_leaves_ends_as_aborted():
         two = Two()
         rotation = Rotation(two.here)
         await until(lambda: "turtle1/rotate_absolute" in two.there.actions())
-        goal = await two.there.send_goal("turtle1/rotate_absolute", RotateAbsolute(1.5))
+        goal = two.there.send_goal("turtle1/rotate_absolute", build(RotateAbsolute.Goal, 1.5))
         await until(lambda: rotation.goals)
 
         two.host.close()

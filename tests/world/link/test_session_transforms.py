@@ -10,10 +10,9 @@ from tests.world.link.two import Two, play, sample, texts
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.rigid import Transform
 from tftool.messages.transforms import encode_transforms
-from tftool.messages.turtle_values import Clear
+from tftool.messages.turtle_messages import Empty, Twist, twist
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
@@ -49,22 +48,22 @@ def test_what_came_in_is_not_sent_out_again():
             echoes = []
             two.here.tf.subscribe(echoes.append)
             commands = []
-            two.here.topic("turtle1/cmd_vel", Twist2D).subscribe(commands.append)
-            two.there.topic("turtle1/cmd_vel", Twist2D).subscribe(lambda twist: None)
+            two.here.topic("turtle1/cmd_vel", Twist).subscribe(commands.append)
+            two.there.topic("turtle1/cmd_vel", Twist).subscribe(lambda twist: None)
             await until(lambda: two.guest.graph.entities("subscription", name="turtle1/cmd_vel"))
             await until(lambda: two.host.graph.entities("subscription", name="turtle1/cmd_vel"))
 
             for step in range(1, 6):
                 two.there.broadcast([sample(step)], "guest")
-                two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(float(step)))
+                two.there.topic("turtle1/cmd_vel", Twist).publish(twist(float(step)))
             await until(lambda: len(echoes) >= 5 and len(commands) >= 5)
             # Anything that came back would have come before the answer to this.
-            two.here.serve("clear", lambda request: None, Clear)
+            two.here.serve("clear", lambda request: None, Empty)
             await until(lambda: two.there.has_service("clear"))
-            await two.there.call("clear", Clear())
+            await two.there.call("clear", Empty.Request())
 
             assert len(echoes) == 5
-            assert [twist.linear_x for twist in commands] == [1.0, 2.0, 3.0, 4.0, 5.0]
+            assert [twist.linear.x for twist in commands] == [1.0, 2.0, 3.0, 4.0, 5.0]
             assert two.guest.received == 0
 
     play(send())

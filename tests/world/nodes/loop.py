@@ -5,7 +5,7 @@ import math
 from tests.world.nodes.harness import After
 from tests.world.nodes.vectors import close
 from tftool.base.stamps import seconds
-from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_messages import Twist
 
 HEAD_START = 2.0
 """Seconds before t = 0 in which the simulator idles: 125 whole ticks."""
@@ -22,7 +22,7 @@ class Loop:
         self.sim = None
         self.commands = {}
         self.found = {}
-        world.topic("turtle2/cmd_vel", Twist2D).subscribe(self._command)
+        world.topic("turtle2/cmd_vel", Twist).subscribe(self._command)
 
     def now(self):
         return round(self.world.clock.elapsed() / 1e9 - self.head_start, 6)
@@ -74,10 +74,10 @@ class Loop:
             if command is not None:
                 yield "command", command, None
             return
-        if not close(command.linear_x, row["cmd_linear"], "linear"):
-            yield "linear", command.linear_x, row["cmd_linear"]
-        if bearing_counts and not close(command.angular_z, row["cmd_angular"], "angular"):
-            yield "angular", command.angular_z, row["cmd_angular"]
+        if not close(command.linear.x, row["cmd_linear"], "linear"):
+            yield "linear", command.linear.x, row["cmd_linear"]
+        if bearing_counts and not close(command.angular.z, row["cmd_angular"], "angular"):
+            yield "angular", command.angular.z, row["cmd_angular"]
 
     def _goal(self, row, places):
         two = places["turtle2"]

@@ -10,7 +10,8 @@ from tftool.base.stamps import NANOSECONDS, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.planar import heading
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Kill, Pose2D
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Kill, Pose
 from tftool.world.nodes.broadcasters import (
     Broadcaster,
     DynamicCarrot,
@@ -35,8 +36,8 @@ def test_a_turtle_is_broadcast_at_every_tick_with_the_ticks_stamp():
 def test_only_the_yaw_and_the_place_of_a_pose_are_told():
     world = new_world()
     Broadcaster(world, "broadcaster1", turtle="turtle1", frame_id="field", topic="elsewhere")
-    pose = Pose2D(1.0, 2.0, 3.0, 4.0, 5.0)
-    At(world, (0.1, lambda: world.topic("elsewhere", Pose2D).publish(pose)))
+    pose = build(Pose, 1.0, 2.0, 3.0, 4.0, 5.0)
+    At(world, (0.1, lambda: world.topic("elsewhere", Pose).publish(pose)))
     play(world, 0.2)
 
     found = world.buffer.lookup_transform("field", "turtle1").transform
@@ -48,7 +49,7 @@ def test_a_killed_turtles_frame_just_grows_old():
     world = new_world()
     Turtlesim(world)
     Broadcaster(world, "broadcaster1", turtle="turtle1")
-    At(world, (0.5, lambda: world.call("kill", Kill("turtle1"))))
+    At(world, (0.5, lambda: world.call("kill", build(Kill.Request, "turtle1"))))
     play(world, 5.0)
 
     assert world.buffer.lookup_transform("world", "turtle1").stamp == seconds(1000.496)
@@ -67,11 +68,11 @@ def test_a_turtle_that_is_not_there_has_no_frame():
 def test_a_pose_that_is_no_number_is_refused_and_nothing_held_is_lost():
     world = new_world()
     Broadcaster(world, "broadcaster1", turtle="turtle1")
-    poses = world.topic("turtle1/pose", Pose2D)
+    poses = world.topic("turtle1/pose", Pose)
     At(
         world,
-        (0.1, lambda: poses.publish(Pose2D(1.0, 2.0, 0.0))),
-        (0.2, lambda: poses.publish(Pose2D(math.nan, 2.0, 0.0))),
+        (0.1, lambda: poses.publish(build(Pose, 1.0, 2.0, 0.0))),
+        (0.2, lambda: poses.publish(build(Pose, math.nan, 2.0, 0.0))),
     )
     play(world, 0.3)
 

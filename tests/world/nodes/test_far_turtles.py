@@ -2,11 +2,11 @@
 
 import pytest
 
+from tftool.base.color import Color
 from tftool.base.errors import LinkError
 from tftool.base.stamps import seconds
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.classes import INTERFACES
-from tftool.messages.turtle_values import Clear, Color, Pose2D, SetPen, TeleportAbsolute
+from tftool.messages.classes import INTERFACES, build
+from tftool.messages.turtle_messages import Empty, Pose, SetPen, TeleportAbsolute, Twist, twist
 from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
 from tftool.world.nodes.drawings import MOST_STROKES, DrawingService, FarDrawing
@@ -41,13 +41,13 @@ def lived(world, duration):
 
 
 def pose(x, y=5.0):
-    return Pose2D(x, y, 0.0, 0.0, 0.0)
+    return build(Pose, x, y, 0.0, 0.0, 0.0)
 
 
 def test_what_is_drawn_is_what_the_simulator_drew(world):
     simulator, far = Turtlesim(world), FarTurtles(world)
-    drive = world.topic("turtle1/cmd_vel", Twist2D)
-    Script(world, (1, lambda: drive.publish(Twist2D(2.0, 1.8))))
+    drive = world.topic("turtle1/cmd_vel", Twist)
+    Script(world, (1, lambda: drive.publish(twist(2.0, 1.8))))
 
     lived(world, 3)
 
@@ -62,7 +62,7 @@ def test_what_is_drawn_is_what_the_simulator_drew(world):
 
 def test_the_picture_changes_only_when_a_turtle_moves(world):
     far = FarTurtles(world)
-    topic = world.topic("turtle1/pose", Pose2D)
+    topic = world.topic("turtle1/pose", Pose)
 
     topic.publish(pose(1.0))
     first = far.revision
@@ -74,7 +74,7 @@ def test_the_picture_changes_only_when_a_turtle_moves(world):
 
 def test_who_falls_silent_is_gone_and_leaves_no_line_when_it_comes_back_elsewhere(world):
     far = FarTurtles(world)
-    one, two = (world.topic(f"turtle{number}/pose", Pose2D) for number in (1, 2))
+    one, two = (world.topic(f"turtle{number}/pose", Pose) for number in (1, 2))
     there = []
     Script(
         world,
@@ -94,7 +94,7 @@ def test_who_falls_silent_is_gone_and_leaves_no_line_when_it_comes_back_elsewher
 
 def test_of_a_crowd_only_the_first_are_listened_to(world):
     far = FarTurtles(world)
-    topics = [world.topic(f"turtle{number}/pose", Pose2D) for number in range(MOST + 10)]
+    topics = [world.topic(f"turtle{number}/pose", Pose) for number in range(MOST + 10)]
     for topic in topics:
         topic.publish(pose(1.0))
 
@@ -104,11 +104,11 @@ def test_of_a_crowd_only_the_first_are_listened_to(world):
 
 def test_one_that_has_ended_listens_to_nobody(world):
     far = FarTurtles(world)
-    first = world.topic("turtle1/pose", Pose2D)
+    first = world.topic("turtle1/pose", Pose)
     first.publish(pose(1.0))
     far.close()
     first.publish(pose(2.0))
-    world.topic("turtle2/pose", Pose2D).publish(pose(3.0))
+    world.topic("turtle2/pose", Pose).publish(pose(3.0))
 
     assert {name: one.pose.x for name, one in far.turtles.items()} == {"turtle1": 1.0}
     assert all(topic.near_subscribers == 0 for topic in world.topics().values())
@@ -116,7 +116,7 @@ def test_one_that_has_ended_listens_to_nobody(world):
 
 def test_another_simulator_begins_on_an_empty_sheet(world):
     far = FarTurtles(world)
-    topic = world.topic("turtle1/pose", Pose2D)
+    topic = world.topic("turtle1/pose", Pose)
     before = []
     Script(
         world,
@@ -153,18 +153,18 @@ def seen_after(world, *steps, look_at):
 
 
 def to(x, y):
-    return "turtle1/teleport_absolute", TeleportAbsolute(x, y, 0.0)
+    return "turtle1/teleport_absolute", build(TeleportAbsolute.Request, x, y, 0.0)
 
 
 def test_pens_and_what_was_drawn_before_the_first_look_are_seen(world):
     simulator, far = seen_after(
         world,
         (1, to(1.0, 1.0)),
-        (2, ("turtle1/set_pen", SetPen(255, 0, 7, 9, 0))),
+        (2, ("turtle1/set_pen", build(SetPen.Request, 255, 0, 7, 9, 0))),
         (3, to(9.0, 1.0)),
-        (4, ("turtle1/set_pen", SetPen(0, 0, 0, 0, 1))),
+        (4, ("turtle1/set_pen", build(SetPen.Request, 0, 0, 0, 0, 1))),
         (5, to(5.0, 5.0)),
-        (8, ("turtle1/set_pen", SetPen(0, 255, 0, 2, 0))),
+        (8, ("turtle1/set_pen", build(SetPen.Request, 0, 255, 0, 2, 0))),
         (8.5, to(5.0, 9.0)),
         look_at=7,
     )
@@ -178,7 +178,7 @@ def test_pens_and_what_was_drawn_before_the_first_look_are_seen(world):
 
 
 def test_a_wiped_sheet_is_wiped_here_too(world):
-    _, far = seen_after(world, (1, to(1.0, 1.0)), (4, ("clear", Clear())), look_at=3)
+    _, far = seen_after(world, (1, to(1.0, 1.0)), (4, ("clear", Empty.Request())), look_at=3)
 
     assert len(far.trail.segments) == 0
 
@@ -233,11 +233,11 @@ def test_beside_one_that_tells_its_strokes_another_is_drawn_by_the_poses(world):
     Turtlesim(world, "a/sim", namespace="a", background=Color(9, 9, 9))
     Turtlesim(world, "b/sim", namespace="b")
     far = FarTurtles(world)
-    ahead, back = (world.topic(f"{one}/turtle1/cmd_vel", Twist2D) for one in "ab")
+    ahead, back = (world.topic(f"{one}/turtle1/cmd_vel", Twist) for one in "ab")
     Script(
         world,
-        (1, lambda: ahead.publish(Twist2D(1.0))),
-        (1, lambda: back.publish(Twist2D(-1.0))),
+        (1, lambda: ahead.publish(twist(1.0))),
+        (1, lambda: back.publish(twist(-1.0))),
     )
 
     lived(world, 4)

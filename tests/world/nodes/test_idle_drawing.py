@@ -3,7 +3,7 @@ import math
 import pytest
 
 from tftool.base.stamps import seconds
-from tftool.geometry.motion.twist import Twist2D
+from tftool.messages.turtle_messages import Twist, twist
 from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
 from tftool.world.nodes.idle_drawing import IdleDrawing
@@ -64,7 +64,7 @@ def test_what_it_draws_stays_off_the_walls_and_comes_to_where_it_was():
 
 def test_a_command_of_another_stops_it_for_five_seconds():
     def drive(world):
-        world.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(0.0, 1.0))
+        world.topic("turtle1/cmd_vel", Twist).publish(twist(0.0, 1.0))
 
     assert not lived(11.9, (7.0, drive))[1].is_drawing
     assert lived(12.5, (7.0, drive))[1].is_drawing

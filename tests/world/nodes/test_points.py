@@ -2,7 +2,7 @@ import pytest
 
 from tests.world.nodes.harness import At, log_texts, new_world, play
 from tftool.base.stamps import seconds
-from tftool.messages.turtle_values import PointStamped
+from tftool.messages.turtle_messages import PointStamped, point_stamped
 from tftool.world.nodes.broadcasters import Broadcaster
 from tftool.world.nodes.points import QUEUE_LENGTH, MessageBroadcaster, PointDrawer
 from tftool.world.nodes.turtlesim import Turtlesim
@@ -11,7 +11,7 @@ TOPIC = "turtle3/turtle_point_stamped"
 
 
 def point(stamp, frame="world"):
-    return PointStamped(stamp, frame, 1.0, 2.0, 0.0)
+    return point_stamped(stamp, frame, 1.0, 2.0, 0.0)
 
 
 def test_the_demo_places_every_point_of_turtle3_as_turtle1_sees_it():

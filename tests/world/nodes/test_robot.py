@@ -5,9 +5,9 @@ import pytest
 from tests.world.nodes.harness import After, At, log_texts, new_world, play
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Pose, Twist, twist
 from tftool.world.nodes.broadcasters import StaticBroadcaster
 from tftool.world.nodes.mobile_robot import TRUTH, LaserPoint, MapCorrection, RobotOdometry
 
@@ -87,9 +87,9 @@ def test_a_robot_told_to_stand_stands_in_truth_and_belief():
     world, robot = robot_world()
     At(
         world,
-        (1.0, lambda: world.topic("base_link/cmd_vel", Twist2D).publish(Twist2D())),
+        (1.0, lambda: world.topic("base_link/cmd_vel", Twist).publish(twist())),
         (1.5, lambda: (robot.truth, robot.believed)),
-        (1.5, lambda: world.topic("base_link/cmd_vel", Twist2D).publish(Twist2D(math.nan))),
+        (1.5, lambda: world.topic("base_link/cmd_vel", Twist).publish(twist(math.nan))),
     )
     hands = world.node("hands")
     play(world, 3.0)
@@ -110,7 +110,7 @@ def test_nothing_is_measured_before_the_laser_is_mounted_and_the_robot_known():
     world = new_world()
     LaserPoint(world)
     MapCorrection(world)
-    At(world, (1.0, lambda: world.topic(TRUTH, Pose2D).publish(Pose2D(0.0, 0.0, 0.0))))
+    At(world, (1.0, lambda: world.topic(TRUTH, Pose).publish(build(Pose, 0.0, 0.0, 0.0))))
     play(world, 3.0)
 
     assert "laser_point" not in world.buffer.frames()

@@ -1,6 +1,5 @@
 from tests.world.nodes.harness import At, log_texts, new_world, play
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.turtle_values import Pose2D, Reset
+from tftool.messages.turtle_messages import Empty, Pose, Twist, twist
 from tftool.world.nodes.squares import DrawSquare, Mimic
 from tftool.world.nodes.turtle_teleop import Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
@@ -22,7 +21,7 @@ def test_the_simulator_is_reset_once_before_the_first_side():
 def test_nothing_is_driven_before_there_is_a_simulator():
     world = new_world()
     commands = []
-    world.topic("turtle1/cmd_vel", Twist2D).subscribe(commands.append)
+    world.topic("turtle1/cmd_vel", Twist).subscribe(commands.append)
     square = DrawSquare(world)
     At(world, (0.5, lambda: Turtlesim(world)))
     play(world, 0.4)
@@ -34,7 +33,7 @@ def test_nothing_is_driven_before_there_is_a_simulator():
     DrawSquare(world)
     world.serve("reset", asked.append)
     play(world, 0.4)
-    assert asked == [Reset()]
+    assert asked == [Empty.Request()]
 
 
 def test_a_copy_drives_forward_when_its_leader_reverses():
@@ -43,11 +42,11 @@ def test_a_copy_drives_forward_when_its_leader_reverses():
     teleop = Teleop(world)
     Mimic(world, leader="turtle1", copy="copy")
     poses = []
-    world.topic("copy/pose", Pose2D).subscribe(poses.append)
+    world.topic("copy/pose", Pose).subscribe(poses.append)
     commands = []
-    world.topic("copy/cmd_vel", Twist2D).subscribe(commands.append)
+    world.topic("copy/cmd_vel", Twist).subscribe(commands.append)
     At(world, (0.1, lambda: teleop.press("down")))
     play(world, 0.5)
 
     assert sim.turtles["turtle1"].forward == -2.0
-    assert commands[-1] == Twist2D(2.0, 0.0)
+    assert commands[-1] == twist(2.0, 0.0)

@@ -2,10 +2,10 @@ import pytest
 
 from tests.world.nodes.harness import At, log_texts, new_world, play
 from tftool.base.errors import UsageError
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.turtle_values import KeyPress, RotateAbsolute
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import RotateAbsolute, Twist, twist
 from tftool.world.clock import SimClock, run
-from tftool.world.nodes.turtle_teleop import KEYS, Teleop
+from tftool.world.nodes.turtle_teleop import KEYS, KeyPress, Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 from tftool.world.world import World
@@ -13,7 +13,7 @@ from tftool.world.world import World
 
 def heard(world):
     commands = []
-    world.topic("turtle1/cmd_vel", Twist2D).subscribe(commands.append)
+    world.topic("turtle1/cmd_vel", Twist).subscribe(commands.append)
     return commands
 
 
@@ -30,7 +30,7 @@ def test_the_scales_are_read_anew_at_every_press():
     )
     play(world, 0.5)
 
-    assert commands == [Twist2D(1.0, 0.0), Twist2D(0.0, -3.0), Twist2D(-5.0, 0.0)]
+    assert commands == [twist(1.0, 0.0), twist(0.0, -3.0), twist(-5.0, 0.0)]
 
 
 def test_no_command_carries_a_minus_zero():
@@ -54,8 +54,8 @@ def test_unknown_keys_are_ignored_and_letters_count_in_either_case():
     play(world, 0.5)
 
     assert hands.answers == [None, None, "cmd_vel", None, "rotate", None, None]
-    assert commands == [Twist2D(2.0, 0.0)]
-    assert [goal.request for goal in goals] == [RotateAbsolute(-0.7854)]
+    assert commands == [twist(2.0, 0.0)]
+    assert [goal.request for goal in goals] == [build(RotateAbsolute.Goal, -0.7854)]
 
 
 def test_f_cancels_the_last_accepted_rotation_and_nothing_else():
@@ -99,7 +99,7 @@ def test_keys_also_come_by_topic_and_q_ends_the_node():
     # Without an end given, it ends with the last node.
     run(world.clock, live(world))
 
-    assert commands == [Twist2D(0.0, 2.0)]
+    assert commands == [twist(0.0, 2.0)]
 
 
 def test_a_rotation_nobody_takes_is_told_and_teleop_goes_on():

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
+from tftool.base.color import Color
 from tftool.geometry.motion.unicycle import CENTRE, FIELD, PIXELS_PER_METRE
-from tftool.messages.turtle_values import Color
 from tftool.world.nodes import trail as trail_module
 from tftool.world.nodes.trail import BLANK, Segment, Trail
 

@@ -6,22 +6,24 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.world.nodes.harness import After, At, Before, log_texts, new_world, play
+from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import TftoolError, UsageError
 from tftool.base.stamps import seconds
 from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.motion.unicycle import CENTRE, FIELD, Placement, float32
-from tftool.messages.turtle_values import (
-    BACKGROUND,
-    Clear,
-    Color,
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import (
+    ColorMessage,
+    Empty,
     Kill,
-    Pose2D,
-    Reset,
+    Pose,
     RotateAbsolute,
     SetPen,
     Spawn,
     TeleportAbsolute,
     TeleportRelative,
+    Twist,
+    twist,
 )
 from tftool.world.clock import SimClock, WallClock, run
 from tftool.world.nodes import turtlesim as turtlesim_module
@@ -33,11 +35,11 @@ from tftool.world.supervisor import live
 from tftool.world.world import World
 
 TICK = 0.016
-twists = st.builds(Twist2D, st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
+twists = st.builds(twist, st.floats(-9, 9), st.floats(-9, 9), st.floats(-9, 9))
 
 
 def drive(world, twist, turtle="turtle1"):
-    return lambda: world.topic(f"{turtle}/cmd_vel", Twist2D).publish(twist)
+    return lambda: world.topic(f"{turtle}/cmd_vel", Twist).publish(twist)
 
 
 def refusal(call):
@@ -57,8 +59,8 @@ def test_a_command_moves_nothing_in_the_instant_it_is_given():
     world = new_world()
     Turtlesim(world)
     poses = []
-    world.topic("turtle1/pose", Pose2D).subscribe(lambda pose: poses.append(pose.x))
-    At(world, (2 * TICK, drive(world, Twist2D(1.0))))
+    world.topic("turtle1/pose", Pose).subscribe(lambda pose: poses.append(pose.x))
+    At(world, (2 * TICK, drive(world, twist(1.0))))
     play(world, 4 * TICK)
 
     still = float32(CENTRE)
@@ -67,10 +69,10 @@ def test_a_command_moves_nothing_in_the_instant_it_is_given():
 
 def test_a_command_given_in_a_ticks_instant_waits_for_the_next_tick_whoever_is_first():
     world = new_world()
-    Before(world, (2 * TICK, drive(world, Twist2D(1.0))))
+    Before(world, (2 * TICK, drive(world, twist(1.0))))
     Turtlesim(world)
     poses = []
-    world.topic("turtle1/pose", Pose2D).subscribe(lambda pose: poses.append(pose.x))
+    world.topic("turtle1/pose", Pose).subscribe(lambda pose: poses.append(pose.x))
     play(world, 3 * TICK)
 
     still = float32(CENTRE)
@@ -93,7 +95,7 @@ def test_whatever_is_commanded_the_turtle_stays_in_the_field(commands, holonomic
     world = new_world()
     Turtlesim(world, holonomic=holonomic)
     poses = []
-    world.topic("turtle1/pose", Pose2D).subscribe(poses.append)
+    world.topic("turtle1/pose", Pose).subscribe(poses.append)
     steps = [(tick * TICK, drive(world, twist)) for tick, twist in sorted(commands, key=str)]
     At(world, *sorted(steps, key=lambda step: step[0]))
     play(world, 80 * TICK)
@@ -111,10 +113,10 @@ def test_whatever_is_commanded_the_turtle_stays_in_the_field(commands, holonomic
 def test_two_runs_are_equal_to_the_last_bit(commands):
     def lived():
         world = new_world()
-        sim = Turtlesim(world, turtles=[Spawn(1.0, 1.0, 1.0, "other")])
+        sim = Turtlesim(world, turtles=[build(Spawn.Request, 1.0, 1.0, 1.0, "other")])
         poses = []
         for name in ("turtle1", "other"):
-            world.topic(f"{name}/pose", Pose2D).subscribe(poses.append)
+            world.topic(f"{name}/pose", Pose).subscribe(poses.append)
             steps = sorted(((at, drive(world, twist, name)) for at, twist in commands), key=_when)
             At(world, *steps, name=f"{name}'s hands")
         play(world, 2.5)
@@ -125,10 +127,16 @@ def test_two_runs_are_equal_to_the_last_bit(commands):
 
 def test_turtles_are_updated_in_the_order_of_their_names():
     world = new_world()
-    Turtlesim(world, turtles=[Spawn(1, 1, 0, "turtle2"), Spawn(2, 2, 0, "turtle10")])
+    Turtlesim(
+        world,
+        turtles=[
+            build(Spawn.Request, 1, 1, 0, "turtle2"),
+            build(Spawn.Request, 2, 2, 0, "turtle10"),
+        ],
+    )
     heard = []
     for name in ("turtle1", "turtle2", "turtle10"):
-        world.topic(f"{name}/pose", Pose2D).subscribe(lambda _, name=name: heard.append(name))
+        world.topic(f"{name}/pose", Pose).subscribe(lambda _, name=name: heard.append(name))
     play(world, TICK)
 
     assert heard[3:] == ["turtle1", "turtle10", "turtle2"]
@@ -139,9 +147,9 @@ def test_a_sideways_speed_outlives_a_command_that_may_not_set_it():
     sim = Turtlesim(world, holonomic=True)
     At(
         world,
-        (0.0, drive(world, Twist2D(1.0, 0.0, 1.0))),
+        (0.0, drive(world, twist(1.0, 0.0, 1.0))),
         (0.1, lambda: sim.set_parameter("holonomic", False)),
-        (0.1, drive(world, Twist2D(2.0, 0.0, 5.0))),
+        (0.1, drive(world, twist(2.0, 0.0, 5.0))),
     )
     play(world, 0.5)
 
@@ -151,8 +159,8 @@ def test_a_sideways_speed_outlives_a_command_that_may_not_set_it():
 
 def test_a_push_against_the_wall_is_told_once_a_second_and_counted_every_time():
     world = new_world()
-    sim = Turtlesim(world, turtles=[Spawn(FIELD, 5.0, 0.0, "probe")])
-    push = drive(world, Twist2D(1.0), "probe")
+    sim = Turtlesim(world, turtles=[build(Spawn.Request, FIELD, 5.0, 0.0, "probe")])
+    push = drive(world, twist(1.0), "probe")
     At(world, *((0.5 * half, push) for half in range(6)))
     play(world, 3.0)
 
@@ -194,10 +202,10 @@ def test_names_are_given_taken_and_counted_as_a_naive_model_says(operations):
         nonlocal names, counter
         for operation, name in operations:
             if operation == "kill":
-                await world.call("kill", Kill(name))
+                await world.call("kill", build(Kill.Request, name))
                 names.discard(name)
             elif operation == "reset":
-                await world.call("reset", Reset())
+                await world.call("reset", Empty.Request())
                 names, counter = {"turtle1"}, 1
             else:
                 wanted = name
@@ -207,7 +215,9 @@ def test_names_are_given_taken_and_counted_as_a_naive_model_says(operations):
                         wanted = f"turtle{counter}"
                 given_name = "" if wanted in names or " " in wanted else wanted
                 names |= {given_name} - {""}
-                answers.append((await world.call("spawn", Spawn(1, 1, 0, name)), given_name))
+                answers.append(
+                    (await world.call("spawn", build(Spawn.Request, 1, 1, 0, name)), given_name)
+                )
 
     At(world, (0.0, walk_through))
     play(world, 1.0)
@@ -224,8 +234,10 @@ def test_the_sensor_reads_blank_ground_and_then_the_fresh_trail():
     world = new_world()
     Turtlesim(world)
     colors = []
-    world.topic("turtle1/color_sensor", Color).subscribe(colors.append)
-    At(world, (TICK, drive(world, Twist2D(1.0))))
+    world.topic("turtle1/color_sensor", ColorMessage).subscribe(
+        lambda one: colors.append(Color(one.r, one.g, one.b))
+    )
+    At(world, (TICK, drive(world, twist(1.0))))
     play(world, 4 * TICK)
 
     # It looks before this update's own stroke is drawn.
@@ -235,22 +247,22 @@ def test_the_sensor_reads_blank_ground_and_then_the_fresh_trail():
 def test_the_sensor_reads_nothing_of_a_lifted_pen():
     world = new_world()
     sim = Turtlesim(world)
-    world.topic("turtle1/color_sensor", Color).subscribe(lambda _: None)
+    world.topic("turtle1/color_sensor", ColorMessage).subscribe(lambda _: None)
     At(
         world,
-        (0.0, lambda: world.call("turtle1/set_pen", SetPen(off=1))),
-        (0.1, drive(world, Twist2D(2.0))),
+        (0.0, lambda: world.call("turtle1/set_pen", build(SetPen.Request, off=1))),
+        (0.1, drive(world, twist(2.0))),
     )
     play(world, 1.0)
 
-    assert world.topic("turtle1/color_sensor", Color).latest == BLANK
+    assert world.topic("turtle1/color_sensor", ColorMessage).latest == build(ColorMessage, *BLANK)
     assert sim.trail.drawn == 0
 
 
 def test_nobody_asking_for_colours_costs_no_message_and_asking_later_tells_the_same():
     world = new_world()
     sim = Turtlesim(world)
-    At(world, (0.0, drive(world, Twist2D(1.0, 0.5))))
+    At(world, (0.0, drive(world, twist(1.0, 0.5))))
     play(world, 2.0)
 
     assert world.topics()["turtle1/color_sensor"].count == 0
@@ -262,8 +274,13 @@ def test_a_teleport_draws_a_straight_stroke_and_the_trail_outlives_its_turtle():
     sim = Turtlesim(world)
     At(
         world,
-        (0.0, lambda: world.call("turtle1/teleport_absolute", TeleportAbsolute(1.0, 1.0))),
-        (0.1, lambda: world.call("kill", Kill("turtle1"))),
+        (
+            0.0,
+            lambda: world.call(
+                "turtle1/teleport_absolute", build(TeleportAbsolute.Request, 1.0, 1.0)
+            ),
+        ),
+        (0.1, lambda: world.call("kill", build(Kill.Request, "turtle1"))),
     )
     play(world, 0.2)
 
@@ -274,13 +291,13 @@ def test_a_teleport_draws_a_straight_stroke_and_the_trail_outlives_its_turtle():
 
 def test_clear_wipes_trails_and_reset_brings_the_start_back():
     world = new_world()
-    sim = Turtlesim(world, turtles=[Spawn(1, 1, 0, "other")])
+    sim = Turtlesim(world, turtles=[build(Spawn.Request, 1, 1, 0, "other")])
     At(
         world,
-        (0.0, drive(world, Twist2D(2.0, 1.0))),
-        (0.5, lambda: world.call("clear", Clear())),
+        (0.0, drive(world, twist(2.0, 1.0))),
+        (0.5, lambda: world.call("clear", Empty.Request())),
         (0.6, lambda: sim.trail.wipes),
-        (0.6, lambda: world.call("reset", Reset())),
+        (0.6, lambda: world.call("reset", Empty.Request())),
     )
     play(world, 1.0)
 
@@ -294,8 +311,8 @@ def test_a_broadcaster_goes_on_when_its_turtle_is_reset():
     world = new_world()
     Turtlesim(world)
     heard = []
-    world.topic("turtle1/pose", Pose2D).subscribe(heard.append)
-    At(world, (0.5, lambda: world.call("reset", Reset())))
+    world.topic("turtle1/pose", Pose).subscribe(heard.append)
+    At(world, (0.5, lambda: world.call("reset", Empty.Request())))
     play(world, 1.008)
 
     assert len(heard) == 64
@@ -304,8 +321,8 @@ def test_a_broadcaster_goes_on_when_its_turtle_is_reset():
 def test_the_topics_of_a_killed_turtle_go_unless_somebody_listens():
     world = new_world()
     Turtlesim(world)
-    world.topic("turtle1/pose", Pose2D).subscribe(lambda _: None)
-    At(world, (0.1, lambda: world.call("kill", Kill("turtle1"))))
+    world.topic("turtle1/pose", Pose).subscribe(lambda _: None)
+    At(world, (0.1, lambda: world.call("kill", build(Kill.Request, "turtle1"))))
     play(world, 0.2)
 
     assert {name for name in world.topics() if name.startswith("turtle1")} == {"turtle1/pose"}
@@ -322,7 +339,7 @@ def test_a_second_goal_aborts_the_first():
 
     def turn(theta):
         async def ask():
-            goal = await world.send_goal("turtle1/rotate_absolute", RotateAbsolute(theta))
+            goal = world.send_goal("turtle1/rotate_absolute", build(RotateAbsolute.Goal, theta))
             results.append((theta, (await goal.result()).status))
 
         return ask
@@ -345,12 +362,16 @@ def test_a_goal_ends_aborted_when_its_turtle_goes(at):
     results = []
 
     async def ask():
-        goal = await world.send_goal("turtle1/rotate_absolute", RotateAbsolute(1.0))
+        goal = world.send_goal("turtle1/rotate_absolute", build(RotateAbsolute.Goal, 1.0))
         results.append((await goal.result()).status)
 
-    At(world, (0.0, lambda: world.call("kill", Kill("turtle1")) if at < 0.01 else None), name="a")
+    At(
+        world,
+        (0.0, lambda: world.call("kill", build(Kill.Request, "turtle1")) if at < 0.01 else None),
+        name="a",
+    )
     At(world, (0.0, ask), name="b")
-    At(world, (at, lambda: world.call("kill", Kill("turtle1"))), name="c")
+    At(world, (at, lambda: world.call("kill", build(Kill.Request, "turtle1"))), name="c")
     play(world, 0.5)
 
     assert results == ["aborted"]
@@ -365,7 +386,7 @@ def test_the_background_changes_live_and_leaves_the_trail_alone():
     before = sim.revision
     At(
         world,
-        (0.0, drive(world, Twist2D(2.0))),
+        (0.0, drive(world, twist(2.0))),
         (0.5, lambda: sim.set_parameter("background_r", 1)),
     )
     play(world, 1.0)
@@ -389,7 +410,7 @@ def test_a_namespace_stands_before_everything_a_simulator_offers():
     world = new_world()
     Turtlesim(world, "sim", namespace="/turtlesim1/")
     Turtlesim(world, "sim2", namespace="turtlesim2")
-    At(world, (0.0, lambda: world.call("turtlesim2/spawn", Spawn(1.0, 1.0))))
+    At(world, (0.0, lambda: world.call("turtlesim2/spawn", build(Spawn.Request, 1.0, 1.0))))
     play(world, 0.1)
 
     assert "turtlesim1/turtle1/pose" in world.topics()
@@ -407,7 +428,7 @@ def test_a_namespace_stands_before_everything_a_simulator_offers():
 def test_a_name_that_cannot_be_is_refused_in_one_readable_line(name):
     world = new_world()
     sim = Turtlesim(world)
-    hands = At(world, (0.0, lambda: world.call("spawn", Spawn(1.0, 1.0, 0.0, name))))
+    hands = At(world, (0.0, lambda: world.call("spawn", build(Spawn.Request, 1.0, 1.0, 0.0, name))))
     play(world, 0.1)
 
     assert hands.answers[0].name == ""
@@ -423,7 +444,13 @@ def test_there_is_an_end_to_turtles(monkeypatch):
     monkeypatch.setattr(turtlesim_module, "MOST_TURTLES", 3)
     world = new_world()
     sim = Turtlesim(world)
-    At(world, *((0.1 * tenth, lambda: world.call("spawn", Spawn(1, 1))) for tenth in range(5)))
+    At(
+        world,
+        *(
+            (0.1 * tenth, lambda: world.call("spawn", build(Spawn.Request, 1, 1)))
+            for tenth in range(5)
+        ),
+    )
     play(world, 1.0)
 
     assert len(sim.turtles) == 3
@@ -433,7 +460,7 @@ def test_there_is_an_end_to_turtles(monkeypatch):
 def test_killing_a_name_full_of_control_codes_is_told_in_one_readable_line():
     world = new_world()
     Turtlesim(world)
-    At(world, (0.0, lambda: world.call("kill", Kill("\x1b[2J"))))
+    At(world, (0.0, lambda: world.call("kill", build(Kill.Request, "\x1b[2J"))))
     play(world, 0.1)
 
     assert log_texts(world)[-1] == (r"Tried to kill turtle [\x1b[2J], which does not exist")
@@ -442,13 +469,13 @@ def test_killing_a_name_full_of_control_codes_is_told_in_one_readable_line():
 @pytest.mark.parametrize(
     ("service", "request_"),
     [
-        ("spawn", Spawn(math.nan, 1.0)),
-        ("spawn", Spawn(1.0, 1e39)),
-        ("turtle1/teleport_absolute", TeleportAbsolute(1.0, math.inf)),
-        ("turtle1/teleport_relative", TeleportRelative(math.nan)),
-        ("turtle1/set_pen", SetPen(r=256)),
-        ("turtle1/set_pen", SetPen(width=-1)),
-        ("turtle1/set_pen", SetPen(g=1.5)),
+        ("spawn", build(Spawn.Request, math.nan, 1.0)),
+        ("spawn", build(Spawn.Request, 1.0, 1e39)),
+        ("turtle1/teleport_absolute", build(TeleportAbsolute.Request, 1.0, math.inf)),
+        ("turtle1/teleport_relative", build(TeleportRelative.Request, math.nan)),
+        ("turtle1/set_pen", build(SetPen.Request, r=256)),
+        ("turtle1/set_pen", build(SetPen.Request, width=-1)),
+        ("turtle1/set_pen", build(SetPen.Request, g=1.5)),
     ],
 )
 def test_a_request_with_an_impossible_number_is_refused_and_changes_nothing(service, request_):
@@ -465,7 +492,7 @@ def test_a_request_with_an_impossible_number_is_refused_and_changes_nothing(serv
 def test_a_goal_that_is_no_number_is_refused():
     world = new_world()
     Turtlesim(world)
-    goal = RotateAbsolute(math.nan)
+    goal = build(RotateAbsolute.Goal, math.nan)
     hands = At(world, (0.0, refusal(lambda: world.send_goal("turtle1/rotate_absolute", goal))))
     play(world, 0.1)
 
@@ -474,7 +501,7 @@ def test_a_goal_that_is_no_number_is_refused():
 
 @pytest.mark.parametrize(
     "twist",
-    [Twist2D(math.nan, 0.0), Twist2D(0.0, math.inf), Twist2D(0.0, 0.0, -math.inf)],
+    [twist(math.nan, 0.0), twist(0.0, math.inf), twist(0.0, 0.0, -math.inf)],
 )
 def test_a_command_that_is_not_finite_is_ignored_with_a_sentence_once_a_second(twist):
     world = new_world()
@@ -491,7 +518,7 @@ def test_a_command_that_is_not_finite_is_ignored_with_a_sentence_once_a_second(t
 def test_a_speed_beyond_all_bounds_ends_at_the_wall():
     world = new_world()
     sim = Turtlesim(world)
-    At(world, (0.0, drive(world, Twist2D(1e308, 1e308))))
+    At(world, (0.0, drive(world, twist(1e308, 1e308))))
     play(world, 0.1)
 
     x, y, theta = sim.turtles["turtle1"].place
@@ -503,7 +530,7 @@ def test_a_speed_beyond_all_bounds_ends_at_the_wall():
 
 def test_a_simulator_may_be_sent_away_by_whoever_hears_a_pose():
     world = new_world()
-    sim = Turtlesim(world, turtles=[Spawn(1, 1, 0, "turtle2")])
+    sim = Turtlesim(world, turtles=[build(Spawn.Request, 1, 1, 0, "turtle2")])
     heard = []
 
     def send_away(pose):
@@ -511,7 +538,7 @@ def test_a_simulator_may_be_sent_away_by_whoever_hears_a_pose():
         if len(heard) == 10:
             world.remove(sim)
 
-    world.topic("turtle1/pose", Pose2D).subscribe(send_away)
+    world.topic("turtle1/pose", Pose).subscribe(send_away)
     play(world, 1.0)
 
     assert len(heard) == 10
@@ -528,7 +555,7 @@ def test_a_parameter_that_was_forced_too_far_still_is_a_colour():
 def test_who_waits_for_an_answer_is_told_when_the_simulator_leaves():
     world = new_world()
     sim = Turtlesim(world)
-    hands = At(world, (0.0, refusal(lambda: world.call("spawn", Spawn(1.0, 1.0)))))
+    hands = At(world, (0.0, refusal(lambda: world.call("spawn", build(Spawn.Request, 1.0, 1.0)))))
     At(world, (0.0, lambda: world.remove(sim)), name="remover")
     play(world, 0.5)
 
@@ -541,7 +568,7 @@ def test_an_answer_nobody_waits_for_any_more_is_dropped():
 
     async def give_up():
         with pytest.raises(asyncio.TimeoutError):
-            await asyncio.wait_for(world.call("spawn", Spawn(1.0, 1.0)), 0.001)
+            await asyncio.wait_for(world.call("spawn", build(Spawn.Request, 1.0, 1.0)), 0.001)
 
     At(world, (0.0, give_up))
     play(world, 0.1)
@@ -552,7 +579,7 @@ def test_an_answer_nobody_waits_for_any_more_is_dropped():
 def test_a_world_can_be_lived_through_again():
     clock = SimClock()
     world = World(clock)
-    sim = Turtlesim(world, turtles=[Spawn(1.0, 1.0, 0.0, "other")])
+    sim = Turtlesim(world, turtles=[build(Spawn.Request, 1.0, 1.0, 0.0, "other")])
     play(world, 0.1)
     run(clock, live(world, until=clock.now() + seconds(0.1)))
 
@@ -564,8 +591,8 @@ def test_on_the_wall_clock_a_late_tick_takes_all_that_came():
     world = World(WallClock(rate=50.0))
     sim = Turtlesim(world)
     poses = []
-    world.topic("turtle1/pose", Pose2D).subscribe(poses.append)
-    At(world, (0.0, drive(world, Twist2D(1.0))))
+    world.topic("turtle1/pose", Pose).subscribe(poses.append)
+    At(world, (0.0, drive(world, twist(1.0))))
     After(world, (1.5, world.stop), name="end")
     run(world.clock, live(world))
 
@@ -580,13 +607,13 @@ def _when(step):
 def test_commands_of_a_publisher_that_never_pauses_are_bounded_until_the_next_tick():
     world = new_world()
     sim = Turtlesim(world)
-    commands = world.topic("turtle1/cmd_vel", Twist2D)
+    commands = world.topic("turtle1/cmd_vel", Twist)
 
     async def flood():
         for _ in range(MOST_WAITING + 5):
-            commands.publish(Twist2D(1.0, 0.0))
+            commands.publish(twist(1.0, 0.0))
         try:
-            await world.call("clear", Clear())
+            await world.call("clear", Empty.Request())
         except TftoolError as refusal:
             return str(refusal)
 
@@ -603,7 +630,7 @@ def test_commands_of_a_publisher_that_never_pauses_are_bounded_until_the_next_ti
 def test_two_simulators_of_one_namespace_both_move_and_the_second_names_the_remedy():
     world = new_world()
     first, second = Turtlesim(world), Turtlesim(world, "sim_2")
-    At(world, (2 * TICK, drive(world, Twist2D(1.0))))
+    At(world, (2 * TICK, drive(world, twist(1.0))))
     play(world, 1.0)
 
     said = log_texts(world, "sim_2")

@@ -4,10 +4,10 @@ import pytest
 import yaml
 
 from tests.world.nodes.vectors import FILE, TESTED_IN, VECTORS, load
+from tftool.base import color as colors
 from tftool.base.stamps import seconds
 from tftool.geometry import planar
 from tftool.geometry.motion import pursuit, unicycle
-from tftool.messages import turtle_values as messages
 from tftool.world.nodes import follower, trail, turtle
 from tftool.world.nodes import turtle_teleop as teleop
 
@@ -28,7 +28,7 @@ def test_every_number_of_the_constants_is_ours():
         "cmd_timeout_ns": unicycle.COMMAND_TIMEOUT,
         "pi_used": unicycle.PI,
         "two_pi_used": unicycle.TWO_PI,
-        "background_rgb": _rgb(messages.BACKGROUND),
+        "background_rgb": _rgb(colors.BACKGROUND),
         "pen_rgb": _rgb(turtle.PEN_COLOR),
         "pen_width_px": turtle.PEN_WIDTH,
         "blank_sensor_rgb": _rgb(trail.BLANK),

@@ -5,7 +5,8 @@ from tests.world.nodes.loop import BEARING_COUNTS_ABOVE, HEAD_START, Loop
 from tests.world.nodes.vectors import STRICT, VECTORS, ids, rows
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
-from tftool.messages.turtle_values import Kill, Spawn
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Kill, Spawn
 from tftool.world.clock import SimClock
 from tftool.world.nodes.broadcasters import Broadcaster, FixedCarrot
 from tftool.world.nodes.follower import Follower
@@ -33,7 +34,7 @@ def stage(last, period, *, square=False, carrot=False, follow=None, times=()):
     if carrot:
         steps.append((HEAD_START - 0.1, lambda: FixedCarrot(world, "fixed_broadcaster")))
     Before(world, *sorted(steps, key=lambda step: step[0]), name="stage")
-    loop.sim = Turtlesim(world, turtles=[Spawn(4.0, 2.0, 0.0, "turtle2")])
+    loop.sim = Turtlesim(world, turtles=[build(Spawn.Request, 4.0, 2.0, 0.0, "turtle2")])
     loop.sample_at(sorted({*times, *range(int(last) + 1)}))
     return world, loop
 
@@ -79,7 +80,11 @@ def test_a_lost_leader_is_followed_blindly_until_the_cache_forgets():
     expected = rows(case)
     last = expected[-1]["t"]
     world, loop = stage(last, case["period"])
-    After(world, (HEAD_START + 2.1, lambda: world.call("kill", Kill("turtle1"))), name="killer")
+    After(
+        world,
+        (HEAD_START + 2.1, lambda: world.call("kill", build(Kill.Request, "turtle1"))),
+        name="killer",
+    )
     play(world, HEAD_START + last)
 
     assert loop.errors(expected) == {}

@@ -4,9 +4,9 @@ from tests.world.nodes.harness import At, new_world, play
 from tests.world.nodes.vectors import VECTORS, close, rows
 from tftool.base.errors import NodeArgumentsError
 from tftool.base.stamps import seconds
-from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Pose2D, RotateAbsolute
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Pose, RotateAbsolute, Twist, twist
 from tftool.world.nodes.broadcasters import DynamicCarrot, FixedCarrot, carrot_offset
 from tftool.world.nodes.squares import DrawSquare, Mimic, State
 from tftool.world.nodes.static_turtle import static_turtle
@@ -20,16 +20,16 @@ def test_each_key_does_what_the_reference_says(case):
     key = case["key"].removeprefix("arrow_")
     world = new_world()
     twists, goals = [], []
-    world.topic("turtle1/cmd_vel", Twist2D).subscribe(twists.append)
+    world.topic("turtle1/cmd_vel", Twist).subscribe(twists.append)
     world.serve_action("turtle1/rotate_absolute", goals.append)
     teleop = Teleop(world)
     hands = At(world, (0.5, lambda: teleop.press(key)))
     play(world, 1.0)
 
     assert hands.answers == [case["action"]]
-    wanted_twists = [Twist2D(**case["value"])] if case["action"] == "cmd_vel" else []
+    wanted_twists = [twist(**case["value"])] if case["action"] == "cmd_vel" else []
     assert twists == wanted_twists
-    wanted = [RotateAbsolute(case["value"])] if case["action"] == "rotate" else []
+    wanted = [build(RotateAbsolute.Goal, case["value"])] if case["action"] == "rotate" else []
     assert [one.request for one in goals] == wanted
 
 
@@ -47,13 +47,13 @@ def test_the_banner_is_the_newer_versions_because_small_letters_work():
 def test_a_copy_drives_by_the_leaders_pose(case):
     world = new_world()
     found = []
-    world.topic("turtle2/cmd_vel", Twist2D).subscribe(found.append)
+    world.topic("turtle2/cmd_vel", Twist).subscribe(found.append)
     Mimic(world)
-    pose = Pose2D(1.0, 2.0, 3.0, **case["pose"])
-    At(world, (0.1, lambda: world.topic("turtle1/pose", Pose2D).publish(pose)))
+    pose = build(Pose, 1.0, 2.0, 3.0, **case["pose"])
+    At(world, (0.1, lambda: world.topic("turtle1/pose", Pose).publish(pose)))
     play(world, 0.2)
 
-    assert found == [Twist2D(**case["cmd"])]
+    assert found == [twist(**case["cmd"])]
 
 
 @pytest.mark.parametrize("case", VECTORS["static_turtle_cli"], ids=lambda case: str(case["args"]))

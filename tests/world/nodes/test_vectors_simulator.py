@@ -2,19 +2,20 @@ import pytest
 
 from tests.world.nodes.harness import At, log_texts, new_world, play
 from tests.world.nodes.vectors import STRICT, VECTORS, close, ids, mismatch, rows
-from tftool.geometry.motion.twist import Twist2D
+from tftool.base.color import Color
 from tftool.geometry.motion.unicycle import CENTRE
-from tftool.messages.turtle_values import (
-    Clear,
-    Color,
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import (
+    Empty,
     Kill,
-    Pose2D,
-    Reset,
+    Pose,
     RotateAbsolute,
     SetPen,
     Spawn,
     TeleportAbsolute,
     TeleportRelative,
+    Twist,
+    twist,
 )
 from tftool.world.nodes.turtle_teleop import Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
@@ -28,7 +29,7 @@ class Ticks:
 
     def __init__(self, world, sim, name=PROBE):
         self.states = {}
-        world.topic(f"{name}/pose", Pose2D).subscribe(self._keep)
+        world.topic(f"{name}/pose", Pose).subscribe(self._keep)
         self._turtle = lambda: sim.turtles[name]
 
     def _keep(self, pose):
@@ -45,7 +46,7 @@ class Ticks:
 
 def world_with_probe(start, **options):
     world = new_world()
-    spawn = Spawn(start[0], start[1], start[2], PROBE)
+    spawn = build(Spawn.Request, start[0], start[1], start[2], PROBE)
     sim = Turtlesim(world, turtles=[spawn], **options)
     return world, sim
 
@@ -54,13 +55,13 @@ def world_with_probe(start, **options):
 def test_a_turtle_driven_blindly_goes_where_the_reference_goes(case):
     world, sim = world_with_probe(case["start"], holonomic=case.get("holonomic", False))
     ticks = Ticks(world, sim)
-    command = Twist2D(**case["cmd"])
+    command = twist(**case["cmd"])
     last = case["rows"][-1][0]
     times = range(last) if case["mode"] == "hold" else [0]
     At(
         world,
         *(
-            (k * TICK, lambda: world.topic(f"{PROBE}/cmd_vel", Twist2D).publish(command))
+            (k * TICK, lambda: world.topic(f"{PROBE}/cmd_vel", Twist).publish(command))
             for k in times
         ),
     )
@@ -97,13 +98,13 @@ def test_teleports_come_first_in_the_next_update(case):
     world, sim = world_with_probe(case["start"])
     ticks = Ticks(world, sim)
     kinds = {
-        "absolute": ("teleport_absolute", TeleportAbsolute),
-        "relative": ("teleport_relative", TeleportRelative),
+        "absolute": ("teleport_absolute", TeleportAbsolute.Request),
+        "relative": ("teleport_relative", TeleportRelative.Request),
     }
     # All are asked before any is answered: the answers come with the tick.
     for number, request in enumerate(case["requests"]):
         service, kind = kinds[request["kind"]]
-        wish = kind(**{name: value for name, value in request.items() if name != "kind"})
+        wish = build(kind, **{name: value for name, value in request.items() if name != "kind"})
         At(
             world,
             (0.0, lambda s=service, w=wish: world.call(f"{PROBE}/{s}", w)),
@@ -111,7 +112,7 @@ def test_teleports_come_first_in_the_next_update(case):
         )
     At(
         world,
-        (0.0, lambda: world.topic(f"{PROBE}/cmd_vel", Twist2D).publish(Twist2D(**case["cmd"]))),
+        (0.0, lambda: world.topic(f"{PROBE}/cmd_vel", Twist).publish(twist(**case["cmd"]))),
     )
     play(world, TICK)
 
@@ -128,8 +129,10 @@ def test_the_rotate_action_turns_as_the_reference_does(case):
     feedback, ended = [], []
 
     async def ask():
-        handle = await world.send_goal(
-            f"{PROBE}/rotate_absolute", RotateAbsolute(case["goal_theta"]), feedback.append
+        handle = world.send_goal(
+            f"{PROBE}/rotate_absolute",
+            build(RotateAbsolute.Goal, case["goal_theta"]),
+            feedback.append,
         )
         hands.handle = handle
         result = await handle.result()
@@ -139,10 +142,10 @@ def test_the_rotate_action_turns_as_the_reference_does(case):
     if case["id"] == "cancel_before_update_11":
         At(world, (10 * TICK, lambda: hands.handle.cancel()), name="second")
     if case["id"] == "cmd_vel_before_update_11":
-        stop = Twist2D()
+        stop = twist()
         At(
             world,
-            (10 * TICK, lambda: world.topic(f"{PROBE}/cmd_vel", Twist2D).publish(stop)),
+            (10 * TICK, lambda: world.topic(f"{PROBE}/cmd_vel", Twist).publish(stop)),
             name="second",
         )
     play(world, 200 * TICK)
@@ -172,16 +175,19 @@ def test_turtles_come_and_go_under_the_names_of_the_reference():
             operation = step["op"]
             if operation == "spawn":
                 answer = await world.call(
-                    "spawn", Spawn(step["x"], step["y"], step.get("theta", 0.0), step["name"])
+                    "spawn",
+                    build(
+                        Spawn.Request, step["x"], step["y"], step.get("theta", 0.0), step["name"]
+                    ),
                 )
                 if answer.name != step["response"]:
                     failures.append((number, answer))
             elif operation == "kill":
-                await world.call("kill", Kill(step["name"]))
+                await world.call("kill", build(Kill.Request, step["name"]))
             elif operation == "clear":
-                await world.call("clear", Clear())
+                await world.call("clear", Empty.Request())
             elif operation == "reset":
-                await world.call("reset", Reset())
+                await world.call("reset", Empty.Request())
             else:
                 assert operation == "start"
                 before = 0
@@ -210,7 +216,12 @@ def test_the_pen_changes_as_the_reference_says():
             if step["op"] == "set_pen":
                 await world.call(
                     "turtle1/set_pen",
-                    SetPen(*step["request_rgb"], step["request_width"], step["request_off"]),
+                    build(
+                        SetPen.Request,
+                        *step["request_rgb"],
+                        step["request_width"],
+                        step["request_off"],
+                    ),
                 )
             turtle = sim.turtles["turtle1"]
             found.append((turtle.pen_on, turtle.color, turtle.width))

@@ -3,6 +3,7 @@
 import math
 import sys
 from collections.abc import Callable
+from typing import Any
 
 import typer
 
@@ -12,7 +13,7 @@ from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import join_session, open_session
 from tftool.commands.shared.on_screen import driver_of, run_app, screen_lacks, simulator_of
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.turtle_messages import Pose
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.nodes.turtle_teleop import BANNER, KEYS
 from tftool.world.world import World
@@ -85,12 +86,12 @@ async def press_there(world: World, turtle: str, words: list[str]) -> str:
     Raises:
         UsageError: If it is not there.
     """
-    poses = world.topic(f"{turtle}/pose", Pose2D)
+    poses = world.topic(f"{turtle}/pose", Pose)
     # Subscribed, so that they come in.
     stop = poses.subscribe(lambda pose: None)
     clock = world.clock
 
-    async def seen(past: int, condition: Callable[[Pose2D], bool]) -> None:
+    async def seen(past: int, condition: Callable[[Any], bool]) -> None:
         end = clock.now() + PATIENCE
         while clock.now() < end:
             if poses.count > past and poses.latest is not None and condition(poses.latest):
@@ -120,8 +121,8 @@ async def press_there(world: World, turtle: str, words: list[str]) -> str:
     )
 
 
-def _is_at_rest(pose: Pose2D) -> bool:
-    return pose.linear_velocity == 0.0 and pose.angular_velocity == 0.0
+def _is_at_rest(pose: Any) -> bool:
+    return bool(pose.linear_velocity == 0.0 and pose.angular_velocity == 0.0)
 
 
 def run(

@@ -1,14 +1,11 @@
 """A velocity in the plane."""
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 
 @dataclass(frozen=True, slots=True)
 class Twist2D:
-    """A velocity command in the plane (the three fields of Twist that turtlesim reads)."""
-
-    interface__: ClassVar[str] = "geometry_msgs/msg/Twist"
+    """Speed ahead and to the left in m/s, turn rate in rad/s."""
 
     linear_x: float = 0.0
     angular_z: float = 0.0

@@ -6,11 +6,11 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import UsageError
 from tftool.base.near_names import did_you_mean
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.notation import static_arguments
-from tftool.messages.turtle_values import BACKGROUND, Color
 from tftool.ros.host import importing, user_code
 from tftool.ros.host.missing_names import undeclared
 from tftool.ros.host.names import RosOptions, expand, join, named_twice

@@ -10,7 +10,7 @@ from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import transform
 from tftool.messages.classes import INTERFACES, Message
-from tftool.messages.turtle_messages import as_message, plain_name, recast
+from tftool.messages.turtle_messages import plain_name, recast
 from tftool.world.world import TransformMessage
 
 TF_TOPICS = ("tf", "tf_static")
@@ -33,7 +33,7 @@ def unpack(value: Any, kind: type[Message]) -> Any:
     """What a topic, a service or an action carries, as a new message of a class."""
     if isinstance(value, TransformMessage):
         return unpack_transforms(value)
-    return recast(value, kind) if isinstance(value, Message) else as_message(value, kind)
+    return kind() if value is None else recast(value, kind)
 
 
 def stamp_of(message: Any) -> Stamp:

@@ -127,7 +127,7 @@ class ActionClient(Requester):
             if self.full not in world.actions():
                 return
             try:
-                handle = world.hand_over(self.full, copy, on_feedback, bytes(goal_id.uuid))
+                handle = world.send_goal(self.full, copy, on_feedback, goal_id=bytes(goal_id.uuid))
             except TftoolError as error:
                 refused = error
                 self.put(lambda: future.set_exception(refused))

@@ -3,8 +3,9 @@
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
+from tftool.base.color import Color
 from tftool.base.errors import TransformException
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
@@ -14,7 +15,6 @@ from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
 from tftool.geometry.motion.unicycle import FIELD
 from tftool.geometry.planar import heading, transform_from_pose
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Color, Pose2D
 from tftool.screens.terminal.frame_trails import FrameTrails
 from tftool.screens.terminal.frames_picture import (
     Lookup,
@@ -71,8 +71,8 @@ class SimulatedTurtle(Protocol):
         """Its name."""
 
     @property
-    def pose(self) -> Pose2D:
-        """Where it is."""
+    def pose(self) -> Any:
+        """Its last Pose message: where it is."""
 
     @property
     def wall_hits(self) -> int:

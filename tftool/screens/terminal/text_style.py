@@ -6,9 +6,9 @@ from rich.cells import cell_len
 from rich.style import Style
 from rich.text import Text
 
+from tftool.base.color import Color
 from tftool.base.fixed_width import fitted, plain
 from tftool.drawing import theme
-from tftool.messages.turtle_values import Color
 
 
 class Look(NamedTuple):

@@ -5,7 +5,6 @@ from collections.abc import Callable, Coroutine
 from typing import Any, Final
 
 from tftool.base.errors import LinkError, MalformedMessage, TftoolError
-from tftool.messages import turtle_messages as values
 from tftool.messages.classes import INTERFACES
 from tftool.messages.codec import codec
 from tftool.world.action_parts import Tasks
@@ -106,7 +105,7 @@ class ServiceServer:
     async def _serve(self, payload: bytes) -> bytes:
         request = codec(self._kind.Request).decode(payload)
         answer = await self._link.world.call(self._name, request)
-        return codec(self._kind.Response).encode(values.as_message(answer, self._kind.Response))
+        return codec(self._kind.Response).encode(answer)
 
 
 class ServiceClient:

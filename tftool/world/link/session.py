@@ -9,10 +9,9 @@ import asyncio
 import os
 import re
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Final
 
 from tftool.base.errors import MalformedMessage
-from tftool.messages import turtle_messages as values
 from tftool.messages.classes import INTERFACES, Message
 from tftool.world.clock import WallClock
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
@@ -26,6 +25,14 @@ from tftool.world.link.tf import StaticBridge, TransformBridge
 from tftool.world.link.topic_link import TopicBridge
 from tftool.world.offers import Offer
 from tftool.world.world import TransformMessage, World
+
+_NAMED: Final = (
+    "turtlesim/msg/Pose",
+    "turtlesim/msg/Color",
+    "geometry_msgs/msg/Twist",
+    "geometry_msgs/msg/PointStamped",
+)
+"""Types of topics that are listed among the world's topics while only other processes have them."""
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
@@ -189,9 +196,8 @@ class Link(LinkContext):
 
         Those that no process has any more, here or there, are forgotten again.
         """
-        ours = {kind.interface__ for kind in values.TOPICS}
         for entity in self.graph.entities(PUBLISHER):
-            known = entity.ros_type not in ours or entity.name in self.world.topics()
+            known = entity.ros_type not in _NAMED or entity.name in self.world.topics()
             if not known and is_plain(entity.name):
                 self.world.name_topic(entity.name, INTERFACES.message(entity.ros_type))
         for topic in tuple(self.world.topics().values()):

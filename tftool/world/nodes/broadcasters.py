@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from tftool.base.errors import UsageError
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.planar import transform_from_pose
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.turtle_messages import Pose
 from tftool.world.clock import Phase
 from tftool.world.node import Node
 from tftool.world.world import World
@@ -49,14 +49,14 @@ class Broadcaster(Node):
         self.turtle = turtle
         self.frame_id = frame_id
         self.topic = topic or f"{turtle}/pose"
-        self._pose: Pose2D | None = None
+        self._pose: Any = None
         self._transform = Transform.identity()
 
     async def run(self) -> None:
         """Listen from now on."""
-        self.subscribe(self.topic, Pose2D, self._on_pose)
+        self.subscribe(self.topic, Pose, self._on_pose)
 
-    def _on_pose(self, pose: Pose2D) -> None:
+    def _on_pose(self, pose: Any) -> None:
         # A turtle at rest publishes the very same value again and again.
         if pose is not self._pose:
             self._pose = pose

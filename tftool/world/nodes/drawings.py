@@ -8,8 +8,8 @@ they do whatever begins with an underscore.
 from itertools import islice
 from typing import Any, Final
 
+from tftool.base.color import Color
 from tftool.messages.classes import INTERFACES
-from tftool.messages.turtle_values import Color
 from tftool.world.node import Node
 from tftool.world.nodes.trail import Segment, Trail
 

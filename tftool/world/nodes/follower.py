@@ -5,8 +5,7 @@ from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.motion import pursuit
 from tftool.geometry.motion.pid import Gains
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.turtle_values import Spawn
+from tftool.messages.turtle_messages import Twist, twist
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import require_period
 from tftool.world.nodes.spawn import Spawning
@@ -78,13 +77,13 @@ class Follower(Node):
         self.leader, self.follower = leader, follower
         self.delay, self.fixed_frame = delay, fixed_frame
         self.stale_after = stale_after
-        self._spawning = None if spawn is None else Spawning(self, Spawn(*spawn, follower))
+        self._spawning = None if spawn is None else Spawning(self, *spawn, follower)
         self._memory = pursuit.FRESH
         self._stale = False
 
     async def run(self) -> None:
         """Follow until the end."""
-        self.publisher(f"{self.follower}/cmd_vel", Twist2D)
+        self.publisher(f"{self.follower}/cmd_vel", Twist)
         async for now in self.every(self.period):
             if self._spawning is None or self._spawning.step():
                 self._follow(now)
@@ -102,7 +101,7 @@ class Follower(Node):
         command, self._memory = pursuit.steer(
             self.law, self._memory, goal.x, goal.y, as_seconds(self.period)
         )
-        self.publish(f"{self.follower}/cmd_vel", command)
+        self.publish(f"{self.follower}/cmd_vel", twist(command.linear_x, command.angular_z))
 
     def _look(self, now: Stamp) -> TransformStamped:
         if self.delay == 0:
@@ -131,7 +130,7 @@ class Follower(Node):
                 f"{as_seconds(age):.3f} s old, the limit is {as_seconds(self.stale_after):g} s: "
                 "stopping until there is something newer"
             )
-            self.publish(f"{self.follower}/cmd_vel", Twist2D())
+            self.publish(f"{self.follower}/cmd_vel", twist())
         elif self._stale and not stale:
             self.info(f"There is newer data of {self.leader}: following again")
         self._stale = stale

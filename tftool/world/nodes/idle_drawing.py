@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Callable
-from typing import Final
+from typing import Any, Final
 
 from tftool.base.stamps import Duration, Stamp, seconds
-from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.motion.unicycle import FIELD
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.turtle_messages import Pose, Twist, twist
 from tftool.world.node import Node
 from tftool.world.nodes.turtle import require_turtle_name
 from tftool.world.world import World
@@ -60,7 +59,7 @@ class IdleDrawing(Node):
         self._patience = patience
         self._is_alone = is_alone
         self._since: Stamp = 0
-        self._pose: Pose2D | None = None
+        self._pose: Any = None
         self._is_sending = False
         self._phase = 0
         self._told = False
@@ -68,9 +67,9 @@ class IdleDrawing(Node):
     async def run(self) -> None:
         """Wait, draw, and wait again."""
         self._since = self.clock.now()
-        self.publisher(f"{self.turtle}/cmd_vel", Twist2D)
-        self.subscribe(f"{self.turtle}/cmd_vel", Twist2D, self._on_command)
-        self.subscribe(f"{self.turtle}/pose", Pose2D, self._on_pose)
+        self.publisher(f"{self.turtle}/cmd_vel", Twist)
+        self.subscribe(f"{self.turtle}/cmd_vel", Twist, self._on_command)
+        self.subscribe(f"{self.turtle}/pose", Pose, self._on_pose)
         async for now in self.every(_PERIOD):
             if not self._is_alone():
                 self.touch()
@@ -86,17 +85,17 @@ class IdleDrawing(Node):
         self._since = self.clock.now()
         if self.is_drawing:
             self.is_drawing = False
-            self._send(Twist2D())
+            self._send(twist())
 
-    def _on_pose(self, pose: Pose2D) -> None:
+    def _on_pose(self, pose: Any) -> None:
         self._pose = pose
 
-    def _on_command(self, command: Twist2D) -> None:
+    def _on_command(self, command: Any) -> None:
         if not self._is_sending:
             self._since = self.clock.now()
             self.is_drawing = False
 
-    def _send(self, command: Twist2D) -> None:
+    def _send(self, command: Any) -> None:
         # In one process what is published is heard before this returns.
         self._is_sending = True
         try:
@@ -104,14 +103,14 @@ class IdleDrawing(Node):
         finally:
             self._is_sending = False
 
-    def _begin(self, pose: Pose2D) -> None:
+    def _begin(self, pose: Any) -> None:
         self.is_drawing = True
         self._phase = min(range(_STEPS), key=lambda step: _away(pose, step))
         if not self._told:
             self._told = True
             self.info(f"{self.turtle} draws by itself until a key is pressed.")
 
-    def _steer(self, pose: Pose2D) -> Twist2D:
+    def _steer(self, pose: Any) -> Any:
         """Steer to a point of the rose that stays a little ahead."""
         for _ in range(_STEPS):
             if _away(pose, self._phase) >= _AHEAD:
@@ -120,7 +119,7 @@ class IdleDrawing(Node):
         x, y = _rose(self._phase)
         bearing = math.remainder(math.atan2(y - pose.y, x - pose.x) - pose.theta, math.tau)
         speed = _SPEED * max(0.15, math.cos(bearing)) if abs(bearing) < 1.4 else 0.1
-        return Twist2D(speed, max(-3.0, min(3.0, 3.0 * bearing)))
+        return twist(speed, max(-3.0, min(3.0, 3.0 * bearing)))
 
 
 def _rose(step: int) -> tuple[float, float]:
@@ -129,6 +128,6 @@ def _rose(step: int) -> tuple[float, float]:
     return 0.5 * FIELD + away * math.cos(angle), 0.5 * FIELD + away * math.sin(angle)
 
 
-def _away(pose: Pose2D, step: int) -> float:
+def _away(pose: Any, step: int) -> float:
     x, y = _rose(step)
     return math.hypot(x - pose.x, y - pose.y)

@@ -7,7 +7,7 @@ odom.
 """
 
 import math
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from tftool.base.errors import TransformException
 from tftool.base.stamps import Duration, as_seconds, seconds
@@ -16,7 +16,7 @@ from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.motion.unicycle import Placement
 from tftool.geometry.planar import transform_from_pose
 from tftool.geometry.rigid import Transform
-from tftool.messages.turtle_values import Pose2D
+from tftool.messages.turtle_messages import Pose, Twist, planar_velocity, pose
 from tftool.world.clock import Phase
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import require_period
@@ -73,7 +73,7 @@ class RobotOdometry(Node):
 
     async def run(self) -> None:
         """Drive until the end."""
-        self.subscribe(f"{self.base}/cmd_vel", Twist2D, self._on_command)
+        self.subscribe(f"{self.base}/cmd_vel", Twist, self._on_command)
         step = as_seconds(self.period)
         first = True
         async for now in self.every(self.period, immediately=True):
@@ -81,12 +81,14 @@ class RobotOdometry(Node):
                 self._drive(step)
             first = False
             x, y, theta = self.truth
-            self.publish(TRUTH, Pose2D(x, y, theta, self._twist.linear_x, self._twist.angular_z))
+            speed, turn = self._twist.linear_x, self._twist.angular_z
+            self.publish(TRUTH, pose(x, y, theta, speed, turn))
             self.broadcast(
                 TransformStamped(now, self.odom, self.base, transform_from_pose(*self.believed))
             )
 
-    def _on_command(self, twist: Twist2D) -> None:
+    def _on_command(self, message: Any) -> None:
+        twist = planar_velocity(message)
         if math.isfinite(twist.linear_x) and math.isfinite(twist.angular_z):
             self._twist = twist
         else:
@@ -122,11 +124,11 @@ class MapCorrection(Node):
         self.map_frame, self.odom, self.base = map_frame, odom, base
         self.correct_every = require_period(correct_every)
         self.period = require_period(period)
-        self._truth: Pose2D | None = None
+        self._truth: Any = None
 
     async def run(self) -> None:
         """Correct until the end."""
-        self.subscribe(TRUTH, Pose2D, self._on_truth)
+        self.subscribe(TRUTH, Pose, self._on_truth)
         map_from_odom = Transform.identity()
         due = self.clock.now() + self.correct_every
         async for now in self.every(self.period, immediately=True):
@@ -135,7 +137,7 @@ class MapCorrection(Node):
                 due += self.correct_every
             self.broadcast(TransformStamped(now, self.map_frame, self.odom, map_from_odom))
 
-    def _on_truth(self, truth: Pose2D) -> None:
+    def _on_truth(self, truth: Any) -> None:
         self._truth = truth
 
     def _corrected(self) -> Transform | None:
@@ -173,11 +175,11 @@ class LaserPoint(Node):
         self.landmark = landmark
         self.base, self.laser, self.child = base, laser, child
         self.period = require_period(period)
-        self._truth: Pose2D | None = None
+        self._truth: Any = None
 
     async def run(self) -> None:
         """Measure until the end."""
-        self.subscribe(TRUTH, Pose2D, self._on_truth)
+        self.subscribe(TRUTH, Pose, self._on_truth)
         async for now in self.every(self.period, immediately=True):
             if self._truth is None or not self.buffer.can_transform(self.base, self.laser):
                 continue
@@ -186,11 +188,11 @@ class LaserPoint(Node):
             seen = map_from_laser.inverse().apply(self.landmark)
             self.broadcast(TransformStamped(now, self.laser, self.child, Transform(seen)))
 
-    def _on_truth(self, truth: Pose2D) -> None:
+    def _on_truth(self, truth: Any) -> None:
         self._truth = truth
 
 
-def _pose_of(truth: Pose2D) -> Transform:
+def _pose_of(truth: Any) -> Transform:
     return transform_from_pose(truth.x, truth.y, truth.theta)
 
 

@@ -4,9 +4,8 @@ import asyncio
 from typing import Any
 
 from tftool.base.errors import TransformException
-from tftool.base.stamps import Duration, seconds
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.turtle_values import PointStamped, Pose2D, Spawn
+from tftool.base.stamps import NANOSECONDS, Duration, seconds
+from tftool.messages.turtle_messages import PointStamped, Pose, point_stamped, twist
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import require_period
 from tftool.world.nodes.spawn import Spawning
@@ -37,20 +36,20 @@ class MessageBroadcaster(Node):
         super().__init__(world, name)
         self.turtle, self.frame_id = turtle, frame_id
         self.period = require_period(period)
-        self._spawning = Spawning(self, Spawn(*spawn, turtle))
+        self._spawning = Spawning(self, *spawn, turtle)
 
     async def run(self) -> None:
         """Start up, then react to every pose."""
         async for _ in self.every(self.period):
             if self._spawning.step():
                 break
-        self.subscribe(f"{self.turtle}/pose", Pose2D, self._on_pose)
+        self.subscribe(f"{self.turtle}/pose", Pose, self._on_pose)
 
-    def _on_pose(self, pose: Pose2D) -> None:
-        self.publish(f"{self.turtle}/cmd_vel", Twist2D(1.0, 1.0))
+    def _on_pose(self, pose: Any) -> None:
+        self.publish(f"{self.turtle}/cmd_vel", twist(1.0, 1.0))
         self.publish(
             f"{self.turtle}/{POINT_TOPIC}",
-            PointStamped(self.clock.now(), self.frame_id, pose.x, pose.y, 0.0),
+            point_stamped(self.clock.now(), self.frame_id, pose.x, pose.y, 0.0),
         )
 
 
@@ -78,8 +77,8 @@ class PointDrawer(Node):
         self.subscribe(f"{self.turtle}/{POINT_TOPIC}", PointStamped, self._on_point)
         await asyncio.Event().wait()
 
-    def _on_point(self, point: PointStamped) -> None:
-        if not point.frame_id:
+    def _on_point(self, point: Any) -> None:
+        if not point.header.frame_id:
             return
         if len(self._waiting) >= QUEUE_LENGTH:
             oldest = next(iter(self._waiting))
@@ -89,15 +88,17 @@ class PointDrawer(Node):
         self._waiting[task] = None
         task.add_done_callback(lambda done: self._waiting.pop(done, None))
 
-    async def _place(self, point: PointStamped) -> None:
+    async def _place(self, point: Any) -> None:
+        header = point.header
+        stamp = header.stamp.sec * NANOSECONDS + header.stamp.nanosec
         try:
             found = await self.world.wait_for_transform(
-                self.target_frame, point.frame_id, point.stamp, timeout=self.patience
+                self.target_frame, header.frame_id, stamp, timeout=self.patience
             )
         except TransformException as refusal:
             self.warn(f"Failure {refusal}")
         else:
-            x, y, z = found.transform.apply((point.x, point.y, point.z))
+            x, y, z = found.transform.apply((point.point.x, point.point.y, point.point.z))
             self.info(
                 f"Point of {self.turtle} in frame of {self.target_frame}: x:{x:f} y:{y:f} z:{z:f}"
             )

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Final
 
+from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Stamp, seconds
 from tftool.messages.classes import INTERFACES
 from tftool.messages.parameter_values import value_of
-from tftool.messages.turtle_messages import message_class
-from tftool.messages.turtle_values import BACKGROUND, Color, Pose2D
+from tftool.messages.turtle_messages import Pose
 from tftool.world.endpoints import PUBLISHER
 from tftool.world.node import Node
 from tftool.world.nodes.drawings import SERVICE, FarDrawing
@@ -44,13 +44,13 @@ class FarTurtle:
 
     Attributes:
         name: Its name.
-        pose: The pose it sent last.
+        pose: The Pose message it sent last.
         heard: When that came.
         wall_hits: How often it met the wall, which no topic tells.
     """
 
     name: str
-    pose: Pose2D
+    pose: Any
     heard: Stamp
     wall_hits: int = 0
 
@@ -143,19 +143,17 @@ class FarTurtles(Node):
             return None
 
     def _look(self) -> None:
-        pose = message_class(Pose2D)
         for name, topic in tuple(self.world.topics().items()):
             if len(self._listened_to) >= MOST:
                 return
-            if name.endswith(_POSE) and topic.kind is pose and name not in self._listened_to:
+            if name.endswith(_POSE) and topic.kind is Pose and name not in self._listened_to:
                 turtle = name.removesuffix(_POSE)
                 # Noted first: to subscribe may call this again.
                 self._listened_to.add(name)
-                poses = self.world.value_topic(topic, Pose2D)
-                self._until_end(poses.subscribe(self._taker(turtle), self.name))
+                self._until_end(topic.subscribe(self._taker(turtle), self.name))
 
-    def _taker(self, name: str) -> Callable[[Pose2D], None]:
-        def take(pose: Pose2D) -> None:
+    def _taker(self, name: str) -> Callable[[Any], None]:
+        def take(pose: Any) -> None:
             now = self.world.clock.now()
             turtle = self._known.get(name)
             if turtle is None or turtle.heard < now - SILENT:

@@ -1,7 +1,10 @@
 """How the tutorial's nodes get their turtle: ask, see that it is there, then begin."""
 
+from typing import Any
+
 from tftool.base.errors import TftoolError
-from tftool.messages.turtle_values import Spawn, Spawned
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Spawn
 from tftool.world.node import Node
 
 
@@ -12,11 +15,11 @@ class Spawning:
     after that begins: with a period of one second, three seconds after the start.
     """
 
-    def __init__(self, node: Node, request: Spawn) -> None:
+    def __init__(self, node: Node, x: float, y: float, theta: float, name: str) -> None:
         self._node = node
-        self._request = request
+        self._request = build(Spawn.Request, x, y, theta, name)
         self._is_asked = False
-        self._answer: Spawned | TftoolError | None = None
+        self._answer: Any | TftoolError | None = None
         self._confirmed = False
 
     def step(self) -> bool:
@@ -41,7 +44,7 @@ class Spawning:
         except TftoolError as refusal:
             self._answer = refusal
 
-    def _take(self, answer: Spawned | TftoolError) -> None:
+    def _take(self, answer: Any | TftoolError) -> None:
         if isinstance(answer, TftoolError):
             self._node.warn(f"Could not spawn '{self._request.name}', asking again: {answer}")
             self._is_asked, self._answer = False, None

@@ -2,11 +2,11 @@
 
 import math
 from enum import Enum
+from typing import Any
 
 from tftool.base.errors import TftoolError
-from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.motion.unicycle import TICK, Placement, float32
-from tftool.messages.turtle_values import Pose2D, Reset
+from tftool.messages.turtle_messages import Empty, Pose, Twist, twist
 from tftool.world.node import Node
 from tftool.world.nodes.turtle import require_turtle_name
 from tftool.world.world import World
@@ -47,19 +47,19 @@ class DrawSquare(Node):
         self.turtle = require_turtle_name(turtle)
         self.state = State.FORWARD
         self.goal: Placement | None = None
-        self._pose: Pose2D | None = None
+        self._pose: Any = None
         self._wants_reset = reset
 
     async def run(self) -> None:
         """Drive until the end."""
-        self.publisher(f"{self.turtle}/cmd_vel", Twist2D)
-        self.subscribe(f"{self.turtle}/pose", Pose2D, self._on_pose)
+        self.publisher(f"{self.turtle}/cmd_vel", Twist)
+        self.subscribe(f"{self.turtle}/pose", Pose, self._on_pose)
         async for _ in self.every(TICK, immediately=True):
             # The answer to the reset is not waited for, only that it was asked.
             if self._asked_for_reset() and self._pose is not None:
                 self._look(self._pose)
 
-    def _on_pose(self, pose: Pose2D) -> None:
+    def _on_pose(self, pose: Any) -> None:
         self._pose = pose
 
     def _asked_for_reset(self) -> bool:
@@ -70,38 +70,38 @@ class DrawSquare(Node):
 
     async def _reset(self) -> None:
         try:
-            await self.call("reset", Reset())
+            await self.call("reset", Empty.Request())
         except TftoolError as refusal:
             self.warn(f"The simulator was not reset: {refusal}")
 
-    def _look(self, pose: Pose2D) -> None:
+    def _look(self, pose: Any) -> None:
         if self.goal is None:
             self._set_goal(self._ahead(pose))
         if self.state is State.FORWARD:
-            self._drive_or_stop(pose, Twist2D(1.0, 0.0), State.STOP_FORWARD)
+            self._drive_or_stop(pose, twist(1.0, 0.0), State.STOP_FORWARD)
         elif self.state is State.STOP_FORWARD:
             self._go_on_or_stop(pose, self._to_the_left(pose), State.TURN)
         elif self.state is State.TURN:
-            self._drive_or_stop(pose, Twist2D(0.0, 0.4), State.STOP_TURN)
+            self._drive_or_stop(pose, twist(0.0, 0.4), State.STOP_TURN)
         else:
             self._go_on_or_stop(pose, self._ahead(pose), State.FORWARD)
 
-    def _drive_or_stop(self, pose: Pose2D, drive: Twist2D, then: State) -> None:
+    def _drive_or_stop(self, pose: Any, drive: Any, then: State) -> None:
         if self._reached(pose):
             self.state = then
-            self._send(Twist2D())
+            self._send(twist())
         else:
             self._send(drive)
 
-    def _go_on_or_stop(self, pose: Pose2D, goal: Placement, then: State) -> None:
+    def _go_on_or_stop(self, pose: Any, goal: Placement, then: State) -> None:
         if pose.angular_velocity < 0.0001 and pose.linear_velocity < 0.0001:
             self.info("Reached goal")
             self.state = then
             self._set_goal(goal)
         else:
-            self._send(Twist2D())
+            self._send(twist())
 
-    def _reached(self, pose: Pose2D) -> bool:
+    def _reached(self, pose: Any) -> bool:
         assert self.goal is not None
         return (
             abs(float32(pose.x - self.goal.x)) < 0.1
@@ -114,11 +114,11 @@ class DrawSquare(Node):
         self.goal = Placement(*map(float32, goal))
         self.info(f"New goal [{self.goal.x:f} {self.goal.y:f}, {self.goal.theta:f}]")
 
-    def _send(self, twist: Twist2D) -> None:
-        self.publish(f"{self.turtle}/cmd_vel", twist)
+    def _send(self, command: Any) -> None:
+        self.publish(f"{self.turtle}/cmd_vel", command)
 
     @staticmethod
-    def _ahead(pose: Pose2D) -> Placement:
+    def _ahead(pose: Any) -> Placement:
         return Placement(
             pose.x + math.cos(pose.theta) * _SIDE,
             pose.y + math.sin(pose.theta) * _SIDE,
@@ -126,7 +126,7 @@ class DrawSquare(Node):
         )
 
     @staticmethod
-    def _to_the_left(pose: Pose2D) -> Placement:
+    def _to_the_left(pose: Any) -> Placement:
         theta = math.fmod(pose.theta + _PI / 2, 2 * _PI)
         return Placement(pose.x, pose.y, theta - 2 * _PI if theta >= _PI else theta)
 
@@ -151,8 +151,8 @@ class Mimic(Node):
 
     async def run(self) -> None:
         """Copy from now on."""
-        self.publisher(f"{self.copy}/cmd_vel", Twist2D)
-        self.subscribe(f"{self.leader}/pose", Pose2D, self._on_pose)
+        self.publisher(f"{self.copy}/cmd_vel", Twist)
+        self.subscribe(f"{self.leader}/pose", Pose, self._on_pose)
 
-    def _on_pose(self, pose: Pose2D) -> None:
-        self.publish(f"{self.copy}/cmd_vel", Twist2D(pose.linear_velocity, pose.angular_velocity))
+    def _on_pose(self, pose: Any) -> None:
+        self.publish(f"{self.copy}/cmd_vel", twist(pose.linear_velocity, pose.angular_velocity))

@@ -5,8 +5,8 @@ from array import array
 from collections import deque
 from typing import NamedTuple
 
+from tftool.base.color import Color
 from tftool.geometry.motion.unicycle import FIELD, PIXELS_PER_METRE, WINDOW
-from tftool.messages.turtle_values import Color
 
 BLANK = Color(255, 255, 255)
 """What the colour sensor reads where nothing was drawn: the layer is transparent white."""

@@ -3,7 +3,9 @@
 import math
 import re
 from collections.abc import Callable
+from typing import Any
 
+from tftool.base.color import Color
 from tftool.base.errors import UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.geometry.motion.twist import Twist2D
@@ -18,11 +20,11 @@ from tftool.geometry.motion.unicycle import (
     published,
     turn_towards,
 )
-from tftool.messages.turtle_values import Color, Pose2D, Rotated, Rotating
-from tftool.world.doors import ValueGoal
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import RotateAbsolute, pose
 from tftool.world.log import Level
 from tftool.world.nodes.trail import Segment
-from tftool.world.topics import Status
+from tftool.world.topics import GoalHandle, Status
 
 PEN_COLOR = Color(179, 184, 255)
 PEN_WIDTH = 3
@@ -57,7 +59,7 @@ class Turtle:
 
     Attributes:
         name: Its name, which is its frame's name too.
-        pose: The pose as it was published last, rounded to 32-bit floats.
+        pose: The Pose message published last, rounded to 32-bit floats.
         place: Where it is, exactly.
         forward: Speed along its heading in m/s; negative when reversing.
         sideways: Speed to its left in m/s.
@@ -73,6 +75,7 @@ class Turtle:
         "_goal",
         "_goal_delta",
         "_goal_start",
+        "_goal_theta",
         "_settled",
         "_shown_state",
         "_teleports",
@@ -100,8 +103,8 @@ class Turtle:
         self.wall_hits = 0
         self._commanded = now
         self._teleports: list[Callable[[Placement], Placement]] = []
-        self._goal: ValueGoal | None = None
-        self._goal_start = self._goal_delta = 0.0
+        self._goal: GoalHandle | None = None
+        self._goal_theta = self._goal_start = self._goal_delta = 0.0
         self._wall_met = False
         self._wall_told = now
         self._settled = False
@@ -136,8 +139,8 @@ class Turtle:
         if not off:
             self.color, self.width = color, max(width, 1)
 
-    def rotate(self, goal: ValueGoal, say: Say) -> None:
-        """Take over a goal of the rotate action; an active one is aborted."""
+    def rotate(self, goal: GoalHandle, theta: float, say: Say) -> None:
+        """Take over a goal of the rotate action, a heading; an active one is aborted."""
         if self._goal is not None:
             say(
                 "WARN",
@@ -145,7 +148,8 @@ class Turtle:
             )
             self._end_goal("aborted")
         self._settled = False
-        self._goal, self._goal_start, self._goal_delta = goal, self.place.theta, 0.0
+        self._goal, self._goal_theta = goal, theta
+        self._goal_start, self._goal_delta = self.place.theta, 0.0
 
     def leave(self) -> None:
         """End what is under way, because the turtle goes."""
@@ -198,15 +202,15 @@ class Turtle:
         )
         return stroke
 
-    def _pursue_goal(self, goal: ValueGoal, now: Stamp, say: Say) -> None:
+    def _pursue_goal(self, goal: GoalHandle, now: Stamp, say: Say) -> None:
         self.forward = self.sideways = self.turn = 0.0
         if goal.cancel_requested:
             say("INFO", "Rotation goal canceled")
             self._end_goal("canceled")
             return
-        turning = turn_towards(goal.request.theta, self._goal_start, self.place.theta)
+        turning = turn_towards(self._goal_theta, self._goal_start, self.place.theta)
         self._goal_delta = turning.delta
-        goal.publish_feedback(Rotating(float32(turning.remaining)))
+        goal.publish_feedback(build(RotateAbsolute.Feedback, float32(turning.remaining)))
         if turning.done:
             say("INFO", "Rotation goal completed successfully")
             self._end_goal("succeeded")
@@ -217,7 +221,7 @@ class Turtle:
     def _end_goal(self, status: Status) -> None:
         goal, self._goal = self._goal, None
         assert goal is not None
-        goal.finish(status, Rotated(float32(self._goal_delta)))
+        goal.finish(status, build(RotateAbsolute.Result, float32(self._goal_delta)))
 
     def _meet_wall(self, place: Placement, now: Stamp, say: Say) -> None:
         self.wall_hits += 1
@@ -234,11 +238,11 @@ class Turtle:
     def _stroke(self, start: Placement, end: Placement) -> Segment:
         return Segment(start.x, start.y, end.x, end.y, self.color, self.width)
 
-    def _pose(self) -> Pose2D:
+    def _pose(self) -> Any:
         state = (*self.place, self.forward, self.sideways, self.turn)
         # A turtle at rest publishes the very same value again.
         if state != self._shown_state:
             self._shown_state = state
             speed = math.hypot(self.forward, self.sideways)
-            return Pose2D(*published(*self.place, speed, self.turn))
+            return pose(*published(*self.place, speed, self.turn))
         return self.pose

@@ -2,24 +2,25 @@
 
 import math
 from collections.abc import Awaitable, Callable
+from typing import Any
 
+from tftool.base.color import Color
 from tftool.base.errors import UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
-from tftool.geometry.motion.twist import Twist2D
 from tftool.geometry.motion.unicycle import FIELD, Placement, float32_finite
-from tftool.messages.turtle_values import (
-    Color,
-    Pose2D,
+from tftool.messages.turtle_messages import (
+    ColorMessage,
+    Pose,
     RotateAbsolute,
-    Rotated,
     SetPen,
-    Spawn,
     TeleportAbsolute,
     TeleportRelative,
+    Twist,
+    planar_velocity,
 )
-from tftool.world.doors import ValueGoal
 from tftool.world.nodes.tick_queue import MOST_WAITING, TickQueue
 from tftool.world.nodes.turtle import Say, Turtle
+from tftool.world.topics import GoalHandle
 from tftool.world.world import World
 
 
@@ -56,14 +57,14 @@ class TurtlePorts:
         self._queue, self._say, self._is_holonomic = queue, say, is_holonomic
         self._gone = False
         self._told: Stamp | None = None
-        self.pose = world.publisher(node, f"{self._prefix}pose", Pose2D)
-        self.color = world.publisher(node, f"{self._prefix}color_sensor", Color)
+        self.pose = world.publisher(node, f"{self._prefix}pose", Pose)
+        self.color = world.publisher(node, f"{self._prefix}color_sensor", ColorMessage)
         for publisher in (self.pose, self.color):
             world.topic(publisher.name, publisher.kind)
         self._stops = [
             self.pose.close,
             self.color.close,
-            world.subscribe(node, f"{self._prefix}cmd_vel", Twist2D, self._on_command),
+            world.subscribe(node, f"{self._prefix}cmd_vel", Twist, self._on_command),
             *(
                 world.serve(self._prefix + name, handler, kind, node=node, shares=True)
                 for name, handler, kind in (
@@ -96,7 +97,8 @@ class TurtlePorts:
             if topic is not None and not topic.subscribers:
                 self._world.remove_topic(topic.name)
 
-    def _on_command(self, twist: Twist2D) -> None:
+    def _on_command(self, message: Any) -> None:
+        twist = planar_velocity(message)
         if all(map(math.isfinite, (twist.linear_x, twist.linear_y, twist.angular_z))):
             if not self._queue.put(
                 lambda tick: self._turtle.command(twist, self._is_holonomic(), tick, self._say)
@@ -112,13 +114,13 @@ class TurtlePorts:
             self._told = now
             self._say("WARN", f"Ignoring a velocity command for [{self._turtle.name}]{why}")
 
-    def _on_teleport_absolute(self, request: TeleportAbsolute) -> Awaitable[None]:
+    def _on_teleport_absolute(self, request: Any) -> Awaitable[None]:
         x, y, theta = requested_placement(request)
         # Above the field means the top edge, without a word; the other sides meet the wall.
         there = Placement(x, min(y, FIELD), theta)
         return self._queue.ask(lambda _: self._turtle.teleport(lambda _: there))
 
-    def _on_teleport_relative(self, request: TeleportRelative) -> Awaitable[None]:
+    def _on_teleport_relative(self, request: Any) -> Awaitable[None]:
         linear = float32_finite(request.linear, "linear")
         angular = float32_finite(request.angular, "angular")
 
@@ -130,28 +132,28 @@ class TurtlePorts:
 
         return self._queue.ask(lambda _: self._turtle.teleport(there))
 
-    def _on_set_pen(self, request: SetPen) -> Awaitable[None]:
+    def _on_set_pen(self, request: Any) -> Awaitable[None]:
         color = Color(
             require_byte(request.r, "r"), require_byte(request.g, "g"), require_byte(request.b, "b")
         )
         width, off = require_byte(request.width, "width"), bool(require_byte(request.off, "off"))
         return self._queue.ask(lambda _: self._turtle.set_pen(color, width, off))
 
-    def _on_rotate(self, goal: ValueGoal) -> None:
-        goal.request = RotateAbsolute(float32_finite(goal.request.theta, "theta"))
+    def _on_rotate(self, goal: GoalHandle) -> None:
+        theta = float32_finite(goal.request.theta, "theta")
 
         def rotate(_: Stamp) -> None:
             if self._gone:
-                goal.finish("aborted", Rotated(0.0))
+                goal.finish("aborted", RotateAbsolute.Result())
             else:
-                self._turtle.rotate(goal, self._say)
+                self._turtle.rotate(goal, theta, self._say)
 
         if not self._queue.put(rotate):
-            goal.finish("aborted", Rotated(0.0))
+            goal.finish("aborted", RotateAbsolute.Result())
 
 
-def requested_placement(request: Spawn | TeleportAbsolute) -> Placement:
-    """Round a request's x, y and theta to 32 bits.
+def requested_placement(request: Any) -> Placement:
+    """Round the x, y and theta of a request for Spawn or TeleportAbsolute to 32 bits.
 
     Raises:
         UsageError: If one of them is NaN, infinite or too large for that.

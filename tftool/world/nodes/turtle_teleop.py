@@ -7,11 +7,11 @@ from types import MappingProxyType
 from typing import Literal
 
 from tftool.base.errors import TftoolError
-from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.turtle_values import KeyPress, RotateAbsolute
-from tftool.world.doors import Goal
-from tftool.world.node import Node
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import RotateAbsolute, Twist, twist
+from tftool.world.node import PATIENCE, Node
 from tftool.world.nodes.turtle import require_turtle_name
+from tftool.world.topics import GoalHandle
 from tftool.world.world import World
 
 BANNER = (
@@ -33,6 +33,13 @@ MOST_SENDING = 100
 """How many goals may be on their way to the simulator; further keys are ignored meanwhile."""
 
 Action = Literal["cmd_vel", "rotate", "cancel", "quit"]
+
+
+@dataclass(frozen=True, slots=True)
+class KeyPress:
+    """One key a person (or a script) pressed: "up", "left", "g", "q" and so on."""
+
+    key: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,13 +116,13 @@ class Teleop(Node):
         self.turtle = turtle
         self.declare_parameter("scale_linear", float(scale_linear))
         self.declare_parameter("scale_angular", float(scale_angular))
-        self._goal: Goal | None = None
+        self._goal: GoalHandle | None = None
         self._sending = 0
         self._quit = asyncio.Event()
 
     async def run(self) -> None:
         """Take keys from the topic `keys` until one says to quit."""
-        self.publisher(f"{self.turtle}/cmd_vel", Twist2D)
+        self.publisher(f"{self.turtle}/cmd_vel", Twist)
         stop = self.subscribe("keys", KeyPress, lambda pressed: self.press(pressed.key))
         try:
             await self._quit.wait()
@@ -138,7 +145,7 @@ class Teleop(Node):
             linear = meaning.linear * float(self.get_parameter("scale_linear"))
             angular = meaning.angular * float(self.get_parameter("scale_angular"))
             # Nothing plus nothing: a key that does not turn must not send minus zero.
-            self.publish(f"{self.turtle}/cmd_vel", Twist2D(linear + 0.0, angular + 0.0))
+            self.publish(f"{self.turtle}/cmd_vel", twist(linear + 0.0, angular + 0.0))
         elif meaning.action == "rotate":
             # Keys come from a topic as well, and its publisher may never pause.
             if self._sending < MOST_SENDING:
@@ -154,8 +161,9 @@ class Teleop(Node):
 
     async def _rotate(self, theta: float) -> None:
         try:
-            self._goal = await self.world.send_goal(
-                f"{self.turtle}/rotate_absolute", RotateAbsolute(theta)
+            goal = build(RotateAbsolute.Goal, theta)
+            self._goal = self.world.send_goal(
+                f"{self.turtle}/rotate_absolute", goal, patience=PATIENCE
             )
         except TftoolError as refusal:
             self.warn(f"{self.turtle} cannot be turned: {refusal}")

@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import ClassVar
+from typing import Any, ClassVar
 
+from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import UsageError
 from tftool.base.stamps import Stamp
 from tftool.geometry.motion.unicycle import CENTRE, TICK, Placement
-from tftool.messages.turtle_values import BACKGROUND, Clear, Color, Kill, Reset, Spawn, Spawned
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import ColorMessage, Empty, Kill, Spawn
 from tftool.world.clock import Phase
 from tftool.world.log import Level
 from tftool.world.node import Node
@@ -51,7 +53,7 @@ class Turtlesim(Node):
         *,
         holonomic: bool = False,
         background: Color = BACKGROUND,
-        turtles: Sequence[Spawn] = (),
+        turtles: Sequence[Any] = (),
         namespace: str = "",
     ) -> None:
         """Join the world.
@@ -61,7 +63,7 @@ class Turtlesim(Node):
             name: The node's name.
             holonomic: Whether linear.y of a command counts.
             background: Colour of the field.
-            turtles: Further turtles to start with; turtle1 is always there.
+            turtles: Requests of Spawn for further turtles; turtle1 is always there.
             namespace: Put before the name of every topic, service and action.
 
         Raises:
@@ -134,8 +136,8 @@ class Turtlesim(Node):
         for service, handler, kind in (
             ("spawn", self._on_spawn, Spawn),
             ("kill", self._on_kill, Kill),
-            ("clear", self._on_clear, Clear),
-            ("reset", self._on_reset, Reset),
+            ("clear", self._on_clear, Empty),
+            ("reset", self._on_reset, Empty),
         ):
             self.serve(self._prefix + service, handler, kind, shares=True)
         ParameterServices(self)
@@ -177,7 +179,7 @@ class Turtlesim(Node):
             stroke = turtle.update(now, self._say, self._draw)
             ports.pose.publish(turtle.pose)
             if ports.color.subscribers:
-                ports.color.publish(self.color_under(name))
+                ports.color.publish(build(ColorMessage, *self.color_under(name)))
             if stroke is not None:
                 self.trail.draw(stroke)
             if turtle.pose is not before:
@@ -234,11 +236,13 @@ class Turtlesim(Node):
 
     # What is asked of the simulator
 
-    async def _on_spawn(self, request: Spawn) -> Spawned:
+    async def _on_spawn(self, request: Any) -> Any:
         place = requested_placement(request)
-        return await self._queue.ask(lambda tick: Spawned(self._spawn(place, request.name, tick)))
+        return await self._queue.ask(
+            lambda tick: build(Spawn.Response, self._spawn(place, request.name, tick))
+        )
 
-    async def _on_kill(self, request: Kill) -> None:
+    async def _on_kill(self, request: Any) -> None:
         def kill(_: Stamp) -> None:
             if request.name in self._turtles:
                 self._remove(request.name)
@@ -247,14 +251,14 @@ class Turtlesim(Node):
 
         await self._queue.ask(kill)
 
-    async def _on_clear(self, _: Clear) -> None:
+    async def _on_clear(self, _: Any) -> None:
         def clear(_: Stamp) -> None:
             self.info("Clearing turtlesim.")
             self._wipe()
 
         await self._queue.ask(clear)
 
-    async def _on_reset(self, _: Reset) -> None:
+    async def _on_reset(self, _: Any) -> None:
         def reset(tick: Stamp) -> None:
             self.info("Resetting turtlesim.")
             for name in list(self._turtles):
