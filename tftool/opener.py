@@ -289,7 +289,9 @@ def _played(
     play = build(scenario, clock)
     if watch is not None:
         watch(play.world)
-    with _heard(play.world, cache_time) as (buffer, log):
+    # What the listener forgets counts from `end` on.
+    memory = None if cache_time is None else cache_time + margin
+    with _heard(play.world, memory) as (buffer, log):
         _run(clock, play.live(end + margin))
     return Frames("scenario", scenario.name, buffer=buffer, span=(start, end), log=log, found=found)
 

@@ -8,10 +8,10 @@ from tests.patience import PATIENCE
 from tftool.base.errors import LookupException
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.commands.shared.echo_loop import LivePrinter
+from tftool.commands.echo.echo_loop import LivePrinter
 from tftool.commands.shared.hosting import HOME
+from tftool.commands.shared.pairs import FramePair
 from tftool.commands.shared.redraw import Redrawing
-from tftool.commands.shared.waiter import FramePair
 from tftool.geometry.rigid import Transform
 from tftool.world.clock import SimClock
 

@@ -1,4 +1,6 @@
 import json
+import os
+from pathlib import Path
 
 import pytest
 
@@ -9,11 +11,12 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import HEAD_START, open_empty_session, open_session
-from tftool.commands.shared.observe import observe
+from tftool.frames.export.export import export
 from tftool.frames.moment import At
 from tftool.geometry.rigid import Transform
 from tftool.opener import named, open_frames, scenario_named
 from tftool.recordings.find import Kind
+from tftool.recordings.recording_writer import write_recording
 from tftool.scenario import builtin
 from tftool.world.clock import run
 from tftool.world.node import Node
@@ -175,45 +178,20 @@ def test_a_word_that_means_nothing_is_told_what_there_is(word, told, tmp_path, m
 # What is recorded is read
 
 
-class Stored:
-    """A recording of frame `a` in `world`: 0.1 m a sample at 10 Hz, from 50 s to 60 s."""
-
-    start = seconds(50)
-    end = seconds(60)
-
-    def __init__(self, name):
-        self.name = name
-        self.closed = 0
-        self.buffer = Buffer(seconds(100))
-        for step in range(101):
-            pose = Transform((step * 0.1, 0.0, 0.0))
-            stamp = self.start + step * seconds(0.1)
-            self.buffer.set_transform(TransformStamped(stamp, "world", "a", pose), "robot")
-        fixed = TransformStamped(0, "a", "laser", Transform((0.0, 0.0, 1.0)))
-        self.buffer.set_transform_static(fixed, "description")
-
-    def close(self):
-        self.closed += 1
-
-
-class Recording(Simulated):
-    """Opens `Stored`, whatever is to be opened."""
-
-    def __init__(self):
-        self.opened = []
-
-    def stored(self, found, robot, recording):
-        self.opened.append(Stored(found.name))
-        return self.opened[-1]
-
-
 @pytest.fixture
 def recording(outside, tmp_path):
-    """A file that is a recording by its content."""
-    outside["providers"] = Recording()
-    file = tmp_path / "run.yaml"
-    file.write_bytes(b"\x89MCAP0\r\n")
-    return str(file)
+    """A recording of frame `a` in `world`: 0.1 m a sample at 10 Hz, from 50 s to 60 s."""
+    outside["providers"] = Simulated()
+    buffer = Buffer(seconds(100))
+    for step in range(101):
+        pose = Transform((step * 0.1, 0.0, 0.0))
+        stamp = seconds(50) + step * seconds(0.1)
+        buffer.set_transform(TransformStamped(stamp, "world", "a", pose), "robot")
+    fixed = TransformStamped(0, "a", "laser", Transform((0.0, 0.0, 1.0)))
+    buffer.set_transform_static(fixed, "description")
+    # What it is is decided by its content.
+    export(buffer, tmp_path / "run.mcap")
+    return str((tmp_path / "run.mcap").rename(tmp_path / "run.yaml"))
 
 
 @pytest.mark.parametrize(
@@ -268,29 +246,28 @@ def test_the_tree_of_a_recording_is_that_of_the_moment(tftool, recording):
     late = json.loads(tftool("tree", recording, "--format", "json").out)
 
     assert early != late
-    assert "description" in str(early)
+    assert "/tf_static" in str(early)
 
 
-def test_what_was_opened_is_closed_again(tftool, recording, outside):
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="shows no open files")
+def test_what_was_opened_is_closed_again(tftool, recording):
     tftool("tree", recording)
     tftool("echo", "world", "a", recording, "--at", "99")
 
-    assert [stored.closed for stored in outside["providers"].opened] == [1, 1]
+    opened = [os.path.realpath(entry) for entry in Path("/proc/self/fd").iterdir()]
+    assert os.path.realpath(recording) not in opened
 
 
-def test_what_is_recorded_is_observed_up_to_the_moment(recording, outside):
-    connection = Connection(providers=outside["providers"])
+def test_what_is_recorded_is_shown_up_to_the_moment(tftool, recording):
+    told = json.loads(tftool("tree", recording, "--at", "2", "--json").out)
 
-    seen = observe(connection, recording, At(seconds(2)))
+    (frame,) = [one for one in told["frames"] if one["frame"] == "a"]
+    assert told["recorded_at_ns"] == seconds(52)
+    assert frame["root_from_frame"]["translation"] == pytest.approx([2.0, 0.0, 0.0])
+    assert "laser" in {one["frame"] for one in told["frames"]}
 
-    assert seen.moment == seen.now == seconds(52)
-    assert seen.buffer.get_latest_common_time("world", "a") == seconds(52)
-    assert seen.buffer.lookup_transform("a", "laser").transform.translation.z == 1.0
 
-
-@pytest.mark.parametrize(
-    "words", [["monitor", "{}"], ["follow", "a", "b", "{}"], ["tree", "--watch", "{}"]]
-)
+@pytest.mark.parametrize("words", [["follow", "a", "b", "{}"], ["tree", "--watch", "{}"]])
 def test_no_messages_arrive_from_a_recording(tftool, recording, words, monkeypatch):
     monkeypatch.setenv("FORCE_COLOR", "1")
 
@@ -298,6 +275,16 @@ def test_no_messages_arrive_from_a_recording(tftool, recording, words, monkeypat
 
     assert result.status == 2
     assert f"no message arrives: 'tftool tree {recording}' shows its frames." in result.err
+
+
+def test_no_messages_arrive_from_a_file_of_statics(tftool, tmp_path):
+    file = tmp_path / "statics.sh"
+    file.write_text("ros2 run tf2_ros static_transform_publisher 0 0 1 0 0 0 base laser\n")
+
+    result = tftool("monitor", file)
+
+    assert result.status == 2
+    assert f"no message arrives: 'tftool tree {file}' shows its frames." in result.err
 
 
 @pytest.mark.parametrize("command", ["check"])
@@ -308,30 +295,21 @@ def test_a_recording_is_no_scenario(tftool, recording, command):
     assert result.err == f"tftool: '{recording}' is an MCAP recording: a scenario is needed here.\n"
 
 
-def test_a_scenario_is_played_up_to_the_moment(simulated):
-    seen = observe(simulated, "turtles", At(seconds(4)))
+def test_a_scenario_is_played_up_to_the_moment():
+    frames = open_frames("turtles", until=At(seconds(4)), margin=0.0)
 
-    assert seen.moment == seen.epoch + seconds(4)
-    assert seen.buffer.can_transform("turtle2", "turtle1", seen.moment)
-    assert not seen.buffer.can_transform("turtle2", "turtle1", seen.moment + seconds(0.1))
+    assert frames.end == frames.at(4)
+    assert frames.buffer.can_transform("turtle2", "turtle1", frames.end)
+    assert not frames.buffer.can_transform("turtle2", "turtle1", frames.at(4.1))
 
 
 def test_a_scenario_is_read_with_its_arguments():
     assert scenario_named("turtles", {"source_frame": "x"}).arguments["source_frame"] == "x"
 
 
-class Empty(Simulated):
-    """Opens a recording in which nothing was recorded."""
+def test_a_recording_in_which_nothing_was_recorded_has_no_frames(tftool, tmp_path):
+    with write_recording(tmp_path / "empty.mcap"):
+        pass
 
-    def stored(self, found, robot, recording):
-        stored = Stored(found.name)
-        stored.start = stored.end = 0
-        stored.buffer = Buffer()
-        return stored
-
-
-def test_a_recording_in_which_nothing_was_recorded_has_no_frames(tftool, recording, outside):
-    outside["providers"] = Empty()
-
-    assert "No tf data received" in tftool("tree", recording).out
-    assert tftool("echo", "a", "b", recording).status == 4
+    assert "No tf data received" in tftool("tree", tmp_path / "empty.mcap").out
+    assert tftool("echo", "a", "b", tmp_path / "empty.mcap").status == 4

@@ -27,7 +27,8 @@ FILE, TIMES = sys.argv[1:]
 def batches(self, wanted, progress=None, head=None):
     times = iter(int, 1) if TIMES == "for_ever" else range(int(TIMES))
     for _ in times:
-        progress(25_000_000, 100_000_000)
+        if progress is not None:
+            progress(25_000_000, 100_000_000)
     return iter(())
 
 Mcap.batches = batches
@@ -57,7 +58,7 @@ def test_reading_that_takes_long_shows_a_bar_and_ends_at_ctrl_c(tmp_path, file):
 
 
 def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
-    from tftool.commands.shared.recorded import Bar
+    from tftool.commands.shared.reading_bar import Bar
 
     class Screen(io.StringIO):
         def isatty(self):
@@ -65,7 +66,7 @@ def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
 
     screen = Screen()
     monkeypatch.setattr("sys.stderr", screen)
-    monkeypatch.setattr("tftool.commands.shared.recorded.PATIENCE", 0)
+    monkeypatch.setattr("tftool.commands.shared.reading_bar.PATIENCE", 0)
     bar = Bar("Reading run.mcap")
     while not screen.getvalue():
         bar(25_000_000, 100_000_000)

@@ -14,7 +14,9 @@ from tests.recordings.writers import SECOND, content, write_mcap, write_rosbag1
 from tests.terminals import Terminal
 from tests.world.link.processes import Process
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import first_look, open_session
+from tftool.commands.shared.hosting import resting_session
+from tftool.opener import open_frames
+from tftool.screens.first_moment import first_look
 
 
 @pytest.fixture
@@ -23,8 +25,8 @@ def file(tmp_path):
 
 
 def test_a_recordings_world_stands_still_at_its_end(file):
-    with Connection() as connection:
-        session = open_session(connection, str(file))
+    with Connection() as connection, open_frames(file) as frames:
+        session = resting_session(connection, frames)
     clock = session.world.clock
 
     async def work():
@@ -38,12 +40,11 @@ def test_a_recordings_world_stands_still_at_its_end(file):
 
 
 def test_the_first_look_is_at_a_moment_when_all_frames_are_there(file):
-    with Connection() as connection:
-        session = open_session(connection, str(file))
-    first = first_look(session)
+    with open_frames(file) as frames:
+        first = first_look(frames)
 
-    assert 0 < first - session.world.clock.epoch < SECOND
-    assert session.world.buffer.can_transform("map", "arm", first)
+    assert 0 < first - frames.start < SECOND
+    assert frames.buffer.can_transform("map", "arm", first)
 
 
 def test_the_page_begins_there(file):

@@ -5,9 +5,10 @@ import pytest
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.commands.shared.echo_loop import Echo, Printer
+from tftool.commands.echo.echo_loop import Echo
+from tftool.commands.echo.echo_printer import Printer
+from tftool.commands.shared.pairs import FramePair
 from tftool.commands.shared.rival_publishers import rivalries
-from tftool.commands.shared.waiter import FramePair
 from tftool.geometry.rigid import Transform
 from tftool.world.clock import SimClock
 from tftool.world.link.session_world import Session, twins

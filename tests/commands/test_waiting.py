@@ -7,8 +7,9 @@ import pytest
 from tftool.base.errors import BackwardExtrapolationException, LookupException, TransformException
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
-from tftool.commands.shared.echo_loop import Echo, LivePrinter, Printer
-from tftool.commands.shared.waiter import FramePair
+from tftool.commands.echo.echo_loop import Echo, LivePrinter
+from tftool.commands.echo.echo_printer import Printer
+from tftool.commands.shared.pairs import FramePair
 from tftool.geometry.rigid import Transform
 from tftool.world.clock import SimClock
 from tftool.world.link.session_world import Session

@@ -12,6 +12,7 @@ from tftool.base.errors import DescriptionError, InputError, without_frames
 from tftool.base.near_names import near_names
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.buffer import Buffer
+from tftool.frames.frames import Frames
 from tftool.frames.transform_log import TransformLog
 from tftool.recordings.contract import (
     Edge,
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
     from tftool.recordings.recording import Recording
 
 ODOMETRY = "nav_msgs/Odometry"
+
+LIVE = "live session"
+"""The kind of what a session that runs gives."""
 
 Records = npt.NDArray[np.int64]
 Places = npt.NDArray[np.int32]
@@ -362,22 +366,49 @@ def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: 
     )
 
 
-def evidence_of(given: "Recording | Buffer", described: Described | None = None) -> Evidence:
-    """Take from a recording or a buffer what a diagnosis looks at.
+def evidence_of_frames(frames: Frames, scope: Scope | None = None) -> Evidence:
+    """Take from opened frames what a diagnosis looks at.
 
     Args:
-        given: The recording or buffer.
+        frames: The frames of a recording, a scenario, a session or a description.
+        scope: What of a recording, beside which description; None for all of it.
+
+    Raises:
+        InputError: See `evidence_of_recording`.
+    """
+    if frames.recording is not None:
+        return evidence_of_recording(frames.recording, scope)
+    described = None if scope is None else scope.described
+    if frames.log is None:
+        return _beside(evidence_of_buffer(frames.buffer, frames.title), described)
+    kind = LIVE if frames.kind == "session" else frames.kind
+    return _beside(evidence_of_log(frames.log, frames.title, kind, *frames.span), described)
+
+
+def evidence_of(
+    given: "Recording | Buffer | Frames", described: Described | None = None
+) -> Evidence:
+    """Take from a recording, a buffer or opened frames what a diagnosis looks at.
+
+    Args:
+        given: The recording, the buffer or the frames.
         described: The robot's description; None for the recorded one, if any.
 
     Raises:
         InputError: If the recording cannot be read.
-        TypeError: If it is neither.
+        TypeError: If it is none of them.
     """
+    if isinstance(given, Frames):
+        return evidence_of_frames(given, Scope(described))
     if not isinstance(given, Buffer):
         if not hasattr(given, "source"):
             raise without_frames(given)
         return evidence_of_recording(given, Scope(described))
-    evidence = evidence_of_buffer(given)
+    return _beside(evidence_of_buffer(given), described)
+
+
+def _beside(evidence: Evidence, described: Described | None) -> Evidence:
+    """Return evidence with the description that was given."""
     if described is None:
         return evidence
     return replace(evidence, robot=described.robot, mistakes=described.mistakes)

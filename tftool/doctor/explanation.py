@@ -29,6 +29,7 @@ from tftool.doctor.wording import dated, moment, span
 from tftool.recordings.contract import Stamps
 
 if TYPE_CHECKING:
+    from tftool.frames.frames import Frames
     from tftool.recordings.recording import Recording
 
 USUAL_WAIT = 0.1
@@ -598,7 +599,7 @@ def _misleading(
 
 
 def explain(
-    recording: "Recording | Buffer",
+    recording: "Recording | Buffer | Frames",
     target_frame: str,
     source_frame: str,
     time: Stamp = LATEST,
@@ -610,7 +611,7 @@ def explain(
     """Say why a lookup answers or refuses, link by link.
 
     Args:
-        recording: A recording, or a buffer.
+        recording: A recording, a buffer, or opened frames.
         target_frame: The frame to express things in.
         source_frame: The frame they are given in.
         time: The moment, nanoseconds; 0 for the latest.
@@ -621,7 +622,7 @@ def explain(
 
     Raises:
         InputError: If nothing of the recording can be read.
-        TypeError: If it is neither a recording nor a buffer.
+        TypeError: If it has no frames.
     """
     settings = Settings(cache_time=cache_time)
     model = Model(evidence_of(recording), settings)

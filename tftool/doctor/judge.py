@@ -27,6 +27,7 @@ from tftool.doctor.model import Limits, Model, Settings
 from tftool.doctor.wording import filled, several
 
 if TYPE_CHECKING:
+    from tftool.frames.frames import Frames
     from tftool.recordings.recording import Recording
 
 CHECKS: Mapping[str, Check] = {
@@ -302,7 +303,7 @@ def _concerned(hits: list[Hit]) -> list[str]:
 
 
 def diagnose(
-    recording: "Recording | Buffer",
+    recording: "Recording | Buffer | Frames",
     *,
     select: Sequence[str] = (),
     ignore: Sequence[str] = (),
@@ -314,7 +315,7 @@ def diagnose(
     A buffer keeps neither log times nor messages: what needs them is not looked for.
 
     Args:
-        recording: A recording, or a buffer.
+        recording: A recording, a buffer, or opened frames.
         select: Ids or areas of checks to run; all where empty.
         ignore: Ids or areas to leave out.
         cache_time: How far back the listener that is thought of remembers, nanoseconds.
@@ -325,7 +326,7 @@ def diagnose(
 
     Raises:
         InputError: If nothing of the recording can be read.
-        TypeError: If it is neither a recording nor a buffer.
+        TypeError: If it has no frames.
         UsageError: If there is no such check or area, or the description needs xacro, which is
             not installed.
     """

@@ -1,16 +1,17 @@
-"""The comparison in Python: of recordings, buffers and robot descriptions, in any mix."""
+"""The comparison in Python: of frames, recordings, buffers and descriptions, in any mix."""
 
 import os
 
 from tftool.base.errors import UsageError
 from tftool.buffer.buffer import Buffer
 from tftool.frames.differences import Allowance, Differences, Side, compare
+from tftool.frames.frames import Frames
 from tftool.recordings.find import Kind, find
 from tftool.recordings.recording import Recording, open_recording
 from tftool.robots.robot_model import Robot, load_urdf
 from tftool.robots.static_publishers import StaticFrames, load_statics
 
-Comparable = Recording | Robot | Buffer | StaticFrames | str | os.PathLike[str]
+Comparable = Frames | Recording | Robot | Buffer | StaticFrames | str | os.PathLike[str]
 """What has frames to compare; a path names a recording, a description or a launch file."""
 
 
@@ -60,6 +61,8 @@ def side_of(frames: Comparable, name: str) -> Side:
     """
     if isinstance(frames, str | os.PathLike):
         return _opened(os.fspath(frames))
+    if isinstance(frames, Frames):
+        return Side(frames.label, frames.buffer, frames.span[0], frames.moving or frozenset())
     if isinstance(frames, Buffer):
         stamps = [int(one.stamps[0]) for one in map(frames.samples, frames.frames()) if len(one)]
         return Side(name, frames, min((one for one in stamps if one), default=0))

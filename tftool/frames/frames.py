@@ -94,6 +94,11 @@ class Frames:
         return f"{self.kind} '{visible(self.name)}'"
 
     @property
+    def label(self) -> str:
+        """The name of a file as it was given, else the title."""
+        return self.title if self.kind in ("scenario", "session") else self.name
+
+    @property
     def buffer(self) -> Buffer:
         """All that is known of the frames; nothing is pruned."""
         if self._buffer is None:

@@ -1,12 +1,13 @@
 """Transforms as they arrived, with who sent them: what a played or running world leaves behind."""
 
 from collections.abc import Iterable
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from tftool.base.stamps import Stamp
 from tftool.buffer.sample import TransformStamped
-from tftool.recordings.contract import Edge, Publisher, Transforms
+
+if TYPE_CHECKING:
+    from tftool.recordings.contract import Transforms
 
 MOST = 4_000_000
 """Transforms that are kept: about 300 MB."""
@@ -21,7 +22,7 @@ class TransformLog:
         self._messages: dict[tuple[str, str, bool], list[int]] = {}
         self._logs: list[int] = []
         self._senders: list[int] = []
-        self._publishers: dict[Publisher, int] = {}
+        self._publishers: dict[tuple[str, str], int] = {}
         self._count = 0
 
     def hear(
@@ -42,7 +43,7 @@ class TransformLog:
         """
         if self._count >= MOST:
             return
-        publisher = Publisher("/tf_static" if is_static else "/tf", authority)
+        publisher = ("/tf_static" if is_static else "/tf", authority)
         self._senders.append(self._publishers.setdefault(publisher, len(self._publishers)))
         self._logs.append(now)
         for one in transforms:
@@ -53,8 +54,13 @@ class TransformLog:
             self._messages.setdefault(key, []).append(len(self._logs) - 1)
             self._count += 1
 
-    def transforms(self) -> Transforms:
+    def transforms(self) -> "Transforms":
         """All of them in columns, one entry for each edge, with log times and senders."""
+        # Most that are played or heard are never judged, and need no numpy.
+        import numpy as np
+
+        from tftool.recordings.contract import Edge, Publisher, Transforms
+
         edges = []
         for key, rows in self._rows.items():
             poses = np.array(rows, dtype=np.float64)
@@ -65,5 +71,5 @@ class TransformLog:
             tuple(edges),
             np.array(self._logs, dtype=np.int64),
             np.array(self._senders, dtype=np.int32),
-            tuple(self._publishers),
+            tuple(Publisher(*one) for one in self._publishers),
         )

@@ -4,9 +4,19 @@ from typing import Final
 
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.buffer.buffer import Buffer
+from tftool.frames.frames import Frames
 
 SETTLING: Final[Duration] = seconds(3)
 """How long after the beginning all frames are expected to have come; a scenario's turtles have."""
+
+
+def first_look(frames: Frames) -> Stamp | None:
+    """Return the moment to show first of frames that were read; None where nothing lasts."""
+    start, end = frames.span
+    if start == end:
+        return None
+    start = max(start, 1)
+    return first_moment(frames.buffer, start, end) or start
 
 
 def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:

@@ -313,12 +313,13 @@ def test_a_server_shows_them_where_they_were(chromium, run):
     pytest.importorskip("websockets", reason="the extra `view` is not installed")
     from tests.screens.browser.driving import Page
     from tftool.commands.shared.connection import Connection
-    from tftool.commands.shared.hosting import open_session
+    from tftool.commands.shared.hosting import resting_session
+    from tftool.opener import open_frames
     from tftool.screens.browser.recorded_messages import tracks_named
     from tftool.screens.browser.server import PageServer
 
-    connection = Connection()
-    session = open_session(connection, str(run))
+    with open_frames(run) as frames:
+        session = resting_session(Connection(), frames)
     found = SimpleNamespace()
     ready = threading.Event()
 
@@ -340,4 +341,3 @@ def test_a_server_shows_them_where_they_were(chromium, run):
     finally:
         found.loop.call_soon_threadsafe(found.over.set)
         thread.join(PATIENCE)
-        connection.__exit__()

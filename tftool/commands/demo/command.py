@@ -15,16 +15,11 @@ from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, Stamp
-from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import (
-    HOME,
-    JoinDecision,
-    first_look,
-    join_or_host,
-    open_session,
-)
+from tftool.commands.shared.connection import HOME, Connection
+from tftool.commands.shared.hosting import JoinDecision, join_or_host, resting_session
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.on_screen import driver_of, run_app, screen_lacks, simulator_of
+from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.printer import write
 from tftool.commands.shared.record_loop import recorded
@@ -33,6 +28,7 @@ from tftool.scenario import builtin
 from tftool.scenario.play import Watch, build, left_to_a_person
 from tftool.scenario.scenario import Scenario
 from tftool.scenario.summary import as_json, play_through, written
+from tftool.screens.first_moment import first_look
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.link.session_world import Session, shared
 from tftool.world.nodes.idle_drawing import IdleDrawing
@@ -136,13 +132,14 @@ def _show_recording(connection: Connection, word: str, *, ascii_only: bool, ligh
             f"The demo's screen needs a terminal, and {lacking}: 'tftool tree {visible(word)}' "
             f"prints its frames, 'tftool view {visible(word)}' shows them in a browser."
         )
-    session = open_session(connection, word)
+    frames = open_from(connection, word)
+    session = resting_session(connection, frames)
 
     async def life() -> None:
         await session.live(None)
 
     title = f"tftool demo {visible(Path(word).name)}"
-    setting = Setting(title=title, ascii_only=ascii_only, light=light, at=first_look(session))
+    setting = Setting(title=title, ascii_only=ascii_only, light=light, at=first_look(frames))
     run_app(session.world, life(), None, setting)
 
 

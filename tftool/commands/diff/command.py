@@ -1,59 +1,52 @@
-"""`tftool diff`: what differs between two sets of frames."""
+"""Compare two sets of frames, and print what differs."""
 
 import json
 import sys
 from typing import Literal
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import LinkError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, seconds
+from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.open_from import WHOLE, listen_from, open_from
 from tftool.commands.shared.printer import line_width
-from tftool.commands.shared.robot_at_rest import RobotAtRest
-from tftool.commands.shared.stored import session_frames, stored_frames
 from tftool.drawing import difference_view as view
-from tftool.frames.diff import joints_of
+from tftool.frames.diff import side_of
 from tftool.frames.differences import Allowance, Side, compare
+from tftool.opener import NOTHING_RUNS
 
 SESSION = "session"
 """The word that names the session that runs."""
-
-
-def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
-    """The frames that a word names, as one side.
-
-    Raises:
-        InputError: If it names nothing, or cannot be read.
-        LinkError: If it is the session, and none runs.
-    """
-    if word == SESSION:
-        heard = session_frames(connection, lasting or seconds(5))
-        return Side(heard.name, heard.buffer, heard.start)
-    found = stored_frames(connection, word, lasting, is_one_of_several=True)
-    joints = joints_of(found.robot) if isinstance(found, RobotAtRest) else frozenset()
-    return Side(found.name, found.buffer, found.start, joints)
 
 
 def run(
     connection: Connection,
     first: str,
     second: str,
+    *,
     millimetres: float,
     degrees: float,
     rate_percent: float | None,
     align: Literal["start"] | None,
     everything: bool,
-    lasting: int | None,
+    lasting: Duration | None,
     for_programs: bool,
     markdown: bool,
 ) -> ExitStatus:
     """Run `tftool diff`; the parameters are its options."""
-    if for_programs and markdown:
-        raise UsageError("--json and --markdown are two ways to print it: leave one out.")
-    if first == second == SESSION:
-        raise UsageError("The session that runs is one: name what it is compared with.")
+    refuse(
+        (
+            for_programs and markdown,
+            "--json and --markdown are two ways to print it: leave one out.",
+        ),
+        (
+            first == second == SESSION,
+            "The session that runs is one: name what it is compared with.",
+        ),
+    )
     found = compare(
         _side(connection, first, lasting),
         _side(connection, second, lasting),
@@ -69,3 +62,18 @@ def run(
     else:
         sys.stdout.write(view.lines(found, line_width(), everything=everything))
     return ExitStatus.FAILED if found else ExitStatus.DONE
+
+
+def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
+    """Open what a word names, as one side.
+
+    Raises:
+        InputError: If it names nothing, or cannot be read.
+        LinkError: If it is the session, and none runs.
+    """
+    if word != SESSION:
+        return side_of(open_from(connection, word, lasting, until=WHOLE, shares=True), word)
+    frames = listen_from(connection, lasting)
+    if frames is None:
+        raise LinkError(NOTHING_RUNS)
+    return side_of(frames, word)

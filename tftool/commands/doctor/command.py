@@ -1,23 +1,22 @@
-"""`tftool doctor`: what is wrong with the frames, why, and what to do about it."""
+"""Run the doctor over one source or several, and report what it finds."""
 
 import json
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TypeAlias
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.doctor.options import FailOn
-from tftool.commands.fleet import fleet, fleet_tasks
 from tftool.commands.fleet.fleet import expanded
-from tftool.commands.fleet.workers import workers_of
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.evidence_sources import material_of, rules_of
+from tftool.commands.shared.contradictions import refuse
+from tftool.commands.shared.evidence_sources import evidence_from, rules_of
 from tftool.commands.shared.notices import complain
 from tftool.commands.shared.printer import line_width, write, write_file
-from tftool.doctor.check import Check
 from tftool.doctor.evidence import Scope, described_by
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
@@ -26,140 +25,101 @@ from tftool.drawing import finding_view as view
 from tftool.frames.moment import At
 from tftool.recordings.remote_files import fetched
 
+Judged: TypeAlias = list[tuple[str, Diagnosis | str]]
+"""Each source with its diagnosis, or why it cannot be read."""
 
-def _refuse_reports(given: dict[str, bool]) -> None:
-    """Refuse reports for which there is no room beside rows in a file.
 
-    Raises:
-        UsageError: If one is asked for.
+@dataclass(frozen=True, slots=True)
+class DoctorReport:
+    """How findings are reported.
+
+    Attributes:
+        for_programs: As JSON.
+        markdown: For an issue on the web.
+        verbose: With all evidence.
+        statistics: With rate, latency and gaps.
+        junit: A file for a build server.
     """
-    asked = " and ".join(name for name, is_given in given.items() if is_given)
-    if asked:
-        raise UsageError(f"-o writes rows, and {asked} another report: leave one out.")
+
+    for_programs: bool
+    markdown: bool
+    verbose: bool
+    statistics: bool
+    junit: Path | None
 
 
-def _print(rows: Sequence[tuple[str, Diagnosis | str]], *, verbose: bool, statistics: bool) -> None:
-    """Each diagnosis for a person; of several sources, what differs at the end."""
-    diagnoses = [found for _, found in rows if not isinstance(found, str)]
-    for number, one in enumerate(diagnoses):
-        if number:
-            sys.stdout.write("\n")
-        write(view.render(one, verbose=verbose))
-        if statistics:
-            write(view.statistics(one.model))
-    if len(rows) > 1:
-        sys.stdout.write("\n")
-        write(view.compared(rows))
+@dataclass(frozen=True, slots=True)
+class CheckSelection:
+    """Which checks run, and by which thresholds.
+
+    Attributes:
+        select: These checks or areas alone; all where empty.
+        ignore: Checks or areas left out.
+        limits: Other thresholds: "gap.seconds=2".
+        cache_time: How far back the listener remembers.
+        fixed_frame: Where sensors are to be placed.
+    """
+
+    select: tuple[str, ...]
+    ignore: tuple[str, ...]
+    limits: Sequence[str]
+    cache_time: Duration | None
+    fixed_frame: str
+
+    def settings(self, tf_topics: tuple[str, ...]) -> Settings:
+        """Return the thresholds.
+
+        Raises:
+            UsageError: If one is no threshold.
+        """
+        given: dict[str, dict[str, float]] = {}
+        for text in self.limits:
+            name, _, value = text.partition("=")
+            check, _, limit = name.partition(".")
+            try:
+                number = float(value)
+            except ValueError:
+                number = -1.0
+            if not limit or not 0.0 <= number < float("inf"):
+                raise UsageError(
+                    f"--limit {text}: write ID.NAME=VALUE with a number from 0 on, as in "
+                    "gap.seconds=2"
+                )
+            given.setdefault(check, {})[limit] = number
+        return Settings(self.cache_time or seconds(10), self.fixed_frame, tf_topics, given)
 
 
-def _diagnosed(
-    connection: Connection,
-    places: Sequence[str | None],
-    lasting: Duration | None,
-    settings: Settings,
-    select: Sequence[str],
-    ignore: Sequence[str],
-    scope: Scope,
-) -> "list[tuple[str, Diagnosis | str]]":
-    """Each source with what was found in it; of several, one that is unreadable stops none."""
-    chosen, left_out = _words(select), _words(ignore)
-    words = [place for place in places if place is not None]
-    sources: list[str | None] = [*expanded(words)] if words else [None]
-    rows: list[tuple[str, Diagnosis | str]] = []
-    for word in sources:
-        try:
-            with fetched(word or "") as path:
-                rules = rules_of(path or None)
-                material = material_of(connection, path or None, lasting, scope)
-        except InputError as error:
-            if len(sources) == 1:
-                raise
-            complain("tftool doctor", str(error))
-            rows.append((word or "", str(error)))
-            continue
-        if path != (word or ""):
-            material = replace(material, name=word or "")
-        diagnosis = judge(
-            material,
-            rules.settings(settings),
-            select=chosen,
-            ignore=(*left_out, *rules.ignore),
-        )
-        rows.append((word or material.name, diagnosis))
-    return rows
+@dataclass(frozen=True, slots=True)
+class RowOptions:
+    """How many recordings become rows of a file.
 
+    Attributes:
+        output: The file; None to report instead.
+        processes: How many at once.
+        scheduler: A cluster that does it.
+        resume: Whether to pass over what the file already holds.
+    """
 
-def _swept_status(counts: dict[str, int], fails: Severity | None) -> ExitStatus:
-    """Of many recordings, the worst."""
-    if fleet_tasks.UNREADABLE in counts:
-        return ExitStatus.UNREADABLE
-    bad = [name for name in ("error", "warning", "note") if name in counts]
-    found = fails is not None and any(_rank(name) <= fails.rank for name in bad)
-    return ExitStatus.FAILED if found else ExitStatus.DONE
-
-
-def _rank(name: str) -> int:
-
-    return Severity(name).rank
-
-
-def _status(rows: Sequence[tuple[str, Diagnosis | str]], fails: Severity | None) -> ExitStatus:
-    """The worst of all sources."""
-    if any(isinstance(found, str) for _, found in rows):
-        return ExitStatus.UNREADABLE
-    worst = [found.worst for _, found in rows if not isinstance(found, str)]
-    if fails is not None and any(one is not None and one.rank <= fails.rank for one in worst):
-        return ExitStatus.FAILED
-    return ExitStatus.DONE
-
-
-def _check(name: str) -> Check:
-
-    if name not in CHECKS:
-        raise UsageError(unknown(name, list(CHECKS), "check"))
-    return CHECKS[name]
-
-
-def _words(options: Sequence[str]) -> list[str]:
-    return [word.strip() for option in options for word in option.split(",") if word.strip()]
-
-
-def _settings(
-    cache_time: Duration | None,
-    fixed_frame: str,
-    limits: Sequence[str],
-    tf_topics: Sequence[str],
-) -> Settings:
-
-    given: dict[str, dict[str, float]] = {}
-    for text in limits:
-        name, _, value = text.partition("=")
-        check, _, limit = name.partition(".")
-        try:
-            number = float(value)
-        except ValueError:
-            number = -1.0
-        if not limit or not 0.0 <= number < float("inf"):
-            raise UsageError(
-                f"--limit {text}: write ID.NAME=VALUE with a number from 0 on, as in gap.seconds=2"
-            )
-        given.setdefault(check, {})[limit] = number
-    return Settings(cache_time or seconds(10), fixed_frame, tuple(tf_topics), given)
+    output: Path | None
+    processes: int
+    scheduler: str
+    resume: bool
 
 
 def run(
     connection: Connection,
     places: list[str] | None,
+    *,
     select: list[str] | None,
     ignore: list[str] | None,
     fail_on: FailOn,
     limits: list[str] | None,
-    cache_time: int | None,
+    cache_time: Duration | None,
     fixed_frame: str,
     tf_topic: list[str] | None,
     begin: At | None,
     end: At | None,
-    lasting: int | None,
+    lasting: Duration | None,
     statistics: bool,
     verbose: bool,
     for_programs: bool,
@@ -173,53 +133,162 @@ def run(
     listed: bool,
 ) -> ExitStatus:
     """Run `tftool doctor`; the parameters are its options."""
-    # Heavy imports wait until this command is the chosen one.
-
-    if listed:
-        if markdown:
-            sys.stdout.write(view.as_page())
-        else:
-            write(view.listing())
-        return ExitStatus.DONE
-    if explain:
-        sys.stdout.write(view.explained(_check(explain), line_width()))
-        return ExitStatus.DONE
-    if for_programs and markdown:
-        raise UsageError("--json and --markdown are two ways to print it: leave one out.")
-    settings = _settings(cache_time, fixed_frame, limits or (), tf_topic or ())
+    if listed or explain:
+        return _show_checks("" if listed else explain, markdown=markdown)
+    chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
+    selection = CheckSelection(chosen, left_out, limits or [], cache_time, fixed_frame)
+    report = DoctorReport(for_programs, markdown, verbose, statistics, junit)
+    rows = RowOptions(output, processes, scheduler, resume)
+    _refuse_contradictions(report, rows)
+    settings = selection.settings(tuple(tf_topic or ()))
     urdf = connection.robot.urdf
     scope = Scope(None if urdf is None else described_by(urdf), settings.tf_topics, begin, end)
     fails = None if fail_on is FailOn.never else Severity(fail_on.value)
     if output is not None:
-        _refuse_reports(
-            {
-                "--junit": junit is not None,
-                "--json": for_programs,
-                "--markdown": markdown,
-                "--verbose": verbose,
-                "--statistics": statistics,
-            }
-        )
-        chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
-        refuse_unknown(settings, chosen, left_out)
-        task = fleet_tasks.Examination(settings, chosen, left_out, scope)
-        workers = workers_of(processes, scheduler)
-        counts = fleet.swept_into(places or (), output, workers, task, resume=resume)
-        return _swept_status(counts, fails)
-    if resume or processes > 1 or scheduler:
-        raise UsageError("--jobs, --resume and --scheduler make rows: add -o FILE.")
-    rows = _diagnosed(
-        connection, places or [None], lasting, settings, select or (), ignore or (), scope
-    )
-    diagnoses = [found for _, found in rows if not isinstance(found, str)]
-    if for_programs:
-        objects = [view.as_object(one) for one in diagnoses]
-        content = objects[0] if len(rows) == 1 and objects else objects
-        sys.stdout.write(json.dumps(content, indent=2, allow_nan=False, default=str) + "\n")
-    elif markdown:
-        sys.stdout.write("\n".join(view.as_markdown(one) for one in diagnoses))
-    else:
-        _print(rows, verbose=verbose, statistics=statistics)
+        return _sweep(places or [], output, rows, selection, settings, scope, fails)
+    judged = _diagnosed(connection, places or [], lasting, settings, selection, scope)
+    _print(judged, report)
     if junit is not None:
-        write_file(junit, view.as_junit(rows, fails))
-    return _status(rows, fails)
+        write_file(junit, view.as_junit(judged, fails))
+    return _status(judged, fails)
+
+
+def _show_checks(name: str, *, markdown: bool) -> ExitStatus:
+    """Print all about one check, or the list of all of them where none is named.
+
+    Raises:
+        UsageError: If there is no such check.
+    """
+    if not name:
+        if markdown:
+            sys.stdout.write(view.as_page())
+        else:
+            write(view.listing())
+    elif name in CHECKS:
+        sys.stdout.write(view.explained(CHECKS[name], line_width()))
+    else:
+        raise UsageError(unknown(name, list(CHECKS), "check"))
+    return ExitStatus.DONE
+
+
+def _refuse_contradictions(report: DoctorReport, rows: RowOptions) -> None:
+    """Refuse options that do not go together.
+
+    Raises:
+        UsageError: If two were given.
+    """
+    asked = {
+        "--junit": report.junit is not None,
+        "--json": report.for_programs,
+        "--markdown": report.markdown,
+        "--verbose": report.verbose,
+        "--statistics": report.statistics,
+    }
+    others = " and ".join(name for name, is_given in asked.items() if is_given)
+    makes_rows = rows.output is not None
+    refuse(
+        (
+            report.for_programs and report.markdown,
+            "--json and --markdown are two ways to print it: leave one out.",
+        ),
+        (makes_rows and others, f"-o writes rows, and {others} another report: leave one out."),
+        (
+            not makes_rows and (rows.resume or rows.processes > 1 or rows.scheduler),
+            "--jobs, --resume and --scheduler make rows: add -o FILE.",
+        ),
+    )
+
+
+def _words(options: Sequence[str]) -> list[str]:
+    """Split what an option with commas was given, each time it was."""
+    return [word.strip() for one in options for word in one.split(",") if word.strip()]
+
+
+def _sweep(
+    places: list[str],
+    output: Path,
+    rows: RowOptions,
+    selection: CheckSelection,
+    settings: Settings,
+    scope: Scope,
+    fails: Severity | None,
+) -> ExitStatus:
+    """Write a row for each recording; return the worst of them."""
+    from tftool.commands.fleet import fleet, fleet_tasks
+    from tftool.commands.fleet.workers import workers_of
+
+    refuse_unknown(settings, selection.select, selection.ignore)
+    task = fleet_tasks.Examination(settings, selection.select, selection.ignore, scope)
+    workers = workers_of(rows.processes, rows.scheduler)
+    counts = fleet.swept_into(places, output, workers, task, resume=rows.resume)
+    if fleet_tasks.UNREADABLE in counts:
+        return ExitStatus.UNREADABLE
+    bad = [name for name in ("error", "warning", "note") if name in counts]
+    found = fails is not None and any(Severity(name).rank <= fails.rank for name in bad)
+    return ExitStatus.FAILED if found else ExitStatus.DONE
+
+
+def _diagnosed(
+    connection: Connection,
+    places: list[str],
+    lasting: Duration | None,
+    settings: Settings,
+    selection: CheckSelection,
+    scope: Scope,
+) -> Judged:
+    """Diagnose each source; of several, one that is unreadable stops none."""
+    sources: list[str | None] = [*expanded(places)] if places else [None]
+    judged: Judged = []
+    for word in sources:
+        try:
+            with fetched(word or "") as path:
+                rules = rules_of(path or None)
+                evidence = evidence_from(connection, path or None, lasting, scope)
+        except InputError as error:
+            if len(sources) == 1:
+                raise
+            complain("tftool doctor", str(error))
+            judged.append((word or "", str(error)))
+            continue
+        if path != (word or ""):
+            evidence = replace(evidence, name=word or "")
+        diagnosis = judge(
+            evidence,
+            rules.settings(settings),
+            select=selection.select,
+            ignore=(*selection.ignore, *rules.ignore),
+        )
+        judged.append((word or evidence.name, diagnosis))
+    return judged
+
+
+def _print(judged: Judged, report: DoctorReport) -> None:
+    """Print every diagnosis; for a person, of several sources, what differs at the end."""
+    diagnoses = [found for _, found in judged if not isinstance(found, str)]
+    if report.for_programs:
+        objects = [view.as_object(one) for one in diagnoses]
+        content = objects[0] if len(judged) == 1 and objects else objects
+        sys.stdout.write(json.dumps(content, indent=2, allow_nan=False, default=str) + "\n")
+        return
+    if report.markdown:
+        sys.stdout.write("\n".join(view.as_markdown(one) for one in diagnoses))
+        return
+    for number, one in enumerate(diagnoses):
+        if number:
+            sys.stdout.write("\n")
+        write(view.render(one, verbose=report.verbose))
+        if report.statistics:
+            write(view.statistics(one.model))
+    if len(judged) > 1:
+        sys.stdout.write("\n")
+        write(view.compared(judged))
+
+
+def _status(judged: Judged, fails: Severity | None) -> ExitStatus:
+    """Return the worst of all sources."""
+    if any(isinstance(found, str) for _, found in judged):
+        return ExitStatus.UNREADABLE
+    worst = [found.worst for _, found in judged if not isinstance(found, str)]
+    if fails is not None and any(one is not None and one.rank <= fails.rank for one in worst):
+        return ExitStatus.FAILED
+    return ExitStatus.DONE

@@ -93,7 +93,7 @@ def doctor(
     """Say what is wrong with the frames, and what mends it: cause, evidence, consequence, fix.
 
     A recording is read whole, a scenario played on simulated time, a session that runs
-    listened to for 10 s, or --for. The exit status is 0 when nothing is found from a
+    listened to for 5 s, or --for. The exit status is 0 when nothing is found from a
     warning on (--fail-on), 1 when something is, 3 when a source cannot be read.
 
     tftool doctor run.mcap

@@ -1,99 +1,127 @@
-"""`tftool echo`: one transform, again and again, as tf2_echo prints it."""
+"""Answer `tftool echo`: of a file at once, of a session as it goes on."""
 
-import contextlib
+from dataclasses import replace
 from pathlib import Path
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import TransformException, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
+from tftool.commands.echo.echo_printer import Printer
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.echo_loop import Echo, LivePrinter, Printer
-from tftool.commands.shared.hosting import (
-    A_MOMENT,
-    NO_SESSION,
-    open_session,
-    refuse_to_forget,
-    refuse_to_share,
-)
+from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.notices import name_frames, notice
+from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import within
-from tftool.commands.shared.pairs import refuse_file_as_frame
-from tftool.commands.shared.recorded import moments
-from tftool.commands.shared.redraw import Redrawing, can_redraw
-from tftool.commands.shared.waiter import FramePair
+from tftool.commands.shared.pairs import IDENTITY, FramePair, refuse_file_as_frame
+from tftool.commands.shared.rival_publishers import rivalries
 from tftool.drawing.echo_view import in_words
-from tftool.frames.moment import At, checked_moment
+from tftool.frames.moment import At
 from tftool.opener import named
-from tftool.recordings.find import Found, Kind
-from tftool.world.link.session_world import Session
+from tftool.recordings.find import Kind
 
 
-def _print_recorded(
+def run(
     connection: Connection,
-    found: Found,
-    frames: tuple[str, str],
-    printer: Printer,
-    rate: float | None,
-    stamps_of: str | None,
-    most: int | None,
-) -> None:
-    """Print the whole span of a recording, moment by moment."""
-    stored = connection.open_stored(found)
-    name_frames(stored.buffer.frames(), frames)
-    for answer in moments(stored, *frames, rate=rate, topic=stamps_of, most=most):
-        printer.found(answer.stamp, answer)
-
-
-def _print_live(
-    session: Session,
-    pair: FramePair,
-    printer: Printer,
-    heading: str,
+    target: str,
+    source: str,
+    place: str | None,
     *,
-    period: Duration,
-    count: int | None,
-    patience: Duration | None,
-    tells: bool,
-) -> None:
-    """Ask a session again and again, and print each answer, or draw it in place of the last."""
-    redraws = count is None and not printer.for_programs and can_redraw()
-    if not redraws:
-        notice(f"{heading}:")
-    if pair.target == pair.source:
-        notice("A frame seen from itself is always the identity.")
-    with contextlib.ExitStack() as stack:
-        shown: Printer | LivePrinter = printer
-        if redraws:
-            redrawing = stack.enter_context(Redrawing(session.world.clock))
-            shown = LivePrinter(redrawing, pair, printer.precision, printer.with_distance)
-        echoing = Echo(
-            session.world,
-            pair,
-            shown,
-            period=period,
-            count=count,
-            patience=patience,
-            tells=tells,
-            departures=session.departures,
-        )
-        session.run(echoing.run())
-
-
-def _refuse_contradictions(
+    rate: float | None,
     once: bool,
     count: int | None,
     at: At | None,
+    stamps_of: str | None,
     offset: Duration | None,
     fixed_frame: str | None,
+    distance: bool,
+    precision: int,
+    timeout: Duration | None,
+    for_programs: bool,
+    cache_time: Duration | None,
+) -> ExitStatus:
+    """Run `tftool echo`; the parameters are its options."""
+    frames = target, source
+    place, rate = _place_or_rate(place, rate)
+    refuse(
+        (once and count not in (None, 1), f"--once and --count {count} contradict each other."),
+        (
+            at is not None and count not in (None, 1),
+            f"--at asks about one moment, and has one answer, not {count}.",
+        ),
+        (
+            fixed_frame is not None and offset is None,
+            "--fixed-frame needs --offset: it carries SOURCE over that time.",
+        ),
+        (
+            at is not None and offset is not None,
+            "--at and --offset both choose the moment: leave one out.",
+        ),
+    )
+    refuse_file_as_frame(*frames, place)
+    _check_names(*frames, *([] if fixed_frame is None else [fixed_frame]))
+    kind = None if place is None else named(place).kind
+    is_file = kind not in (None, Kind.SCENARIO)
+    refuse(
+        (
+            stamps_of is not None and (not is_file or at is not None or offset is not None),
+            "--at-stamps-of goes with a recording, and without --at and --offset.",
+        )
+    )
+    printer = Printer(precision, distance, for_programs)
+    pair = FramePair(*frames, offset=offset or 0, fixed_frame=fixed_frame)
+    is_one_moment = stamps_of is None and (once or at is not None or offset is not None)
+    if kind is not None and kind.is_recording and not is_one_moment:
+        from tftool.commands.echo.echo_span import print_span
+
+        connection.refuse_to_share(place)
+        notice(f"{in_words(*frames)}:")
+        opened = open_from(connection, place, cache_time=cache_time)
+        print_span(opened, frames, printer, rate=rate, topic=stamps_of, most=count)
+    elif is_file or at is not None:
+        _print_moment(connection, place, pair, printer, at, cache_time)
+    else:
+        from tftool.commands.echo.echo_loop import print_live
+
+        print_live(
+            connection,
+            place,
+            pair,
+            printer,
+            period=seconds(1.0 / (rate or 1.0)),
+            count=1 if once else count,
+            patience=timeout,
+            cache_time=cache_time,
+        )
+    return ExitStatus.DONE
+
+
+def _print_moment(
+    connection: Connection,
+    place: str | None,
+    pair: FramePair,
+    printer: Printer,
+    at: At | None,
+    cache_time: Duration | None,
 ) -> None:
-    if once and count not in (None, 1):
-        raise UsageError(f"--once and --count {count} contradict each other.")
-    if at is not None and count not in (None, 1):
-        raise UsageError(f"--at asks about one moment, and has one answer, not {count}.")
-    if fixed_frame is not None and offset is None:
-        raise UsageError("--fixed-frame needs --offset: it carries SOURCE over that time.")
-    if at is not None and offset is not None:
-        raise UsageError("--at and --offset both choose the moment: leave one out.")
+    """Print one answer, out of frames that are all there."""
+    frames = open_from(connection, place, until=at, cache_time=cache_time)
+    heading = in_words(pair.target, pair.source)
+    if at is not None:
+        pair = replace(pair, at=frames.moment(at))
+        heading += f", at {at}" if at.is_stamp else f", {at} after {frames.title} began"
+    notice(f"{heading}:")
+    if pair.target == pair.source:
+        notice(IDENTITY)
+    buffer, now = frames.buffer, frames.span[1]
+    try:
+        found = pair.ask(buffer, now)
+    except TransformException:
+        asked = (pair.target, pair.source, pair.fixed_frame)
+        name_frames(buffer.frames(), asked, "so far")
+        raise
+    printer.found(now, found)
+    for sentence in rivalries(buffer, buffer.chain(pair.target, pair.source)):
+        notice(sentence)
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
@@ -104,7 +132,6 @@ def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, f
         number = float(place)
     except ValueError:
         return place, rate
-
     if Path(place).exists():
         return place, rate
     if rate is not None:
@@ -121,71 +148,3 @@ def _check_names(*frames: str) -> None:
                 f"Frame \"{frame}\": in tf2 frame_ids cannot start with a '/'. "
                 f"Ask for {frame.lstrip('/') or 'its name without it'}."
             )
-
-
-def run(
-    connection: Connection,
-    target: str,
-    source: str,
-    place: str | None,
-    rate: float | None,
-    once: bool,
-    count: int | None,
-    at: At | None,
-    stamps_of: str | None,
-    offset: int | None,
-    fixed_frame: str | None,
-    distance: bool,
-    precision: int,
-    timeout: int | None,
-    for_programs: bool,
-    cache_time: int | None,
-) -> ExitStatus:
-    """Run `tftool echo`; the parameters are its options."""
-    place, rate = _place_or_rate(place, rate)
-    _refuse_contradictions(once, count, at, offset, fixed_frame)
-    refuse_file_as_frame(target, source, place)
-    _check_names(target, source, *([] if fixed_frame is None else [fixed_frame]))
-
-    # What is recorded is all there: it is read, not waited for.
-    found = None if place is None else named(place)
-    recorded = found is not None and found.kind is not Kind.SCENARIO
-    if stamps_of is not None and (not recorded or at is not None or offset is not None):
-        raise UsageError("--at-stamps-of goes with a recording, and without --at and --offset.")
-    heading = in_words(target, source)
-    printer = Printer(precision, distance, for_programs)
-    of_one_moment = stamps_of is None and (once or at is not None or offset is not None)
-    if found is not None and found.kind.is_recording and not of_one_moment:
-        refuse_to_share(connection, place)
-        refuse_to_forget(found, cache_time)
-        notice(f"{heading}:")
-        _print_recorded(connection, found, (target, source), printer, rate, stamps_of, count)
-        return ExitStatus.DONE
-    # Where nothing changes, once is enough.
-    still = found is not None and found.kind in (Kind.DESCRIPTION, Kind.STATICS)
-    once = once or (still and count is None)
-    session = open_session(
-        connection,
-        place,
-        simulated=at is not None or recorded,
-        cache_time=cache_time,
-        because=NO_SESSION if at is None else A_MOMENT,
-    )
-    stamp = 0
-    if at is not None:
-        stamp = checked_moment(at, session.name, session.world.clock.epoch, session.duration)
-        heading += f", at {at}" if at.is_stamp else f", {at} after {session.name} began"
-    if timeout is None and (stamp or recorded):
-        # What has not come a second after the moment asked about will not come.
-        timeout = max(stamp, session.world.clock.now()) - session.world.clock.now() + seconds(1)
-    _print_live(
-        session,
-        FramePair(target, source, stamp, offset or 0, fixed_frame),
-        printer,
-        heading,
-        period=seconds(1.0 / (rate or 1.0)),
-        count=1 if once or stamp or recorded else count,
-        patience=timeout,
-        tells=not (stamp or recorded),
-    )
-    return ExitStatus.DONE

@@ -12,7 +12,7 @@ from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.recorded import Bar
+from tftool.commands.shared.reading_bar import Bar
 from tftool.frames.moment import At
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform

@@ -1,18 +1,20 @@
-"""`tftool export`: frames to the files of other tools."""
+"""Write the frames of FROM to files of other tools."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from tftool.base.counts import count
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import LATEST, seconds
+from tftool.base.stamps import LATEST, Duration
 from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import name_frames, notice
-from tftool.commands.shared.pairs import moments_of, pairs_and_place, refuse_several_choices
-from tftool.commands.shared.recorded import Bar
-from tftool.commands.shared.stored import span, stored_frames
+from tftool.commands.shared.open_from import WHOLE, open_from
+from tftool.commands.shared.pairs import MomentOptions, pairs_and_place, refuse_several_choices
+from tftool.commands.shared.reading_bar import Bar
 from tftool.frames.export.export import (
     Exported,
     Style,
@@ -26,31 +28,90 @@ from tftool.frames.pair_samples import sample
 from tftool.recordings.target import refuse_existing
 
 
+def run(
+    connection: Connection,
+    words: list[str] | None,
+    *,
+    output: Path | None,
+    form: Format | None,
+    pairs: list[str] | None,
+    first: At | None,
+    last: At | None,
+    every: Duration | None,
+    rate: float | None,
+    stamps_of: str | None,
+    at: At | None,
+    lasting: Duration | None,
+    rpy: bool,
+    precision: int,
+    root: str | None,
+    with_moving: bool,
+    foxglove: bool,
+    force: bool,
+) -> ExitStatus:
+    """Run `tftool export`; the parameters are its options."""
+    when = MomentOptions(first, last, every, rate, stamps_of)
+    style = Style(precision, rpy, foxglove, with_moving, root)
+    if output is None:
+        raise UsageError("Say where to write it: -o FILE.")
+    asked, place = pairs_and_place(words or [], pairs or [])
+    form = form or format_of(output)
+    _refuse_misfits(form, asked, when, at, style)
+    refuse_existing(output, force=force)
+    frames = open_from(connection, place, lasting, until=WHOLE)
+    refuse_input(frames, output)
+    bar = Bar(f"Writing {visible(output.name)}")
+    time = LATEST if at is None else at.stamp(frames.span[0])
+    style = replace(style, time=time)
+    try:
+        with interruptible():
+            if form.is_trajectory:
+                moments = when.moments(frames)
+                name_frames(frames.buffer.frames(), (frame for pair in asked for frame in pair))
+                found = [sample(frames.buffer, *pair, moments) for pair in asked]
+                done = write_trajectories(found, output, form, style, force=force, progress=bar)
+            else:
+                done = write_links(frames.buffer, output, form, style, force=force, progress=bar)
+    finally:
+        bar.stop()
+    _tell(done)
+    return ExitStatus.DONE
+
+
 def _refuse_misfits(
     form: Format,
     pairs: list[tuple[str, str]],
-    at: bool,
-    root: str | None,
-    *moments: object,
+    when: MomentOptions,
+    at: At | None,
+    style: Style,
 ) -> None:
     """Refuse options that contradict what is written.
 
     Raises:
         UsageError: If one does.
     """
-    if form.is_trajectory:
-        if not pairs:
-            raise UsageError(
-                f"{form} holds pairs of frames over time: tftool export TARGET SOURCE [FROM]."
-            )
-        if at or root is not None:
-            raise UsageError("--at and --root go with links; a span has --from and --to.")
-    elif pairs:
-        raise UsageError(f"{form} holds links, and no pair: tftool export [FROM] -o FILE.")
-    elif at:
-        raise UsageError("What holds at all times has no moment: --at goes with --with-moving.")
-    refuse_several_choices(*moments)
-    if any(one is not None for one in moments) and not form.is_trajectory:
+    has_root = style.root is not None
+    has_at = at is not None and not style.with_moving
+    refuse(
+        (
+            form.is_trajectory and not pairs,
+            f"{form} holds pairs of frames over time: tftool export TARGET SOURCE [FROM].",
+        ),
+        (
+            form.is_trajectory and (has_at or has_root),
+            "--at and --root go with links; a span has --from and --to.",
+        ),
+        (
+            not form.is_trajectory and pairs,
+            f"{form} holds links, and no pair: tftool export [FROM] -o FILE.",
+        ),
+        (
+            not form.is_trajectory and has_at,
+            "What holds at all times has no moment: --at goes with --with-moving.",
+        ),
+    )
+    refuse_several_choices(*when.choices)
+    if any(one is not None for one in when.choices) and not form.is_trajectory:
         raise UsageError(f"{form} holds links, which are written once: leave out the moments.")
 
 
@@ -74,51 +135,3 @@ def _tell(done: Exported) -> None:
     notice(visible(f"Wrote {count(done.count, what)} to {names}{when}."))
     if done.format is Format.kitti:
         notice("KITTI's own frames look along z: these are written as they are.")
-
-
-def run(
-    connection: Connection,
-    words: list[str] | None,
-    output: Path | None,
-    form: Format | None,
-    pairs: list[str] | None,
-    first: At | None,
-    last: At | None,
-    every: int | None,
-    rate: float | None,
-    stamps_of: str | None,
-    at: At | None,
-    lasting: int | None,
-    rpy: bool,
-    precision: int,
-    root: str | None,
-    with_moving: bool,
-    foxglove: bool,
-    force: bool,
-) -> ExitStatus:
-    """Run `tftool export`; the parameters are its options."""
-    if output is None:
-        raise UsageError("Say where to write it: -o FILE.")
-    asked, place = pairs_and_place(words or [], pairs or [])
-    chosen = form or format_of(output)
-    _refuse_misfits(chosen, asked, at is not None and not with_moving, root, stamps_of, every, rate)
-    refuse_existing(output, force=force)
-    listen = seconds(10) if chosen.is_trajectory or chosen is Format.mcap else seconds(2)
-    stored = stored_frames(connection, place, lasting, listen=listen)
-    refuse_input(stored, output)
-    bar = Bar(f"Writing {visible(output.name)}")
-    time = LATEST if at is None else at.stamp(stored.start)
-    style = Style(precision, rpy, foxglove, with_moving, root, time)
-    try:
-        with interruptible():
-            if chosen.is_trajectory:
-                moments = moments_of(stored, span(stored, first, last), every, rate, stamps_of)
-                name_frames(stored.buffer.frames(), (frame for pair in asked for frame in pair))
-                found = [sample(stored.buffer, *pair, moments) for pair in asked]
-                done = write_trajectories(found, output, chosen, style, force=force, progress=bar)
-            else:
-                done = write_links(stored.buffer, output, chosen, style, force=force, progress=bar)
-    finally:
-        bar.stop()
-    _tell(done)
-    return ExitStatus.DONE

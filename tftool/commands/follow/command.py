@@ -67,7 +67,6 @@ def run(
         cache_time=cache_time,
         without=lambda node: node.kind == "follower",
         needs_turtles=True,
-        needs_messages=True,
     )
     world = session.world
     if session.is_hosted and simulator_of(world) is None:

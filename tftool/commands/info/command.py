@@ -1,91 +1,30 @@
-"""`tftool info`: what a recording or a robot description holds."""
+"""Say what recordings and robot descriptions hold."""
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.commands.fleet import fleet, fleet_tasks
-from tftool.commands.fleet.workers import workers_of
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.printer import line_width
-from tftool.commands.shared.recorded import read, told_of_odometry
-from tftool.doctor.evidence import Described, Scope, evidence_of_recording
-from tftool.doctor.judge import judge
-from tftool.drawing import recording_view, robot_view
-from tftool.drawing.finding_view import brief
+from tftool.drawing import recording_view
+from tftool.frames.notes import odometry_notes
 from tftool.frames.source_options import RobotOptions
 from tftool.opener import named
-from tftool.recordings.find import Found, Kind
+from tftool.recordings.find import Kind
 from tftool.recordings.recording import Recording
 from tftool.recordings.remote_files import fetched
 from tftool.robots.robot_model import load_urdf
 
 
-def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitStatus:
-    """Several recordings, a line each."""
-    workers = workers_of(processes, "")
-    counts, rows = fleet.sweep(fleet.expanded(places), None, workers, fleet_tasks.Inventory())
-    if for_programs:
-        sys.stdout.write(json.dumps(rows, indent=2) + "\n")
-    else:
-        sys.stdout.write(recording_view.as_lines(rows, line_width()))
-    return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
-
-
-def _one(connection: Connection, place: str, name: str, *, for_programs: bool) -> ExitStatus:
-    """All there is to say of one recording or description, which people know by a name."""
-    found = named(place)
-    if found.kind is Kind.DESCRIPTION:
-        _describe(connection, replace(found, name=name), for_programs=for_programs)
-        return ExitStatus.DONE
-    if not found.kind.is_recording:
-        word = visible(name)
-        if found.kind is Kind.SCENARIO:
-            sentence = (
-                f"'{word}' is no recording and no robot description. As a scenario, 'tftool check "
-                f"{word}' plays it, and 'tftool tree {word}' shows its frames."
-            )
-            raise InputError(sentence) if Path(place).is_file() else UsageError(sentence)
-        raise UsageError(
-            f"'{word}' is a {found.kind.value} and no recording: 'tftool tree {word}' shows its "
-            "frames."
-        )
-    recording: Recording = read(found, connection.robot, connection.recording)
-    with recording:
-        for sentence in told_of_odometry(recording):
-            notice(visible(sentence))
-        if for_programs:
-            sys.stdout.write(json.dumps(recording_view.as_object(recording, name), indent=2) + "\n")
-        else:
-            given = None if connection.robot.urdf is None else Described(recording.robot)
-            diagnosis = judge(evidence_of_recording(recording, Scope(given)))
-            width = line_width()
-            sys.stdout.write(recording_view.as_text(recording, width, name))
-            told = "\n".join(recording_view.wrapped(brief(diagnosis), width))
-            sys.stdout.write(f"\n{told}\n")
-    return ExitStatus.DONE
-
-
-def _describe(connection: Connection, found: Found, *, for_programs: bool) -> None:
-
-    RobotOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
-        "'info' shows joints as they rest"
-    )
-    robot = load_urdf(found.paths[0], connection.robot.arguments)
-    if for_programs:
-        sys.stdout.write(json.dumps(robot_view.as_object(found.name, robot), indent=2) + "\n")
-    else:
-        sys.stdout.write(robot_view.as_text(found.name, robot, line_width()))
-
-
 def run(
     connection: Connection,
     places: list[str],
+    *,
     for_programs: bool,
     output: Path | None,
     processes: int,
@@ -93,14 +32,79 @@ def run(
     scheduler: str,
 ) -> ExitStatus:
     """Run `tftool info`; the parameters are its options."""
-    if output is not None:
-        workers = workers_of(processes, scheduler)
-        counts = fleet.swept_into(places, output, workers, fleet_tasks.Inventory(), resume=resume)
-        return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
-    if resume or scheduler:
+    if output is None and (resume or scheduler):
         raise UsageError("--resume and --scheduler make rows: add -o FILE.")
-    if len(places) > 1:
-        return _compared(places, processes, for_programs=for_programs)
-    (place,) = places
-    with fetched(place) as path:
-        return _one(connection, path, place, for_programs=for_programs)
+    if output is None and len(places) == 1:
+        with fetched(places[0]) as path:
+            return _show(connection, path, places[0], for_programs=for_programs)
+    from tftool.commands.fleet import fleet, fleet_tasks
+    from tftool.commands.fleet.workers import workers_of
+
+    workers, task = workers_of(processes, scheduler), fleet_tasks.Inventory()
+    if output is not None:
+        counts = fleet.swept_into(places, output, workers, task, resume=resume)
+    else:
+        counts, rows = fleet.sweep(fleet.expanded(places), None, workers, task)
+        if for_programs:
+            sys.stdout.write(json.dumps(rows, indent=2) + "\n")
+        else:
+            sys.stdout.write(recording_view.as_lines(rows, line_width()))
+    return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
+
+
+def _show(connection: Connection, place: str, name: str, *, for_programs: bool) -> ExitStatus:
+    """Show all there is to say of one recording or description, which people know by a name."""
+    found = named(place)
+    if found.kind is Kind.DESCRIPTION:
+        _show_robot(connection, found.paths[0], name, for_programs=for_programs)
+        return ExitStatus.DONE
+    word = visible(name)
+    if found.kind is Kind.SCENARIO:
+        sentence = (
+            f"'{word}' is no recording and no robot description. As a scenario, 'tftool check "
+            f"{word}' plays it, and 'tftool tree {word}' shows its frames."
+        )
+        raise InputError(sentence) if Path(place).is_file() else UsageError(sentence)
+    if not found.kind.is_recording:
+        raise UsageError(
+            f"'{word}' is a {found.kind.value} and no recording: 'tftool tree {word}' shows its "
+            "frames."
+        )
+    recording = open_from(connection, place, tells=False).recording
+    assert recording is not None
+    given = connection.robot.urdf is not None and recording.robot is not None
+    notes = recording.robot.notes if given and recording.robot is not None else ()
+    for sentence in (*notes, *odometry_notes(recording)):
+        notice(visible(sentence))
+    if for_programs:
+        sys.stdout.write(json.dumps(recording_view.as_object(recording, name), indent=2) + "\n")
+    else:
+        _print(recording, name, has_urdf=connection.robot.urdf is not None)
+    return ExitStatus.DONE
+
+
+def _print(recording: Recording, name: str, *, has_urdf: bool) -> None:
+    """Print what a recording holds, and what the doctor finds in it."""
+    from tftool.doctor.evidence import Described, Scope, evidence_of_recording
+    from tftool.doctor.judge import judge
+    from tftool.drawing.finding_view import brief
+
+    described = Described(recording.robot) if has_urdf else None
+    diagnosis = judge(evidence_of_recording(recording, Scope(described)))
+    width = line_width()
+    sys.stdout.write(recording_view.as_text(recording, width, name))
+    told = "\n".join(recording_view.wrapped(brief(diagnosis), width))
+    sys.stdout.write(f"\n{told}\n")
+
+
+def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: bool) -> None:
+    from tftool.drawing import robot_view as view
+
+    RobotOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
+        "'info' shows joints as they rest"
+    )
+    robot = load_urdf(path, connection.robot.arguments)
+    if for_programs:
+        sys.stdout.write(json.dumps(view.as_object(name, robot), indent=2) + "\n")
+    else:
+        sys.stdout.write(view.as_text(name, robot, line_width()))

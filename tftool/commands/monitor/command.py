@@ -1,28 +1,82 @@
-"""`tftool monitor`: what arrives, how often, how late."""
+"""Watch a session, or a recording that is played again at once."""
 
-import json
-import sys
-from collections.abc import Callable
-from enum import Enum, auto
-
-from tftool.base.errors import InputError, TransformException, UsageError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, as_seconds, seconds
-from tftool.buffer.sample import TransformStamped
-from tftool.buffer.traffic import NetDelay, Traffic
+from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
+from tftool.commands.monitor.traffic_monitor import Monitor, ReportStyle
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
-from tftool.commands.shared.notices import notice
-from tftool.commands.shared.redraw import Redrawing, can_redraw
-from tftool.commands.shared.waiter import FramePair, Waiter
-from tftool.drawing import traffic_view as view
-from tftool.drawing.echo_view import in_words
-from tftool.world.clock import Clock, Phase, pace_of
-from tftool.world.supervisor import beside
-from tftool.world.world import TransformMessage, World
+from tftool.commands.shared.notices import tell_news
+from tftool.commands.shared.open_from import open_from
+from tftool.commands.shared.redraw import can_redraw
+from tftool.frames.frames import Frames
+from tftool.opener import named
+from tftool.recordings.timeline import Timeline
+from tftool.world.clock import SimClock
+from tftool.world.link.session_world import Session
+from tftool.world.nodes.player import Player
+from tftool.world.supervisor import live
+from tftool.world.world import World
 
-ASK_EVERY = seconds(0.5)
-"""How often the delay of a chain is measured; tf2_monitor's own figure."""
+
+def run(
+    connection: Connection,
+    words: list[str] | None,
+    *,
+    run_for: Duration | None,
+    every: Duration | None,
+    as_tf2: bool,
+    for_programs: bool,
+    cache_time: Duration | None,
+) -> ExitStatus:
+    """Run `tftool monitor`; the parameters are its options."""
+    if as_tf2 and for_programs:
+        raise UsageError("--tf2 and --json are two ways of writing: choose one.")
+    frames, place = _sorted_out(words or [])
+    try:
+        is_recording = place is not None and named(place).kind.is_recording
+    except InputError as error:
+        if frames is None:
+            sentence = f"{error} For the chain between two frames, name both."
+            raise InputError(sentence) from error
+        raise
+    if for_programs:
+        style = ReportStyle.JSON
+    elif as_tf2:
+        style = ReportStyle.TF2
+    else:
+        style = ReportStyle.TABLE if can_redraw() else ReportStyle.LINES
+    if is_recording:
+        session = _played(open_from(connection, place), cache_time)
+        # What was recorded is over at once: one report says all of it.
+        duration = session.duration or 0
+        run_for = min(run_for or duration, duration) or 1
+        every = every or run_for
+    else:
+        session = open_session(connection, place, cache_time=cache_time)
+    if every is None:
+        every = seconds(1) if style is ReportStyle.TABLE else seconds(10)
+    # What has not come yet of a recording comes at once: no wait is worth a line.
+    watching = Monitor(session.world, frames, style, period=every, tells=not is_recording)
+    session.run(watching.run(run_for))
+    return ExitStatus.DONE
+
+
+def _played(frames: Frames, cache_time: Duration | None) -> Session:
+    """Return a world in which a recording's messages arrive, as fast as they can be simulated."""
+    recording = frames.recording
+    assert recording is not None
+    timeline = Timeline(recording.source, recording.transforms)
+    clock = SimClock(max(timeline.start, 1))
+    world = World(clock, cache_time=cache_time or CACHE_TIME)
+    Player(world, "player", timeline=timeline, pace=clock, is_silent=True, names_topics=True)
+
+    async def alive(until: Stamp | None) -> None:
+        await live(world, until=until)
+
+    return Session(
+        world, True, frames.title, alive, 0, timeline.end - timeline.start, None, tell_news
+    )
 
 
 def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
@@ -36,197 +90,3 @@ def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
         return None, place
     target, source, *rest = words
     return (target, source), rest[0] if rest else None
-
-
-class ReportStyle(Enum):
-    """How a report is written."""
-
-    TABLE = auto()
-    LINES = auto()
-    TF2 = auto()
-    JSON = auto()
-
-
-class Monitor:
-    """Everything that arrives in one world, reported once a period."""
-
-    def __init__(
-        self,
-        world: World,
-        frames: tuple[str, str] | None,
-        style: ReportStyle,
-        *,
-        period: Duration,
-        tells: bool = True,
-    ) -> None:
-        """Prepare to listen.
-
-        Args:
-            world: Where to listen.
-            frames: Target and source of the chain to report on; None for all frames.
-            style: How to report.
-            period: Nanoseconds between two reports.
-            tells: Whether to say what it waits for.
-        """
-        self.world = world
-        self.frames = frames
-        self.style = style
-        self.period = period
-        self.tells = tells
-        self.traffic = Traffic()
-        self.chain: view.Chain | None = None
-
-    async def run(self, duration: Duration | None) -> None:
-        """Listen and report, for `duration` nanoseconds or for ever.
-
-        The last report is at the end of that time, which begins once the frames are connected.
-
-        Raises:
-            TransformException: If the frames are not connected in as much time, or never will be.
-        """
-        clock, pace = self.world.clock, pace_of(self.world.clock)
-        if self.frames is not None:
-            await self._find_chain(*self.frames, patience=duration)
-        began = clock.now()
-        end = None if duration is None else pace.now() + duration
-        # A node that holds up the loop would keep this from ever being over.
-        pace.limit(end)
-        stops = [
-            self.world.tf.subscribe(lambda message: self._hear(message, False), "monitor"),
-            self.world.tf_static.subscribe(lambda message: self._hear(message, True), "monitor"),
-        ]
-        self._hear_statics()
-        self._announce(duration)
-        try:
-            if self.style is ReportStyle.TABLE:
-                with Redrawing(clock) as redrawing:
-
-                    def show() -> None:
-                        console = redrawing.console
-                        redrawing.show(
-                            view.table(
-                                clock.now(),
-                                began,
-                                self.traffic,
-                                self.chain,
-                                width=console.width,
-                                # The line below it is the cursor's.
-                                height=console.height - 1,
-                                ascii_only=console.options.ascii_only,
-                            )
-                        )
-
-                    await beside(self._report_until(pace, end, show), self._ask(pace))
-            else:
-                await beside(self._report_until(pace, end, self._write), self._ask(pace))
-        finally:
-            for stop in stops:
-                stop()
-
-    async def _report_until(
-        self, clock: Clock, end: int | None, report: Callable[[], None]
-    ) -> None:
-
-        due = clock.now()
-        while end is None or due < end:
-            due += self.period
-            if end is not None:
-                due = min(due, end)
-            await clock.sleep_until(due, Phase.WATCH)
-            report()
-
-    async def _find_chain(self, target: str, source: str, patience: Duration | None) -> None:
-        """Wait until the two frames are connected, as tf2_monitor does."""
-        advice = "--for SECONDS ends the wait."
-        pair = FramePair(target, source)
-        waiter = Waiter(self.world, pair, patience=patience, tells=self.tells, advice=advice)
-        await waiter.wait()
-        frames = tuple(self.world.buffer.chain(target, source)) or (target,)
-
-        self.chain = view.Chain(target, source, frames, NetDelay())
-
-    async def _ask(self, pace: Clock) -> None:
-        """Measure how old the latest answer is; a static one has no age."""
-        clock = self.world.clock
-        due = pace.now()
-        while self.chain is not None:
-            due = max(due + ASK_EVERY, pace.now())
-            await pace.sleep_until(due, Phase.WATCH)
-            try:
-                found = self.world.buffer.lookup_transform(self.chain.target, self.chain.source)
-            except TransformException:
-                # tf2_monitor would end here; what is missing comes back, or is seen in the rates.
-                continue
-            if found.stamp:
-                self.chain.delay.add(as_seconds(clock.now() - found.stamp))
-
-    def _hear(self, message: TransformMessage, is_static: bool) -> None:
-        self.traffic.receive(
-            self.world.clock.now(), message.transforms, message.authority, is_static=is_static
-        )
-
-    def _hear_statics(self) -> None:
-        """Take in what was published before, as a late subscriber gets it."""
-        now = self.world.clock.now()
-        for info in self.world.buffer.snapshot(now).frames:
-            if info.is_static and info.parent is not None and info.transform is not None:
-                sample = TransformStamped(now, info.parent, info.frame, info.transform)
-                self.traffic.receive(now, [sample], info.authority or "", is_static=True)
-
-    def _announce(self, duration: Duration | None) -> None:
-
-        about = "all frames" if self.frames is None else in_words(*self.frames)
-        if self.period == duration:
-            notice(f"Gathering data on {about} for {round(as_seconds(duration), 3):g} s ...")
-        else:
-            notice(f"Gathering data on {about}, a report every {as_seconds(self.period):g} s ...")
-
-    def _write(self) -> None:
-
-        if self.style is ReportStyle.JSON:
-            now = self.world.clock.now()
-            text = json.dumps(view.as_object(now, self.traffic, self.chain), allow_nan=False) + "\n"
-        else:
-            text = view.lines(self.traffic, self.chain, as_tf2=self.style is ReportStyle.TF2)
-        sys.stdout.write(text)
-        sys.stdout.flush()
-
-
-def run(
-    connection: Connection,
-    words: list[str] | None,
-    run_for: int | None,
-    every: int | None,
-    as_tf2: bool,
-    for_programs: bool,
-    cache_time: int | None,
-) -> ExitStatus:
-    """Run `tftool monitor`; the parameters are its options."""
-    if as_tf2 and for_programs:
-        raise UsageError("--tf2 and --json are two ways of writing: choose one.")
-    frames, place = _sorted_out(words or [])
-    try:
-        session = open_session(
-            connection, place, cache_time=cache_time, needs_messages=True, plays=True
-        )
-    except InputError as error:
-        if frames is None:
-            sentence = f"{error} For the chain between two frames, name both."
-            raise InputError(sentence) from error
-        raise
-    if for_programs:
-        style = ReportStyle.JSON
-    elif as_tf2:
-        style = ReportStyle.TF2
-    else:
-        style = ReportStyle.TABLE if can_redraw() else ReportStyle.LINES
-    if session.is_played and session.duration is not None:
-        # What was recorded is over at once: one report says all of it.
-        run_for = min(run_for or session.duration, session.duration) or 1
-        every = every or run_for
-    if every is None:
-        every = seconds(1) if style is ReportStyle.TABLE else seconds(10)
-    # What has not come yet of a recording comes at once: no wait is worth a line.
-    watching = Monitor(session.world, frames, style, period=every, tells=not session.is_played)
-    session.run(watching.run(run_for))
-    return ExitStatus.DONE

@@ -12,6 +12,7 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import join_or_host
 from tftool.commands.shared.keypresses import keyboard
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.playback import Display, press
 from tftool.frames.moment import At
 from tftool.opener import named
@@ -150,7 +151,7 @@ def run(
     if not found.kind.is_recording:
         word = visible(file)
         raise UsageError(f"'{word}' is a {found.kind.value}: a recording is needed here.")
-    recording = connection.open_stored(found)
+    recording = open_from(connection, file).recording
     assert isinstance(recording, Recording)
     timeline = Timeline(recording.source, recording.transforms)
     playing = _Playing(

@@ -17,8 +17,9 @@ from tftool.base.near_names import near_names
 from tftool.base.short_numbers import short_size
 from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import NO_SESSION, open_session
+from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.interrupts import interruptible
+from tftool.commands.shared.open_from import NO_SESSION
 from tftool.commands.shared.record_loop import RecordingRun, tell
 from tftool.doctor.judge import CHECKS
 from tftool.recordings.compression import best_compression
@@ -143,7 +144,7 @@ def run(
     with interruptible(), _ended_by_hangup():
         rolling = RollingRecording(output, limits, compression=best_compression(), force=force)
         try:
-            session = open_session(connection, place, needs_messages=True, because=NO_SESSION)
+            session = open_session(connection, place, because=NO_SESSION)
         except BaseException:
             rolling.discard()
             raise

@@ -12,9 +12,10 @@ from tftool.base.near_names import did_you_mean
 from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session
+from tftool.commands.shared.notices import notice
 from tftool.commands.shared.on_screen import screen_lacks
-from tftool.commands.shared.robot_at_rest import load_described, tell_beyond
-from tftool.opener import kind_in_words, named
+from tftool.frames.notes import beyond_limits
+from tftool.opener import kind_in_words, load_described, named
 from tftool.recordings.find import Kind
 from tftool.robots.robot_model import Robot
 from tftool.screens.terminal.robot_app import RobotApp
@@ -97,7 +98,8 @@ def run(
     if link is not None and link not in described.links:
         raise UsageError(_no_link(described, link))
     described.positions(connection.robot.joints)
-    tell_beyond(described, connection.robot.joints)
+    for note in (*described.notes, *beyond_limits(described, connection.robot.joints)):
+        notice(visible(note))
 
     session = open_empty_session(connection)
     world = session.world

@@ -6,8 +6,9 @@ import typer
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import NO_SESSION, open_session
+from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import tell_record
+from tftool.commands.shared.open_from import NO_SESSION
 from tftool.ros import ros2 as ros2_command
 from tftool.ros import running
 from tftool.ros.host import user_code
@@ -44,7 +45,7 @@ def run(
     if words[0] in ("interface", "pkg"):
         body()
         return 0
-    session = open_session(connection, place, needs_messages=True, because=NO_SESSION)
+    session = open_session(connection, place, because=NO_SESSION)
     world = session.world
     world.log.listen(
         lambda record: tell_record(record) if record.level in ("WARN", "ERROR") else None, "console"

@@ -8,13 +8,9 @@ from typer.models import Context
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import (
-    NO_SESSION,
-    open_empty_session,
-    open_session,
-    tell_where_to_look,
-)
+from tftool.commands.shared.hosting import open_empty_session, open_session, tell_where_to_look
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.open_from import NO_SESSION
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.commands.teleop.command import run as drive
@@ -68,7 +64,6 @@ def _opened(connection: Connection, place: str | None, *, alone: bool, simulated
         place,
         simulated=simulated,
         head_start=0,
-        needs_messages=True,
         without=None if place else lambda node: node.kind != "turtlesim",
         because=SIMULATED if simulated else NO_SESSION,
     )

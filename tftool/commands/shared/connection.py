@@ -5,24 +5,28 @@ Every command that may share a session takes a `Connection` as its first paramet
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Self, TypedDict
 
 from tftool.base.errors import InputError, UsageError
+from tftool.base.escaping import visible
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.robot_at_rest import StoredFrames
 from tftool.frames.source_options import RecordingOptions, RobotOptions
 from tftool.world.link.link_options import domain_here
 
 if TYPE_CHECKING:
     from tftool.base.stamps import Duration, Stamp
-    from tftool.recordings.find import Found
+    from tftool.frames.frames import Frames
     from tftool.world.clock import Clock
     from tftool.world.link.link_options import Options
     from tftool.world.link.session import Link
 
+
+HOME = "turtles"
+"""The scenario that stands in for the session, where none runs and none was named."""
 
 LOOKING = frozenset(
     ["doctor", "echo", "explain", "export", "monitor", "plot", "record", "session", "tree", "view"]
@@ -80,34 +84,15 @@ class Providers:
 
         return Link(options)
 
-    def stored(
-        self, found: "Found", robot: RobotOptions, recording: RecordingOptions
-    ) -> StoredFrames:
-        """Open a recording or a robot description.
 
-        Args:
-            found: What it is.
-            robot: Joint positions, and the description of a recorded robot.
-            recording: How a recording is read.
+class FileOptions(TypedDict):
+    """How files are read, as `open_frames` takes it."""
 
-        Raises:
-            InputError: If it cannot be read.
-            UsageError: If a joint position or argument does not fit the description.
-        """
-        from tftool.recordings.find import Kind
-
-        if found.kind is Kind.STATICS:
-            from tftool.commands.shared.robot_at_rest import read_statics
-
-            return read_statics(found, robot)
-        if not found.kind.is_recording:
-            from tftool.commands.shared.robot_at_rest import read_at_rest
-
-            recording.refuse(f"'{found.name}' is a {found.kind.value}")
-            return read_at_rest(found, robot)
-        from tftool.commands.shared.recorded import read_and_tell
-
-        return read_and_tell(found, robot, recording)
+    joints: Mapping[str, float]
+    arguments: Mapping[str, str]
+    urdf: Path | None
+    with_odometry: bool
+    no_cache: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +129,7 @@ class Connection:
     robot: RobotOptions = field(default_factory=RobotOptions)
     recording: RecordingOptions = field(default_factory=RecordingOptions)
     providers: Providers = field(default_factory=Providers, compare=False, repr=False)
-    _opened: "list[Link | StoredFrames]" = field(default_factory=list, compare=False, repr=False)
+    _opened: "list[Link | Frames]" = field(default_factory=list, compare=False, repr=False)
 
     def __enter__(self) -> Self:
         return self
@@ -197,20 +182,59 @@ class Connection:
         """
         link = self.providers.link(self.options())
         if link is not None:
-            self._opened.append(link)
+            self.keep(link)
             for sentence in link.middleware.notices:
                 notice(sentence)
         return link
 
-    def open_stored(self, found: "Found") -> StoredFrames:
-        """Open a recording or a robot description, which is closed with this connection.
+    @property
+    def file_options(self) -> "FileOptions":
+        """How files are read, as `open_frames` takes it."""
+        return {
+            "joints": self.robot.joints,
+            "arguments": self.robot.arguments,
+            "urdf": self.robot.urdf,
+            "with_odometry": self.recording.with_odometry,
+            "no_cache": self.recording.no_cache,
+        }
+
+    @property
+    def hosts_alone(self) -> bool:
+        """Whether there is no session to join, without opening anything."""
+        if self.mode is Mode.HOST:
+            return True
+        if self.needs_link:
+            return False
+        from tftool.world.link.zenoh.rendezvous import has_members
+
+        return not has_members(self.domain)
+
+    def keep(self, opened: "Link | Frames") -> None:
+        """Close something with this connection, at the latest."""
+        self._opened.append(opened)
+
+    def refuse_to_share(self, word: str | None) -> None:
+        """Refuse the options of sharing for what is read, or played on simulated time.
 
         Raises:
-            InputError: If it cannot be read.
+            UsageError: If one was given.
         """
-        stored = self.providers.stored(found, self.robot, self.recording)
-        self._opened.append(stored)
-        return stored
+        self.refuse_to_join(word)
+        if self.needs_link:
+            raise UsageError(
+                f"'{visible(word or HOME)}' is played on simulated time here, which cannot be "
+                "shared: leave out --join, --listen, --connect, --zenoh-config, --dds and "
+                "--read-only."
+            )
+
+    def refuse_to_join(self, word: str | None) -> None:
+        """Refuse --join for what is named, which is always hosted.
+
+        Raises:
+            UsageError: If it was given.
+        """
+        if word is not None and self.mode is Mode.JOIN:
+            raise UsageError(f"'{visible(word)}' is always hosted: leave out --join, or the name.")
 
     def refuse_read_only(self, purpose: str) -> None:
         """Refuse --read-only for a command whose whole purpose is to publish.

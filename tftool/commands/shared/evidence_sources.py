@@ -1,41 +1,32 @@
-"""Where `doctor` and `explain` get what they look at: a recording, a scenario, a session."""
+"""What `doctor` and `explain` look at: a recording, a scenario, a session."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import NO_SESSION, join_session, open_session
-from tftool.commands.shared.notices import notice, tell_listening
-from tftool.commands.shared.observe import LISTEN
-from tftool.commands.shared.options import LISTENING
-from tftool.doctor.evidence import Evidence, Scope, evidence_of_log, evidence_of_recording
+from tftool.commands.shared.notices import notice
+from tftool.commands.shared.open_from import WHOLE, open_from
+from tftool.doctor.evidence import Evidence, Scope, evidence_of_frames
+from tftool.frames.source_options import RobotOptions
 from tftool.opener import named, scenario_named
 from tftool.recordings.find import Kind
-from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, heard_in, rules_beside
-from tftool.world.link.session_world import Session
+from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, rules_beside
 
-if TYPE_CHECKING:
-    from tftool.base.stamps import Stamp
-
-WHOLE = Scope()
+EVERYTHING = Scope()
 """All of a source."""
 
-LIVE = "live session"
-"""The kind of what a session that runs gives."""
 
-
-def material_of(
+def evidence_from(
     connection: Connection,
     word: str | None,
     lasting: Duration | None = None,
-    scope: Scope = WHOLE,
+    scope: Scope = EVERYTHING,
 ) -> Evidence:
-    """What is known of the frames that FROM names.
+    """Return what is known of the frames that FROM names.
 
-    A recording is read whole, a scenario played on simulated time, a session listened to.
+    A recording is read whole, a scenario played to its end, a session listened to.
 
     Args:
         connection: What the command's options say.
@@ -49,58 +40,32 @@ def material_of(
         UsageError: If the word names a robot description, or what is no recording is to be
             looked at in part.
     """
-    found = None if word is None else named(word)
-    if found is not None and found.kind.is_recording:
-        from tftool.commands.shared import recorded
-
-        with recorded.read(found, options=connection.recording) as recording:
-            return evidence_of_recording(recording, scope)
-    if scope.tf_topics or scope.begin is not None or scope.end is not None:
+    kind = None if word is None else named(word).kind
+    is_recording = kind is not None and kind.is_recording
+    if not is_recording and (scope.tf_topics or scope.begin is not None or scope.end is not None):
         raise UsageError("--tf-topic, --from and --to are for recordings.")
-    if found is not None and found.kind is Kind.DESCRIPTION:
+    if kind is Kind.DESCRIPTION:
+        shown = visible(word or "")
         raise UsageError(
-            f"'{visible(found.name)}' is a robot description, which publishes nothing to judge: "
-            f"'tftool doctor RECORDING --urdf {visible(found.name)}' compares the two, "
-            f"'tftool info {visible(found.name)}' reports its mistakes."
+            f"'{shown}' is a robot description, which publishes nothing to judge: "
+            f"'tftool doctor RECORDING --urdf {shown}' compares the two, "
+            f"'tftool info {shown}' reports its mistakes."
         )
-    if found is not None and found.kind is Kind.STATICS:
+    if kind is Kind.STATICS:
+        shown = visible(word or "")
         raise UsageError(
-            f"'{visible(found.name)}' holds what never changes: "
-            f"'tftool tree {visible(found.name)}' shows its frames, 'tftool diff' compares them."
+            f"'{shown}' holds what never changes: "
+            f"'tftool tree {shown}' shows its frames, 'tftool diff' compares them."
         )
-    if word is None:
-        session = join_session(connection)
-        if session is not None:
-            lasting = lasting or LISTENING
-            tell_listening(lasting)
-            return _described(_heard(session, lasting, LIVE), scope)
-    session = open_session(connection, word, simulated=True, because=NO_SESSION)
-    whole = session.duration or LISTEN
-    return _described(_heard(session, lasting or whole, "scenario"), scope)
-
-
-def _described(material: Evidence, scope: Scope) -> Evidence:
-    """What was heard, beside the description that was given."""
-    if scope.described is None:
-        return material
-    return replace(material, robot=scope.described.robot, mistakes=scope.described.mistakes)
-
-
-def _heard(session: Session, lasting: Duration, kind: str) -> Evidence:
-    """Listen to a world for `lasting` nanoseconds."""
-    world = session.world
-    hearing, stops = heard_in(world)
-    began: Stamp = world.clock.now()
-    try:
-        session.run(session.listened(lasting))
-    finally:
-        for stop in stops:
-            stop()
-    return evidence_of_log(hearing, session.name, kind, began, world.clock.now())
+    if is_recording:
+        # How long it lasts is known, and the description that was given is evidence of its own.
+        connection, lasting = replace(connection, robot=RobotOptions()), None
+    with open_from(connection, word, lasting, until=WHOLE, tells=False) as frames:
+        return evidence_of_frames(frames, scope)
 
 
 def rules_of(word: str | None) -> DoctorRules:
-    """What a scenario, or the list beside a recording, asks of the doctor.
+    """Return what a scenario, or the list beside a recording, asks of the doctor.
 
     Raises:
         InputError: If it cannot be read.

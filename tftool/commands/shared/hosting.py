@@ -1,18 +1,16 @@
-"""Join or host: the one place that decides where a command's frames come from.
+"""Join or host: the one place that decides which session a command works in.
 
-FROM is a word that names a scenario (a built-in one, or a file), a recording (a file, a
-folder, a glob) or a robot description; what a file is its content says. What is named is
-always hosted. Without a word, the session that runs on this machine is joined; if none
-runs, the command hosts one, and others join it. Processes that only look are no session:
-they wait, and share what is hosted next. While one world is hosted another keeps to
-itself, so that the two never mix.
+A scenario that was named is always hosted. Without a word, the session that runs on this
+machine is joined; if none runs, the command hosts one, and others join it. Processes that only
+look are no session: they wait, and share what is hosted next. While one world is hosted another
+keeps to itself, so that the two never mix.
 
 A command that works in a world while it lives (``echo``, ``monitor``, ``view``) opens a session::
 
         session = open_session(connection, place)
         session.run(work(session.world))
 
-`cli.observing` is for those that ask about one moment.
+`open_from` is for commands that answer once, and for files.
 """
 
 import asyncio
@@ -23,28 +21,20 @@ from typing import TYPE_CHECKING
 
 from tftool.base.errors import LinkError, UsageError
 from tftool.base.escaping import visible
-from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
-from tftool.commands.shared.connection import Connection, Mode
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.commands.shared.connection import HOME, Connection, Mode
 from tftool.commands.shared.notices import notice, tell_news
-from tftool.commands.shared.robot_at_rest import StoredFrames
-from tftool.opener import kind_in_words, named, scenario_named
-from tftool.recordings.find import Found, Kind
-from tftool.world.clock import Clock, Phase, SimClock
+from tftool.commands.shared.open_from import NO_SESSION
+from tftool.frames.frames import Frames
+from tftool.opener import kind_in_words, named, refuse_options_of_files, scenario_named
+from tftool.recordings.find import Kind
+from tftool.world.clock import Clock, SimClock
 from tftool.world.link.session_world import Session, joined_session, lived, session_name, shared
-from tftool.world.supervisor import live
 from tftool.world.world import World
 
 if TYPE_CHECKING:
-    from tftool.recordings.recording import Recording
     from tftool.scenario.scenario import NodeEntry, Scenario
     from tftool.world.link.session import Link
-
-HOME = "turtles"
-"""The scenario a command hosts when nothing runs and none was named."""
-
-NO_SESSION = "No session is running here"
-A_MOMENT = "A chosen moment is always simulated"
-"""Why a world that was not named is hosted."""
 
 HEAD_START = seconds(3)
 """How long a hosted world has lived when its command first looks: both turtles are there."""
@@ -84,7 +74,7 @@ def join_or_host(
         LinkError: If a session was asked for and there is none, or no link.
         UsageError: If --join was given: what is named is hosted.
     """
-    _refuse_to_join(connection, word)
+    connection.refuse_to_join(word)
     link, alone = _open_link(connection)
     if link is None:
         return JoinDecision(alone=alone)
@@ -141,8 +131,6 @@ def open_session(
     cache_time: Duration | None = None,
     without: Callable[["NodeEntry"], bool] | None = None,
     needs_turtles: bool = False,
-    needs_messages: bool = False,
-    plays: bool = False,
     because: str = NO_SESSION,
     by_hand: bool = False,
 ) -> Session:
@@ -156,8 +144,6 @@ def open_session(
         cache_time: How far back the world's buffer remembers, in place of the scenario's own.
         without: Says which of a hosted scenario's nodes to leave out.
         needs_turtles: Whether only a session with a turtle simulator will do.
-        needs_messages: Whether messages have to arrive: those of a recording have.
-        plays: Whether those of a recording are to arrive again, as fast as can be simulated.
         because: Why a world that was not named is hosted, for people.
         by_hand: Whether a person drives in it, in place of the scenario's own script.
 
@@ -168,17 +154,14 @@ def open_session(
     """
     found = None if word is None else named(word)
     if found is not None and found.kind is not Kind.SCENARIO:
-        if needs_messages and not plays:
-            raise _without_messages(found)
-        refuse_to_share(connection, word)
-        if plays:
-            return _played(connection, found, cache_time)
-        refuse_to_forget(found, cache_time)
-        return _recorded(connection, found, simulated=simulated)
-    refuse_options_of_files(connection, word)
+        raise UsageError(
+            f"'{visible(found.name)}' is {kind_in_words(found)}, from which no message "
+            f"arrives: 'tftool tree {visible(found.name)}' shows its frames."
+        )
+    refuse_options_of_files(connection.robot, connection.recording, word)
     link = None
     if simulated:
-        refuse_to_share(connection, word)
+        connection.refuse_to_share(word)
     else:
         joined = join_or_host(connection, word, needs_turtles=needs_turtles, cache_time=cache_time)
         if joined.session is not None:
@@ -228,9 +211,7 @@ def join_session(
     Raises:
         LinkError: If a session was asked for and there is none.
     """
-    if connection.mode is Mode.HOST or (
-        not connection.needs_link and not _is_session_here(connection)
-    ):
+    if connection.hosts_alone:
         return None
     joined = join_or_host(connection, None, needs_turtles=needs_turtles, cache_time=cache_time)
     if joined.link is not None:
@@ -257,44 +238,6 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
     notice(f"See it from another terminal: tftool demo --join{domain} · tftool view{domain}")
 
 
-def refuse_to_share(connection: Connection, word: str | None) -> None:
-    """Refuse the options of sharing for a world on simulated time."""
-    _refuse_to_join(connection, word)
-    if connection.needs_link:
-        raise UsageError(
-            f"'{visible(word or HOME)}' is played on simulated time here, which cannot be shared: "
-            "leave out --join, --listen, --connect, --zenoh-config, --dds and --read-only."
-        )
-
-
-def _refuse_to_join(connection: Connection, word: str | None) -> None:
-    if word is not None and connection.mode is Mode.JOIN:
-        raise UsageError(f"'{visible(word)}' is always hosted: leave out --join, or the name.")
-
-
-def refuse_options_of_files(connection: Connection, word: str | None) -> None:
-    """Refuse the options of recordings and descriptions, where FROM is neither.
-
-    Raises:
-        UsageError: If one was given.
-    """
-    what = "The session that runs" if word is None else f"'{visible(word)}'"
-    connection.robot.refuse(f"{what} is no robot description and no recording")
-    connection.recording.refuse(f"{what} is no recording")
-
-
-def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
-    """Refuse --cache-time where FROM is all there, and lookups reach back to its beginning.
-
-    Raises:
-        UsageError: If it was given.
-    """
-    if cache_time is not None:
-        raise UsageError(
-            f"All of '{visible(found.name)}' is known, to its beginning: leave out --cache-time."
-        )
-
-
 def _hosted(
     scenario: "Scenario", clock: Clock, head_start: Duration, link: "Link | None"
 ) -> Session:
@@ -312,89 +255,21 @@ def _hosted(
     return Session(play.world, True, name, alive, head_start, scenario.duration, link, tell_news)
 
 
-def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Session:
-    """A world in which all of a recording is known, at its end; its clock began with it."""
-    stored = connection.open_stored(found)
-    lasting = stored.end - stored.start
-    # Where nothing was recorded both are 0, at which no clock can begin.
-    start = max(stored.start, 1)
-    clock: Clock = (
-        SimClock(start) if simulated else connection.providers.still_clock(start, start + lasting)
-    )
-    world = World(clock, stored.buffer)
+def resting_session(connection: Connection, frames: Frames) -> Session:
+    """Return a world in which all frames of a recording are known, at its end.
 
-    async def alive(until: Stamp | None) -> None:
-        if until is None:
-            await asyncio.get_running_loop().create_future()
-        else:
-            await clock.sleep_until(until, Phase.END)
-
-    kind = "recording" if found.kind.is_recording else found.kind.value
-    name = f"{kind} '{visible(stored.name)}'"
-    robot = getattr(stored, "robot", None)
-    return Session(
-        world,
-        True,
-        name,
-        alive,
-        lasting,
-        lasting,
-        tell=tell_news,
-        is_recorded=True,
-        robot=robot,
-        recording=recording_of(stored) if found.kind.is_recording else None,
-    )
-
-
-def recording_of(stored: StoredFrames) -> "Recording | None":
-    """The recording that stored frames are; None where they are others."""
-    from tftool.recordings.recording import Recording
-
-    return stored if isinstance(stored, Recording) else None
-
-
-def _played(connection: Connection, found: Found, cache_time: Duration | None) -> Session:
-    """A world in which a recording's messages arrive, as fast as they can be simulated.
-
-    Raises:
-        UsageError: If it is no recording.
+    For screens, which show worlds; nothing arrives in it.
     """
-    from tftool.recordings.recording import Recording
-    from tftool.recordings.timeline import Timeline
-    from tftool.world.nodes.player import Player
-
-    recording = connection.open_stored(found) if found.kind.is_recording else None
-    if not isinstance(recording, Recording):
-        raise _without_messages(found)
-    timeline = Timeline(recording.source, recording.transforms)
-    clock = SimClock(max(timeline.start, 1))
-    world = World(clock, cache_time=cache_time or CACHE_TIME)
-    Player(world, "player", timeline=timeline, pace=clock, is_silent=True, names_topics=True)
+    start, end = frames.span
+    # Where nothing was recorded both are 0, at which no clock can begin.
+    start, lasting = max(start, 1), end - start
+    clock = connection.providers.still_clock(start, start + lasting)
+    world = World(clock, frames.buffer)
 
     async def alive(until: Stamp | None) -> None:
-        await live(world, until=until)
+        await asyncio.get_running_loop().create_future()
 
-    name = f"recording '{visible(recording.name)}'"
-    lasting = timeline.end - timeline.start
-    return Session(world, True, name, alive, 0, lasting, is_played=True, tell=tell_news)
-
-
-def first_look(session: Session) -> Stamp | None:
-    """Return where to begin to look at what is recorded; None to look at the present."""
-    if not session.is_recorded or not session.duration:
-        return None
-    from tftool.screens.first_moment import first_moment
-
-    clock = session.world.clock
-    end = min(clock.epoch + session.duration, clock.now())
-    return first_moment(session.world.buffer, clock.epoch, end) or clock.epoch
-
-
-def _without_messages(found: Found) -> UsageError:
-    return UsageError(
-        f"'{visible(found.name)}' is {kind_in_words(found)}, from which no message "
-        f"arrives: 'tftool tree {visible(found.name)}' shows its frames."
-    )
+    return Session(world, True, frames.title, alive, lasting, lasting, tell=tell_news)
 
 
 def _open_link(connection: Connection) -> tuple["Link | None", str]:
@@ -411,13 +286,6 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
         alone = f"No other process can join this world: {visible(str(error))}."
         notice(alone)
         return None, alone
-
-
-def _is_session_here(connection: Connection) -> bool:
-    """Whether some process of this machine waits to be joined, without opening anything."""
-    from tftool.world.link.zenoh.rendezvous import has_members
-
-    return has_members(connection.domain)
 
 
 def _has_host(link: "Link") -> bool:

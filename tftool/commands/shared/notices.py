@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from tftool.base.escaping import visible, visible_lines
 from tftool.base.near_names import near_names
-from tftool.base.stamps import Duration, as_seconds
 
 if TYPE_CHECKING:
     from tftool.world.log import LogRecord
@@ -64,11 +63,6 @@ def name_frames(
     meant = f" Did you mean {visible(near[0])}?" if near else ""
     notice(f"{there}: {named}{more}.{meant} {advice}".rstrip())
     return True
-
-
-def tell_listening(lasting: Duration) -> None:
-    """Say for how long a session is listened to."""
-    notice(f"Listening for {as_seconds(lasting):g} s ...")
 
 
 def _write(text: str) -> None:

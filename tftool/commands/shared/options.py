@@ -25,9 +25,6 @@ MOST = 9e9
 LONGEST_SIMULATED = seconds(86_400)
 """How much simulated time a command plays: a day, as long as a scenario may last."""
 
-LISTENING = seconds(10)
-"""How long a command listens to a live session before it judges or writes what it heard."""
-
 FIRST_STAMP = 100_000_000
 """In seconds: a moment from here on is a stamp; a smaller one counts from the beginning."""
 

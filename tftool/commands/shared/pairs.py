@@ -1,16 +1,96 @@
 """The pairs of frames a command works on, and at which moments: its words become values."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import LookupException, UsageError
 from tftool.base.escaping import visible
-from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.frames.frames import Frames
+from tftool.frames.moment import At
 from tftool.recordings.find import METADATA
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.robot_at_rest import StoredFrames
     from tftool.frames.pair_samples import Moments
+
+IDENTITY = "A frame seen from itself is always the identity."
+"""Said where target and source are one frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class FramePair:
+    """Two frames, and the moment at which one is looked up in the other.
+
+    Attributes:
+        target: Frame the answer is given in.
+        source: Frame looked for.
+        at: The moment; 0 for the latest.
+        offset: How far from now the moment is instead, where it is not 0.
+        fixed_frame: Frame through which `source` at that moment is seen in `target` now.
+    """
+
+    target: str
+    source: str
+    at: Stamp = LATEST
+    offset: Duration = 0
+    fixed_frame: str | None = None
+
+    def moment(self, now: Stamp) -> Stamp:
+        """The moment that is meant when the clock reads `now`; 0 for the latest."""
+        return now + self.offset if self.offset else self.at
+
+    def ask(self, buffer: Buffer, now: Stamp) -> TransformStamped:
+        """Look it up.
+
+        Raises:
+            TransformException: If it cannot be given.
+        """
+        if self.target == self.source and not buffer.frame_exists(self.target):
+            # tf2 calls any frame in itself the identity, even one that is not known.
+            raise LookupException(_unknown(self.target), frame=self.target)
+        then = self.moment(now)
+        if self.fixed_frame is None:
+            return buffer.lookup_transform(self.target, self.source, then)
+        return buffer.lookup_transform_full(
+            self.target, LATEST, self.source, then, self.fixed_frame
+        )
+
+    def why_not(self, buffer: Buffer, now: Stamp) -> str:
+        """Why it cannot be given, in tf2_echo's words."""
+        if self.target == self.source and not buffer.frame_exists(self.target):
+            return _unknown(self.target)
+        then = self.moment(now)
+        if self.fixed_frame is None:
+            return buffer.why_not(self.target, self.source, then)
+        return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
+
+    def newest(self, buffer: Buffer) -> Stamp:
+        """The newest moment known of the frames in question; 0 where none of them moves."""
+        return buffer.newest_common(self.fixed_frame or self.target, self.source)
+
+
+def _unknown(frame: str) -> str:
+    return f'Invalid frame ID "{frame}" - frame does not exist'
+
+
+def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
+    """See that no file stands where a frame's name is wanted, as where one of three was forgotten.
+
+    Raises:
+        UsageError: If one does.
+    """
+    if place is not None:
+        return
+    for word in (target, source):
+        path = Path(word)
+        if (path.suffix and path.is_file()) or (path / METADATA).is_file():
+            raise UsageError(
+                f"'{visible(word)}' is a recording, or another file, and stands where a frame's "
+                "name does: FROM comes behind two frames, TARGET SOURCE FROM."
+            )
 
 
 def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
@@ -44,23 +124,6 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
     return pairs, words[0] if words else None
 
 
-def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
-    """See that no file stands where a frame's name is wanted, as where one of three was forgotten.
-
-    Raises:
-        UsageError: If one does.
-    """
-    if place is not None:
-        return
-    for word in (target, source):
-        path = Path(word)
-        if (path.suffix and path.is_file()) or (path / METADATA).is_file():
-            raise UsageError(
-                f"'{visible(word)}' is a recording, or another file, and stands where a frame's "
-                "name does: FROM comes behind two frames, TARGET SOURCE FROM."
-            )
-
-
 def refuse_several_choices(*given: object) -> None:
     """Refuse more than one of --every, --rate and --at-stamps-of; None is not given.
 
@@ -71,34 +134,66 @@ def refuse_several_choices(*given: object) -> None:
         raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
 
 
-def moments_of(
-    stored: "StoredFrames",
-    ends: tuple[Stamp | None, Stamp | None],
-    every: Duration | None,
-    rate: float | None,
-    topic: str | None,
-) -> "Moments":
-    """At which moments a pair is asked for.
+@dataclass(frozen=True, slots=True)
+class MomentOptions:
+    """Which moments of a span are asked for.
 
-    Args:
-        stored: Whose frames.
-        ends: First and last stamp.
+    Attributes:
+        first: The first one; None for the beginning.
+        last: The last one; None for the end.
         every: The period, nanoseconds.
         rate: The same, hertz.
-        topic: Ask at the stamps of its messages.
+        stamps_of: Ask at the stamps of this topic's messages instead.
+    """
+
+    first: At | None = None
+    last: At | None = None
+    every: Duration | None = None
+    rate: float | None = None
+    stamps_of: str | None = None
+
+    @property
+    def choices(self) -> tuple[object, ...]:
+        """What chooses the moments between the first and the last; None is not given."""
+        return self.every, self.rate, self.stamps_of
+
+    def moments(self, frames: Frames) -> "Moments":
+        """Return the moments at which a pair is asked for.
+
+        Raises:
+            InputError: If there is no such topic.
+            UsageError: If several ways to choose are given, or a topic where nothing is recorded,
+                or the span does not fit.
+        """
+        from tftool.frames.pair_samples import Moments
+
+        ends = _span(frames, self.first, self.last)
+        refuse_several_choices(*self.choices)
+        if self.stamps_of is not None:
+            if frames.recording is None:
+                raise UsageError("--at-stamps-of goes with a recording.")
+            stamps = frames.recording.headers(self.stamps_of).stamps
+            return Moments(*ends, stamps=stamps, words=f"at the stamps of '{self.stamps_of}'")
+        return Moments(*ends, self.every if self.rate is None else seconds(1.0 / self.rate))
+
+
+def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | None, Stamp | None]:
+    """Return the stamps of --from and --to.
 
     Raises:
-        InputError: If there is no such topic.
-        UsageError: If more than one of them is given, or a topic where nothing is recorded.
+        UsageError: If the one lies behind the other, or nothing lies between the two.
     """
-    from tftool.frames.pair_samples import Moments
-    from tftool.recordings.recording import Recording
-
-    refuse_several_choices(every, rate, topic)
-    if topic is not None:
-        if not isinstance(stored, Recording):
-            raise UsageError("--at-stamps-of goes with a recording.")
-        stamps = stored.headers(topic).stamps
-        return Moments(*ends, stamps=stamps, words=f"at the stamps of '{topic}'")
-    period = every if rate is None else seconds(1.0 / rate)
-    return Moments(*ends, period)
+    begin, over = frames.span
+    start = None if first is None else first.stamp(begin)
+    end = None if last is None else last.stamp(begin)
+    if start is not None and end is not None and start > end:
+        raise UsageError(f"--from {first} lies behind --to {last}.")
+    if start is not None and start > over:
+        lasts = as_seconds(over - begin)
+        raise UsageError(
+            f"{visible(frames.label)} lasts {lasts:g} s: --from {first} is after its end."
+        )
+    if end is not None and end < begin:
+        begins = At(begin, is_stamp=True)
+        raise UsageError(f"{visible(frames.label)} begins at {begins}: --to {last} is before that.")
+    return start, end

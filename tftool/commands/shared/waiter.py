@@ -2,19 +2,16 @@
 
 import asyncio
 import re
-from dataclasses import dataclass
 
 from tftool.base.errors import (
     BackwardExtrapolationException,
-    LookupException,
     TimeoutException,
     TransformException,
 )
 from tftool.base.escaping import visible_lines
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
-from tftool.buffer.buffer import Buffer
-from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.notices import name_frames, notice
+from tftool.commands.shared.pairs import FramePair
 from tftool.drawing import echo_view as view
 from tftool.world.clock import pace_of
 from tftool.world.world import World
@@ -24,62 +21,6 @@ EXPLAINED = ("CLOCK_MIXTURE", "NAME", "SINGLE", "SPLIT", "STOPPED")
 
 SETTLED = seconds(0.75)
 """How long frames have time to arrive before it is said what is missing."""
-
-
-@dataclass(frozen=True, slots=True)
-class FramePair:
-    """Two frames, and the moment at which one is looked up in the other.
-
-    Attributes:
-        target: Frame the answer is given in.
-        source: Frame looked for.
-        at: The moment; 0 for the latest.
-        offset: How far from now the moment is instead, where it is not 0.
-        fixed_frame: Frame through which `source` at that moment is seen in `target` now.
-    """
-
-    target: str
-    source: str
-    at: Stamp = LATEST
-    offset: Duration = 0
-    fixed_frame: str | None = None
-
-    def moment(self, now: Stamp) -> Stamp:
-        """The moment that is meant when the clock reads `now`; 0 for the latest."""
-        return now + self.offset if self.offset else self.at
-
-    def ask(self, buffer: Buffer, now: Stamp) -> TransformStamped:
-        """Look it up.
-
-        Raises:
-            TransformException: If it cannot be given.
-        """
-        if self.target == self.source and not buffer.frame_exists(self.target):
-            # tf2 calls any frame in itself the identity, even one that is not known.
-            raise LookupException(_unknown(self.target), frame=self.target)
-        then = self.moment(now)
-        if self.fixed_frame is None:
-            return buffer.lookup_transform(self.target, self.source, then)
-        return buffer.lookup_transform_full(
-            self.target, LATEST, self.source, then, self.fixed_frame
-        )
-
-    def why_not(self, buffer: Buffer, now: Stamp) -> str:
-        """Why it cannot be given, in tf2_echo's words."""
-        if self.target == self.source and not buffer.frame_exists(self.target):
-            return _unknown(self.target)
-        then = self.moment(now)
-        if self.fixed_frame is None:
-            return buffer.why_not(self.target, self.source, then)
-        return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
-
-    def newest(self, buffer: Buffer) -> Stamp:
-        """The newest moment known of the frames in question; 0 where none of them moves."""
-        return buffer.newest_common(self.fixed_frame or self.target, self.source)
-
-
-def _unknown(frame: str) -> str:
-    return f'Invalid frame ID "{frame}" - frame does not exist'
 
 
 class Waiter:

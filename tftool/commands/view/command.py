@@ -4,7 +4,8 @@ import asyncio
 import shutil
 import sys
 import webbrowser
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Coroutine, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,20 +15,17 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import short_size
 from tftool.base.stamps import Duration, as_seconds
+from tftool.buffer.buffer import Buffer
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import first_look, open_session, recording_of, refuse_to_share
+from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.interrupts import interruptible
-from tftool.commands.shared.notices import notice
-from tftool.commands.shared.recorded import Bar
-from tftool.commands.shared.robot_at_rest import (
-    RobotAtRest,
-    StoredFrames,
-    load_described,
-    tell_beyond,
-)
-from tftool.commands.shared.stored import stored_frames
+from tftool.commands.shared.notices import notice, tell_news
+from tftool.commands.shared.open_from import WHOLE, open_from
+from tftool.commands.shared.reading_bar import Bar
 from tftool.frames.export.trajectory_files import whole_file
-from tftool.opener import named
+from tftool.frames.frames import Frames
+from tftool.frames.notes import beyond_limits
+from tftool.opener import load_described, named
 from tftool.recordings.find import Found, Kind
 from tftool.recordings.target import refuse_existing
 from tftool.robots.robot_model import Robot
@@ -38,8 +36,10 @@ from tftool.screens.browser.recorded_messages import IN_A_FILE, recorded_tracks,
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.server import PageServer
 from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
-from tftool.screens.first_moment import first_moment
-from tftool.world.link.session_world import Session, lived
+from tftool.screens.first_moment import first_look, first_moment
+from tftool.world.clock import Clock, Phase
+from tftool.world.clock import run as run_on
+from tftool.world.link.session_world import Session, lasting, lived
 from tftool.world.nodes.joints import (
     DESCRIPTION,
     LATCHED,
@@ -50,6 +50,19 @@ from tftool.world.nodes.joints import (
 from tftool.world.world import World
 
 _MOST_TOLD = 5
+
+
+@dataclass(frozen=True, slots=True)
+class StillFrames:
+    """Frames that are all there, as a page shows them.
+
+    Attributes:
+        clock: Stands at their end.
+        buffer: The frames.
+    """
+
+    clock: Clock
+    buffer: Buffer
 
 
 def _write(
@@ -102,32 +115,28 @@ def _page_data(
         _hear_description(world, published.append, meshes)
         displays.append(LiveDisplays(world, IN_A_FILE))
 
-    stored = stored_frames(connection, place, run_for, beside=listen)
+    frames = open_from(connection, place, run_for, until=WHOLE, watch=listen)
     # 0 would mean the latest; what only holds at all times has no other moment.
-    epoch = max(1, stored.start)
-    now = max(epoch, stored.end)
-    robot = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
-    begin = first_moment(stored.buffer, epoch, now)
-    recording = recording_of(stored)
-    if recording is not None:
-        tracks = recorded_tracks(recording, IN_A_FILE)
+    start, end = frames.span
+    start = max(1, start)
+    end = max(start, end)
+    robot = _robot_of(connection, frames, meshes) or (published[-1] if published else None)
+    begin = first_moment(frames.buffer, start, end)
+    if frames.recording is not None:
+        tracks = recorded_tracks(frames.recording, IN_A_FILE)
     else:
         tracks = [track for one in displays for track in one.latest(IN_A_FILE.points)]
-    return StandaloneData(stored.name, stored.buffer, epoch, now, begin, robot, tracks=tracks)
+    return StandaloneData(frames.label, frames.buffer, start, end, begin, robot, tracks=tracks)
 
 
-def _robot_of(
-    connection: Connection, stored: StoredFrames, meshes: Sequence[Path]
-) -> ShownRobot | None:
-    """The robot of a description, or that of a recording."""
-    robot = getattr(stored, "robot", None)
+def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) -> ShownRobot | None:
+    """Return the robot of a description, or that of a recording."""
+    robot = frames.robot
     if robot is None:
         return None
-
-    described = connection.robot.urdf
-    rest = None
-    if isinstance(stored, RobotAtRest):
-        described = named(stored.name).paths[0]
+    described, rest = connection.robot.urdf, None
+    if frames.kind == "robot description" and frames.found is not None:
+        described = frames.found.paths[0]
         rest = robot.positions(connection.robot.joints)
     return ShownRobot(robot, MeshFolders(described, meshes), rest=rest)
 
@@ -136,16 +145,17 @@ def _alive(
     connection: Connection, found: Found, meshes: Sequence[Path]
 ) -> "tuple[Session, ShownRobot]":
     """A world with one robot, whose joints the page moves."""
-    refuse_to_share(connection, found.name)
+    connection.refuse_to_share(found.name)
     robot = load_described(found, connection.robot)
     joints = connection.robot.joints
     robot.positions(joints)
-    tell_beyond(robot, joints)
+    for note in (*robot.notes, *beyond_limits(robot, joints)):
+        notice(visible(note))
     world = World(connection.providers.wall_clock())
     RobotStatePublisher(world, robot=robot, publish_frequency=0.0)
     mover = JointStatePublisher(world, robot=robot, positions=joints, rate=30.0)
     name = f"robot description '{visible(found.name)}'"
-    session = Session(world, True, name, lived(world, None, "host"))
+    session = Session(world, True, name, lived(world, None, "host"), tell=tell_news)
     return session, ShownRobot(robot, MeshFolders(found.paths[0], meshes), mover)
 
 
@@ -185,17 +195,26 @@ def _tell_missing(shown: ShownRobot) -> None:
 
 
 async def _show(
-    session: Session, page: PageServer, duration: Duration | None, open_browser: bool
+    page: PageServer,
+    name: str,
+    waiting: Coroutine[Any, Any, None],
+    begin: str,
+    open_browser: bool,
 ) -> None:
+    """Serve the page until the time is over or a signal ends it.
 
+    Args:
+        page: The page.
+        name: Whose frames it shows.
+        waiting: Ends when the time is over.
+        begin: What the address ends in: the moment to show first.
+        open_browser: Whether to open it.
+    """
     async with page:
         if page.asked_port not in (0, page.port):
             notice(f"Port {page.asked_port} is not free: taking {page.port}.")
-        # What is all there is shown from its beginning on, and stands still.
-        begin = first_look(session)
-        at = 0 if begin is None else as_seconds(begin - session.world.clock.epoch)
-        url = page.url if begin is None else f"{page.url}#at={at:.9f}"
-        said = f"The frames of {session.name} are at"
+        url = f"{page.url}{begin}"
+        said = f"The frames of {name} are at"
         # An address that is broken at the edge of the terminal cannot be clicked.
         is_long = len(f"{said} {url}") > shutil.get_terminal_size().columns
         between = "\n" if is_long and sys.stdout.isatty() else " "
@@ -203,10 +222,7 @@ async def _show(
         sys.stdout.flush()
         if open_browser and not await _opened(url):
             notice("No browser could be started: open that address yourself.")
-        tasks = {
-            asyncio.ensure_future(page.run()),
-            asyncio.ensure_future(session.lasting(duration)),
-        }
+        tasks = {asyncio.ensure_future(page.run()), asyncio.ensure_future(waiting)}
         try:
             ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
             for task in ended:
@@ -250,24 +266,52 @@ def run(
         raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
 
     found = None if place is None else named(place)
+    serve = partial(PageServer, port=port, rate=rate, tell=notice)
+    if found is not None and (found.kind.is_recording or found.kind is Kind.STATICS):
+        frames = open_from(connection, place, cache_time=cache_time)
+        _show_frames(connection, frames, serve, run_for, meshes or [], open_browser)
+        return ExitStatus.DONE
     shown = None
     if found is not None and found.kind is Kind.DESCRIPTION:
         session, shown = _alive(connection, found, meshes or [])
     else:
         session = open_session(connection, place, cache_time=cache_time)
-        if session.robot is not None:
-            folders = MeshFolders(connection.robot.urdf, meshes or [])
-            shown = ShownRobot(session.robot, folders)
-    page = PageServer(session.world, port=port, rate=rate, tell=notice, name=session.name)
-    recording = session.recording
-    if recording is not None:
-        page.show_tracks(partial(tracks_named, recording.name))
-    else:
-        page.show_live(LiveDisplays(session.world))
+    page = serve(session.world, name=session.name)
+    page.show_live(LiveDisplays(session.world))
     if shown is not None:
         page.show_robot(shown)
         _tell_missing(shown)
     else:
         _listen(session, page, meshes or [])
-    session.run(_show(session, page, run_for, open_browser))
+    session.run(_show(page, session.name, session.lasting(run_for), "", open_browser))
     return ExitStatus.DONE
+
+
+def _show_frames(
+    connection: Connection,
+    frames: Frames,
+    serve: Callable[..., PageServer],
+    run_for: Duration | None,
+    meshes: Sequence[Path],
+    open_browser: bool,
+) -> None:
+    """Show what is all there, from its beginning on; it stands still."""
+    start, end = frames.span
+    # Where nothing was recorded both are 0, at which no clock can begin.
+    start, end = max(start, 1), max(end, 1)
+    clock = connection.providers.still_clock(start, end)
+    page = serve(StillFrames(clock, frames.buffer), name=frames.title)
+    if frames.recording is not None:
+        page.show_tracks(partial(tracks_named, frames.recording.name))
+    if (shown := _robot_of(connection, frames, meshes)) is not None:
+        page.show_robot(shown)
+        _tell_missing(shown)
+    begin = first_look(frames)
+    anchor = "" if begin is None else f"#at={as_seconds(begin - start):.9f}"
+
+    async def show() -> None:
+        await clock.sleep_until(end, Phase.WATCH)
+        waiting = lasting(clock, run_for)
+        await _show(page, frames.title, waiting, anchor, open_browser)
+
+    run_on(clock, show())

@@ -15,8 +15,6 @@ from tftool.world.supervisor import beside, live
 from tftool.world.world import World
 
 if TYPE_CHECKING:
-    from tftool.recordings.recording import Recording
-    from tftool.robots.robot_model import Robot
     from tftool.world.link.session import Link
     from tftool.world.log import LogRecord
 
@@ -46,10 +44,6 @@ class Session:
         duration: How long its scenario lasts; None where nothing says so.
         link: What joins it to other processes; None for a world on its own.
         tell: Takes every line of the world's log while it lives.
-        is_recorded: Whether all of its frames are there from the beginning, and none come.
-        robot: The robot in a recording, by its description.
-        is_played: Whether a recording's messages arrive in it, which are over at its end.
-        recording: The recording whose frames these are.
     """
 
     world: World
@@ -60,10 +54,6 @@ class Session:
     duration: Duration | None = None
     link: "Link | None" = None
     tell: "Callable[[LogRecord], object]" = _keep_silent
-    is_recorded: bool = False
-    robot: "Robot | None" = None
-    is_played: bool = False
-    recording: "Recording | None" = None
 
     def departures(self) -> int:
         """How many of the other processes have left by now that transforms came from."""
@@ -107,16 +97,7 @@ class Session:
 
     async def lasting(self, duration: Duration | None) -> None:
         """Do nothing for `duration` nanoseconds; for ever if None."""
-        if duration is None:
-            await asyncio.get_running_loop().create_future()
-        else:
-            clock = pace_of(self.world.clock)
-            # A node that holds up the loop would keep this from ever being over.
-            clock.limit(clock.now() + duration)
-            try:
-                await clock.sleep(duration, Phase.WATCH)
-            finally:
-                clock.limit(None)
+        await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
         """Listen for `duration` nanoseconds, over DDS until the static transforms have come."""
@@ -138,6 +119,20 @@ class Session:
             if is_clock_shown(self.link.graph):
                 await clock.told_once(TOLD)
         return await work
+
+
+async def lasting(clock: Clock, duration: Duration | None) -> None:
+    """Do nothing for `duration` nanoseconds of a clock's pace; for ever if None."""
+    if duration is None:
+        await asyncio.get_running_loop().create_future()
+        return
+    pace = pace_of(clock)
+    # A node that holds up the loop would keep this from ever being over.
+    pace.limit(pace.now() + duration)
+    try:
+        await pace.sleep(duration, Phase.WATCH)
+    finally:
+        pace.limit(None)
 
 
 def joined_session(

@@ -1,66 +1,60 @@
 """One pair of frames, asked again and again, and its answers on stdout as tf2_echo prints them."""
 
 import asyncio
-import json
-import sys
+import contextlib
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from tftool.base.errors import TransformException
 from tftool.base.stamps import Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
+from tftool.commands.echo.echo_printer import Printer
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.redraw import Redrawing
+from tftool.commands.shared.pairs import IDENTITY, FramePair
+from tftool.commands.shared.redraw import Redrawing, can_redraw
 from tftool.commands.shared.rival_publishers import rivalries
-from tftool.commands.shared.waiter import FramePair, Waiter
+from tftool.commands.shared.waiter import Waiter
 from tftool.drawing import echo_view as view
 from tftool.world.clock import Phase, pace_of
 from tftool.world.link.session_world import twins
 from tftool.world.world import World
 
 
-@dataclass(frozen=True, slots=True)
-class Printer:
-    """How answers are written to stdout."""
-
-    precision: int = 3
-    with_distance: bool = False
-    for_programs: bool = False
-
-    def found(self, now: Stamp, found: TransformStamped) -> None:
-        """Print an answer."""
-        if self.for_programs:
-            self._line(view.as_object(found, with_distance=self.with_distance))
-        elif sys.stdout.isatty():
-            from tftool.commands.shared.printer import write
-
-            write(
-                view.painted(found, precision=self.precision, with_distance=self.with_distance),
-                end="",
-            )
-            sys.stdout.flush()
-        else:
-            self._write(
-                view.block(found, precision=self.precision, with_distance=self.with_distance)
-            )
-
-    def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
-        """Print a refusal."""
-        if self.for_programs:
-            self._line(view.failure_as_object(now, refusal))
-        else:
-            self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
-
-    def aged(self, now: Stamp) -> None:
-        """Leave what is printed as it is."""
-
-    def _line(self, what: object) -> None:
-        self._write(json.dumps(what, allow_nan=False) + "\n")
-
-    def _write(self, text: str) -> None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
+def print_live(
+    connection: Connection,
+    place: str | None,
+    pair: FramePair,
+    printer: Printer,
+    *,
+    period: Duration,
+    count: int | None,
+    patience: Duration | None,
+    cache_time: Duration | None,
+) -> None:
+    """Ask a session again and again, and print each answer, or draw it in place of the last."""
+    session = open_session(connection, place, cache_time=cache_time)
+    redraws = count is None and not printer.for_programs and can_redraw()
+    if not redraws:
+        notice(f"{view.in_words(pair.target, pair.source)}:")
+    if pair.target == pair.source:
+        notice(IDENTITY)
+    with contextlib.ExitStack() as stack:
+        shown: Printer | LivePrinter = printer
+        if redraws:
+            redrawing = stack.enter_context(Redrawing(session.world.clock))
+            shown = LivePrinter(redrawing, pair, printer.precision, printer.with_distance)
+        echoing = Echo(
+            session.world,
+            pair,
+            shown,
+            period=period,
+            count=count,
+            patience=patience,
+            departures=session.departures,
+        )
+        session.run(echoing.run())
 
 
 class LivePrinter:
@@ -113,7 +107,6 @@ class Echo:
         period: Duration,
         count: int | None = None,
         patience: Duration | None = None,
-        tells: bool = True,
         departures: Callable[[], int] = lambda: 0,
     ) -> None:
         """Prepare to ask.
@@ -125,7 +118,6 @@ class Echo:
             period: Nanoseconds between two answers.
             count: How many answers to print; None for no end.
             patience: How long to wait for the first, in nanoseconds; None for ever.
-            tells: Whether to say why it waits; on simulated time there is no need to.
             departures: Gives how many processes that sent transforms have left; after each
                 further departure the wait starts again, for something new.
         """
@@ -135,7 +127,7 @@ class Echo:
         self.period = period
         self.count = count
         self.departures = departures
-        self.waiter = Waiter(world, pair, patience=patience, tells=tells)
+        self.waiter = Waiter(world, pair, patience=patience)
 
     async def run(self) -> None:
         """Print answers until there are enough.

@@ -1,8 +1,4 @@
-"""`tftool tree --watch`: the tree as it changes, with keys on a terminal and as text elsewhere."""
-
-import os
-import sys
-from collections.abc import Callable
+"""`tftool tree --watch`: the tree as it changes."""
 
 from rich.console import Console, Group
 from rich.live import Live
@@ -11,45 +7,35 @@ from rich.text import Text
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import Duration, seconds
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import is_news
 from tftool.commands.shared.on_screen import screen_lacks
-from tftool.commands.tree.command import fitting
+from tftool.commands.tree.tree_text import fitting
 from tftool.doctor.frame_marks import marks
-from tftool.screens.terminal.run_screen import show
-from tftool.screens.terminal.screen_options import Setting, setting_from
-from tftool.screens.terminal.tree_app import TreeWatch
 from tftool.world.clock import Phase, pace_of
-from tftool.world.clock import run as run_loop
-from tftool.world.link.session_world import Session
 from tftool.world.log import LogRecord
 from tftool.world.stopping import leave_screen
 from tftool.world.world import World
 
 
-def watch_tree(open_session: Callable[[], Session], duration: Duration | None) -> None:
+def show_changes(
+    connection: Connection,
+    place: str | None,
+    duration: Duration | None,
+    cache_time: Duration | None,
+) -> None:
     """Show the tree as it changes: with keys where there are some, else redrawn in place."""
     console = Console()
     if not console.is_terminal:
         raise UsageError("--watch needs a terminal; without it the tree is written once.")
-    session = open_session()
+    session = open_session(connection, place, cache_time=cache_time)
     if screen_lacks():
         session.run(_redrawn(session.world, duration, console))
     else:
-        _watch_with_keys(session, duration)
+        from tftool.commands.tree.tree_keys import watch_with_keys
 
-
-def _watch_with_keys(session: Session, duration: Duration | None) -> None:
-
-    world = session.world
-    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting())
-    app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
-
-    def tell(record: LogRecord) -> None:
-        if is_news(record):
-            app.tell(record.text)
-
-    world.log.listen(tell, "screen")
-    run_loop(world.clock, show(app, session.along(session.lasting(duration))))
+        watch_with_keys(session, duration)
 
 
 async def _redrawn(world: World, duration: Duration | None, console: Console) -> None:

@@ -1,0 +1,148 @@
+"""FROM on the command line: opened behind a bar, with what is odd about it on stderr."""
+
+import math
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible
+from tftool.base.stamps import Duration, as_seconds
+from tftool.commands.shared.connection import HOME, Connection
+from tftool.commands.shared.notices import notice
+from tftool.frames.frames import Frames
+from tftool.frames.moment import At
+from tftool.opener import LISTEN_FOR, named, open_frames, refuse_options_of_files
+from tftool.recordings.find import Kind
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.reading_bar import Bar
+    from tftool.world.world import World
+
+NO_SESSION = "No session is running here"
+A_MOMENT = "A chosen moment is always simulated"
+"""Why a scenario that was not named is played."""
+
+WHOLE = math.inf
+"""All of a scenario."""
+
+_MOST_NOTES = 8
+_LONGEST_NAME = 24
+
+
+def open_from(
+    connection: Connection,
+    place: str | None,
+    lasting: Duration | None = None,
+    *,
+    until: At | float | None = None,
+    margin: float = 1.0,
+    cache_time: Duration | None = None,
+    tells: bool = True,
+    shares: bool = False,
+    watch: "Callable[[World], object] | None" = None,
+) -> Frames:
+    """Open the frames of FROM; they are closed with the connection at the latest.
+
+    Without FROM the session that runs is listened to; where none runs, or a moment was chosen,
+    the turtles are played.
+
+    Args:
+        connection: What the command's options say.
+        place: FROM; None for the session that runs.
+        lasting: What --for says: how long to listen or to play.
+        until: How far to play a scenario, where --for does not say; see `open_frames`.
+        margin: How far to play on behind that, seconds.
+        cache_time: How far back the buffer of a scenario or a session remembers.
+        tells: Whether to say what is odd about the frames.
+        shares: Whether the options of sharing are for another of several sources.
+        watch: Called with the world of a scenario or a session before it lives.
+
+    Raises:
+        InputError: If FROM names nothing, or it cannot be read.
+        LinkError: If a session was asked for and there is none.
+        UsageError: If options do not fit what FROM is.
+    """
+    if lasting is not None:
+        until, margin = as_seconds(lasting), 0.0
+    if place is None and not isinstance(until, At):
+        frames = listen_from(connection, lasting, cache_time=cache_time, watch=watch)
+        if frames is not None:
+            return frames
+    if not shares:
+        if lasting is not None and place is not None and named(place).kind is not Kind.SCENARIO:
+            raise UsageError("--for is for what goes on; of a recording, --to leaves out the rest.")
+        connection.refuse_to_share(place)
+    if place is None:
+        refuse_options_of_files(connection.robot, connection.recording, None)
+        because = A_MOMENT if isinstance(until, At) else NO_SESSION
+        notice(f"{because}: hosting scenario '{HOME}'.")
+        place = HOME
+    bar = _bar(place)
+    try:
+        frames = open_frames(
+            place,
+            **connection.file_options,
+            until=until,
+            margin=margin,
+            cache_time=cache_time,
+            watch=watch,
+            progress=bar,
+        )
+    finally:
+        if bar is not None:
+            bar.stop()
+    connection.keep(frames)
+    for text in () if frames.found is None else frames.found.told():
+        notice(visible(text))
+    if tells:
+        tell_notes(frames)
+    return frames
+
+
+def listen_from(
+    connection: Connection,
+    lasting: Duration | None = None,
+    *,
+    cache_time: Duration | None = None,
+    watch: "Callable[[World], object] | None" = None,
+) -> Frames | None:
+    """Listen to the session that runs; None where none does. See `open_from`.
+
+    Raises:
+        LinkError: If a session was asked for and there is none.
+    """
+    if connection.hosts_alone:
+        return None
+    from tftool.commands.shared.hosting import join_session
+
+    session = join_session(connection, cache_time=cache_time)
+    if session is None:
+        return None
+    listen_for = LISTEN_FOR if lasting is None else as_seconds(lasting)
+    notice(f"Listening for {listen_for:g} s ...")
+    options = connection.file_options
+    return open_frames(
+        **options, listen_for=listen_for, cache_time=cache_time, session=session, watch=watch
+    )
+
+
+def _bar(place: str) -> "Bar | None":
+    """Return a bar for a person who waits."""
+    if not sys.stderr.isatty():
+        return None
+    from tftool.commands.shared.reading_bar import Bar
+
+    # The end of a path is what tells files apart, and all of it would not fit beside the bar.
+    short = place.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]
+    return Bar(f"Reading {visible(short)}")
+
+
+def tell_notes(frames: Frames) -> None:
+    """Say what is odd about frames."""
+    notes = frames.notes
+    most = _MOST_NOTES if frames.recording is not None else len(notes)
+    for text in notes[:most]:
+        notice(visible(text))
+    if len(notes) > most:
+        notice(f"... and {len(notes) - most} more: 'tftool info {visible(frames.name)}'.")

@@ -1,0 +1,28 @@
+"""The tree as it changes, on a screen that takes keys."""
+
+import os
+import sys
+
+from tftool.base.stamps import Duration
+from tftool.commands.shared.notices import is_news
+from tftool.doctor.frame_marks import marks
+from tftool.screens.terminal.run_screen import show
+from tftool.screens.terminal.screen_options import Setting, setting_from
+from tftool.screens.terminal.tree_app import TreeWatch
+from tftool.world.clock import run
+from tftool.world.link.session_world import Session
+from tftool.world.log import LogRecord
+
+
+def watch_with_keys(session: Session, duration: Duration | None) -> None:
+    """Show the tree until q is pressed or the time is over."""
+    world = session.world
+    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting())
+    app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
+
+    def tell(record: LogRecord) -> None:
+        if is_news(record):
+            app.tell(record.text)
+
+    world.log.listen(tell, "screen")
+    run(world.clock, show(app, session.along(session.lasting(duration))))
