@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from tftool.base.errors import InputError, ScenarioError
 from tftool.base.escaping import visible
 from tftool.scenario import builtin, load
-from tftool.scenario.kinds import KINDS
+from tftool.scenario.node_kinds import KINDS
 from tftool.scenario.questions import SUBJECTS
-from tftool.scenario.script_actions import ACTIONS
+from tftool.scenario.script import ACTIONS
 
 TEXTS = [path.read_text(encoding="utf-8") for path in sorted(builtin.folder().glob("*.yaml"))]
 

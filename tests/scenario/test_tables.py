@@ -6,11 +6,11 @@ import pytest
 
 from tftool.scenario import builtin
 from tftool.scenario.fields import parts_of
-from tftool.scenario.kinds import KINDS
 from tftool.scenario.load import parse
+from tftool.scenario.node_kinds import KINDS
 from tftool.scenario.play import run_scenario
 from tftool.scenario.questions import SUBJECTS
-from tftool.scenario.script_actions import ACTIONS, Press
+from tftool.scenario.script import ACTIONS, Press
 
 
 @pytest.mark.parametrize("kind", KINDS)

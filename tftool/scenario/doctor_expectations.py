@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 
 from tftool.base.errors import ScenarioError
 from tftool.scenario import units as values
-from tftool.scenario.document import Document, Node
+from tftool.scenario.document import Document, Node, text_of
 from tftool.scenario.fields import Key, Reading, Unreadable, quoted, suggest
-from tftool.scenario.text_file import text_of
 from tftool.world.world import TransformMessage, World
 
 if TYPE_CHECKING:

@@ -18,8 +18,7 @@ from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch.engine import Launch
 from tftool.scenario.play import Play, StandIn, Watch
-from tftool.scenario.scenario import Scenario
-from tftool.scenario.verdict import Verdict
+from tftool.scenario.scenario import Scenario, Verdict
 from tftool.world.clock import SimClock, run
 from tftool.world.log import LogRecord
 from tftool.world.world import World

@@ -16,7 +16,7 @@ from tftool.base.stamps import CACHE_TIME, Duration, as_seconds, seconds
 from tftool.scenario import doctor_expectations as doctoring
 from tftool.scenario import document
 from tftool.scenario import units as values
-from tftool.scenario.document import Document, Node, Scalar
+from tftool.scenario.document import Document, Node, Scalar, text_of
 from tftool.scenario.fields import (
     UNREAD,
     Key,
@@ -25,13 +25,12 @@ from tftool.scenario.fields import (
     listed,
     quoted,
     suggest,
+    tagged,
 )
-from tftool.scenario.kinds import KINDS, link_of
+from tftool.scenario.node_kinds import KINDS, link_of
 from tftool.scenario.questions import SUBJECTS
 from tftool.scenario.scenario import Expectation, NodeEntry, Scenario, Step, When
-from tftool.scenario.script_actions import ACTIONS, StopNode
-from tftool.scenario.tagged import tagged
-from tftool.scenario.text_file import text_of
+from tftool.scenario.script import ACTIONS, StopNode
 from tftool.world.clock import SimClock
 from tftool.world.world import World
 

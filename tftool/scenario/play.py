@@ -1,24 +1,89 @@
-"""The one way a world is built and lived through, on simulated and on real time alike."""
+"""Builds a scenario's world, lives through it on simulated or real time, judges what it expects."""
 
-from collections.abc import Callable, Mapping
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import replace
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import ClassVar, TypeAlias
 
-from tftool.base.errors import NodeFailed
+from tftool.base.errors import NodeFailed, TransformException
 from tftool.base.stamps import Stamp
 from tftool.scenario import load
-from tftool.scenario.expectations import Expectations
-from tftool.scenario.kinds import KINDS
+from tftool.scenario.answer_checks import Judged
+from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, heard_in
 from tftool.scenario.load import NO_ARGUMENTS
-from tftool.scenario.scenario import Expectation, Scenario
-from tftool.scenario.script import Script
-from tftool.scenario.script_actions import Drive, Press
-from tftool.scenario.verdict import Outcome, Verdict
-from tftool.world.clock import Clock, SimClock, run
+from tftool.scenario.node_kinds import KINDS
+from tftool.scenario.questions import Diagnosed, Logged, ScenarioWorld
+from tftool.scenario.scenario import Expectation, Outcome, Scenario, Verdict
+from tftool.scenario.script import Drive, Press, Script
+from tftool.world.clock import Clock, Phase, SimClock, run
+from tftool.world.node import Node
 from tftool.world.supervisor import live
 from tftool.world.world import World
+
+
+def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
+    """Look at one expectation now."""
+    try:
+        answer = expectation.question.answer(scene)
+    except TransformException as error:
+        return expectation.check.refused(error)
+    return expectation.check.judge(answer)
+
+
+class Expectations(Node):
+    """Judges every expectation when its time comes, after everything else of that instant.
+
+    Attributes:
+        outcomes: What came of each, None for those whose time has not come.
+    """
+
+    phase: ClassVar[Phase] = Phase.WATCH
+
+    def __init__(
+        self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
+    ) -> None:
+        """Watch over `world`; log lines and transforms count from now on."""
+        super().__init__(world, "expectations")
+        self.expected = tuple(expected)
+        self.outcomes: list[Outcome | None] = [None] * len(self.expected)
+        self._scene = ScenarioWorld(world, world.clock.now(), rules)
+        for expectation in self.expected:
+            if isinstance(expectation.question, Logged):
+                self._scene.lines[expectation.question] = 0
+        if any(isinstance(expectation.question, Diagnosed) for expectation in self.expected):
+            self._scene.hearing, stops = heard_in(world)
+            self._stops += stops
+        self._stops.append(world.log.listen(self._scene.count, self.name))
+
+    async def run(self) -> None:
+        """Judge them all, each in its own time."""
+        self._scene.start = self.clock.now()
+        await asyncio.gather(*(self._judge(index) for index in range(len(self.expected))))
+
+    async def _judge(self, index: int) -> None:
+        expectation = self.expected[index]
+        when = expectation.when
+        at = when.first
+        while True:
+            await self.clock.sleep_until(self._scene.start + at, self.phase, self.rank)
+            judged = judge(expectation, self._scene)
+            # "by" is over when it holds, "during" when it does not, both at the last moment.
+            settled = {"at": True, "by": judged.ok, "during": not judged.ok}[when.kind]
+            if settled or at >= when.last:
+                break
+            at = min(at + when.every, when.last)
+        self.outcomes[index] = Outcome(
+            expectation=f"{expectation.question}",
+            line=expectation.line,
+            when=f"{when}",
+            expected=f"{expectation.check}",
+            found=judged.found,
+            at=at,
+            ok=judged.ok,
+        )
+
 
 StandIn: TypeAlias = Callable[[World], object]
 """Starts in a world what takes the place of one of a scenario's nodes."""

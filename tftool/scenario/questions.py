@@ -21,18 +21,19 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.turtle_messages import Pose
 from tftool.scenario import units as values
 from tftool.scenario.answer_checks import (
-    CleanForm,
-    CountForm,
+    CLEAN_FORM,
+    COUNT_FORM,
+    FRAME_FORM,
+    NAMES_FORM,
+    POSE_FORM,
+    TURTLE_POSE_FORM,
     Form,
     FrameFacts,
-    FrameForm,
-    NamesForm,
     RangeCheck,
-    RangeForm,
+    range_form,
 )
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, check_or_area
 from tftool.scenario.fields import reads
-from tftool.scenario.pose_checks import PoseForm, TurtlePoseForm
 from tftool.scenario.units import (
     ANGLE,
     DURATION,
@@ -130,7 +131,7 @@ class Lookup(Subject):
     """The pose of `source` in `target` at a moment, or through a fixed frame at two."""
 
     key: ClassVar[str] = "lookup"
-    form: ClassVar[Form] = PoseForm()
+    form: ClassVar[Form] = POSE_FORM
     target: str = reads(values.frame)
     source: str = reads(values.frame)
     time: RelativeMoment | None = reads(values.moment, None)
@@ -211,7 +212,7 @@ class Distance(Between):
     """How far the origins of two frames are apart."""
 
     key: ClassVar[str] = "distance"
-    form: ClassVar[Form] = RangeForm(LENGTH)
+    form: ClassVar[Form] = range_form(LENGTH)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Find the answer, now."""
@@ -226,7 +227,7 @@ class Bearing(Between):
     """In which direction, seen from one frame, another one lies."""
 
     key: ClassVar[str] = "bearing"
-    form: ClassVar[Form] = RangeForm(ANGLE)
+    form: ClassVar[Form] = range_form(ANGLE)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Find the answer, now."""
@@ -242,7 +243,7 @@ class PointOf(Subject):
     """Where a point fixed in one frame lies in another."""
 
     key: ClassVar[str] = "point"
-    form: ClassVar[Form] = PoseForm()
+    form: ClassVar[Form] = POSE_FORM
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
     x: float = reads(values.length, 0.0)
@@ -278,7 +279,7 @@ class SpeedOf(Motion):
     """How fast the origin of a frame moves."""
 
     key: ClassVar[str] = "speed"
-    form: ClassVar[Form] = RangeForm(SPEED)
+    form: ClassVar[Form] = range_form(SPEED)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Find the answer, now."""
@@ -292,7 +293,7 @@ class TurnRateOf(Motion):
     """How fast a frame turns about the z axis, anticlockwise."""
 
     key: ClassVar[str] = "turn_rate"
-    form: ClassVar[Form] = RangeForm(TURN_RATE)
+    form: ClassVar[Form] = range_form(TURN_RATE)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Find the answer, now."""
@@ -303,13 +304,18 @@ class TurnRateOf(Motion):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RateOf(Subject):
+class OfFrame(Subject, ABC):
+    """A number measured of one frame."""
+
+    short: ClassVar[str] = "frame"
+    frame: str = reads(values.frame)
+
+
+class RateOf(OfFrame):
     """At which rate a frame comes in."""
 
     key: ClassVar[str] = "rate"
-    form: ClassVar[Form] = RangeForm(RATE)
-    short: ClassVar[str] = "frame"
-    frame: str = reads(values.frame)
+    form: ClassVar[Form] = range_form(RATE)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Find the answer, now."""
@@ -319,14 +325,11 @@ class RateOf(Subject):
         return f"rate of {self.frame}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AgeOf(Subject):
+class AgeOf(OfFrame):
     """How old a frame's newest sample is."""
 
     key: ClassVar[str] = "age"
-    form: ClassVar[Form] = RangeForm(DURATION)
-    short: ClassVar[str] = "frame"
-    frame: str = reads(values.frame)
+    form: ClassVar[Form] = range_form(DURATION)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Find the answer, now."""
@@ -336,14 +339,11 @@ class AgeOf(Subject):
         return f"age of {self.frame}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MemoryOf(Subject):
+class MemoryOf(OfFrame):
     """How far back a frame is remembered: newest minus oldest sample."""
 
     key: ClassVar[str] = "memory"
-    form: ClassVar[Form] = RangeForm(DURATION)
-    short: ClassVar[str] = "frame"
-    frame: str = reads(values.frame)
+    form: ClassVar[Form] = range_form(DURATION)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Find the answer, now."""
@@ -358,7 +358,7 @@ class FrameOf(Subject):
     """Whether a frame is known, under which parent, from whom."""
 
     key: ClassVar[str] = "frame"
-    form: ClassVar[Form] = FrameForm()
+    form: ClassVar[Form] = FRAME_FORM
     short: ClassVar[str] = "name"
     name: str = reads(values.frame)
 
@@ -380,7 +380,7 @@ class Trees(Subject):
     """How many trees the frames make."""
 
     key: ClassVar[str] = "trees"
-    form: ClassVar[Form] = CountForm()
+    form: ClassVar[Form] = COUNT_FORM
     short: ClassVar[str] = "count"
     count: int = reads(values.whole(0, 100_000))
 
@@ -397,7 +397,7 @@ class Roots(Subject):
     """Which frames hang from nothing."""
 
     key: ClassVar[str] = "roots"
-    form: ClassVar[Form] = NamesForm()
+    form: ClassVar[Form] = NAMES_FORM
     short: ClassVar[str] = "names"
     names: tuple[str, ...] = reads(values.several(values.frame, "frames"))
 
@@ -414,7 +414,7 @@ class Turtles(Subject):
     """Which turtles are on the field."""
 
     key: ClassVar[str] = "turtles"
-    form: ClassVar[Form] = NamesForm()
+    form: ClassVar[Form] = NAMES_FORM
     short: ClassVar[str] = "names"
     names: tuple[str, ...] = reads(values.several(values.turtle, "turtles"))
 
@@ -434,7 +434,7 @@ class PoseOf(Subject):
     """The pose a turtle published last."""
 
     key: ClassVar[str] = "pose"
-    form: ClassVar[Form] = TurtlePoseForm()
+    form: ClassVar[Form] = TURTLE_POSE_FORM
     short: ClassVar[str] = "turtle"
     turtle: str = reads(values.turtle)
 
@@ -452,7 +452,7 @@ class Logged(Subject):
     """How many lines of the log hold a text."""
 
     key: ClassVar[str] = "logged"
-    form: ClassVar[Form] = RangeForm(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0)
+    form: ClassVar[Form] = range_form(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0)
     short: ClassVar[str] = "text"
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)
@@ -480,7 +480,7 @@ class Diagnosed(Subject):
     """What the doctor finds in all transforms since the start."""
 
     key: ClassVar[str] = "doctor"
-    form: ClassVar[Form] = CleanForm()
+    form: ClassVar[Form] = CLEAN_FORM
     short: ClassVar[str] = "findings"
     findings: str = reads(values.choice(("clean",), "what the doctor finds"), "clean")
     ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())

@@ -1,17 +1,40 @@
-"""The script of a scenario: each action, done when its time comes."""
+"""The script of a scenario: every kind of action, each done when its time comes."""
 
 import asyncio
-from collections.abc import Sequence
-from typing import Any
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar
 
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
-from tftool.scenario.scenario import Step
-from tftool.scenario.verdict import Outcome
-from tftool.world.node import Node
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.geometry.motion.unicycle import CENTRE
+from tftool.geometry.rigid import Transform
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import (
+    Empty,
+    Kill,
+    RotateAbsolute,
+    SetPen,
+    Spawn,
+    TeleportAbsolute,
+    TeleportRelative,
+    Twist,
+    twist,
+)
+from tftool.scenario import units as values
+from tftool.scenario.fields import reads
+from tftool.scenario.scenario import Outcome, Step
+from tftool.scenario.units import RelativeMoment
+from tftool.world.node import PATIENCE, Node
+from tftool.world.nodes.turtle import PEN_COLOR, PEN_WIDTH
+from tftool.world.nodes.turtle_teleop import KEYS, KeyPress
 from tftool.world.world import World
 
-PATIENCE: Duration = seconds(1)
+SILENCE: Duration = seconds(1)
 """How long before the end a service must have been asked for its silence to count."""
 
 
@@ -75,7 +98,7 @@ class Script(Node):
             return await super().call(service, request)
         except asyncio.CancelledError:
             silent = self.clock.now() - asked
-            if silent < PATIENCE:
+            if silent < SILENCE:
                 raise
             raise StepFailed(
                 f"'{service}' has not answered for {as_seconds(silent):g} s, up to the end"
@@ -84,3 +107,315 @@ class Script(Node):
     async def wait_until(self, stamp: Stamp) -> None:
         """Wait for a moment, in this node's place within it."""
         await self.clock.sleep_until(stamp, self.phase, self.rank)
+
+
+REFRESH: Duration = seconds(0.5)
+"""How often a drive repeats its command; a turtle stops a second after the last one."""
+
+_REFUSED = "the buffer refused it; the log says why"
+
+
+class Action(ABC):
+    """Something that happens at a moment of a scenario.
+
+    Attributes:
+        key: What a scenario calls it.
+    """
+
+    __slots__ = ()
+
+    key: ClassVar[str]
+
+    @abstractmethod
+    async def do(self, script: Script) -> None:
+        """Do it, now.
+
+        Raises:
+            StepFailed: If it is refused, and why.
+        """
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Press(Action):
+    """Press keys on the teleop node, one after the other."""
+
+    key: ClassVar[str] = "keys"
+    short: ClassVar[str] = "keys"
+    keys: tuple[str, ...] = reads(values.words(KEYS, "a key"))
+    every: Duration = reads(values.period, seconds(1), beside=True)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        start = script.clock.now()
+        for count, key in enumerate(self.keys):
+            await script.wait_until(start + count * self.every)
+            script.publish("keys", KeyPress(key))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drive(Action):
+    """Command a velocity for a time, then a stop."""
+
+    key: ClassVar[str] = "drive"
+    turtle: str = reads(values.turtle, "turtle1")
+    linear: float = reads(values.speed, 0.0)
+    angular: float = reads(values.turn_rate, 0.0)
+    sideways: float = reads(values.speed, 0.0)
+    lasting: Duration = reads(values.duration, key="for", beside=True)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        topic = script.publisher(f"{self.turtle}/cmd_vel", Twist)
+        at = script.clock.now()
+        end = at + self.lasting
+        heard = topic.subscribers > 0
+        while at < end:
+            topic.publish(twist(self.linear, self.angular, self.sideways))
+            at = min(at + REFRESH, end)
+            await script.wait_until(at)
+            heard = heard or topic.subscribers > 0
+        topic.publish(twist())
+        if not heard:
+            raise StepFailed(f"nothing subscribes to '{topic.name}'")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpawnTurtle(Action):
+    """Put a turtle on the field; without a name the simulator finds one."""
+
+    key: ClassVar[str] = "spawn"
+    short: ClassVar[str] = "name"
+    name: str = reads(values.turtle, "")
+    x: float = reads(values.length, CENTRE)
+    y: float = reads(values.length, CENTRE)
+    theta: float = reads(values.angle, 0.0)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        request = build(Spawn.Request, self.x, self.y, self.theta, self.name)
+        spawned = await script.call("spawn", request)
+        if not spawned.name:
+            raise StepFailed(f"the simulator refused a turtle named '{self.name}'")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KillTurtle(Action):
+    """Take a turtle off the field."""
+
+    key: ClassVar[str] = "kill"
+    short: ClassVar[str] = "turtle"
+    turtle: str = reads(values.turtle)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        # The answer says nothing, as in ROS 2.
+        is_there = script.world.has_service(f"{self.turtle}/set_pen")
+        await script.call("kill", build(Kill.Request, self.turtle))
+        if not is_there:
+            raise StepFailed(f"there is no turtle '{self.turtle}'")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Teleport(Action):
+    """Put a turtle somewhere at once."""
+
+    key: ClassVar[str] = "teleport"
+    turtle: str = reads(values.turtle, "turtle1")
+    x: float = reads(values.length)
+    y: float = reads(values.length)
+    theta: float = reads(values.angle, 0.0)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        request = build(TeleportAbsolute.Request, self.x, self.y, self.theta)
+        await script.call(f"{self.turtle}/teleport_absolute", request)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hop(Action):
+    """Turn a turtle and move it along its new heading, at once."""
+
+    key: ClassVar[str] = "hop"
+    turtle: str = reads(values.turtle, "turtle1")
+    linear: float = reads(values.length, 0.0)
+    angular: float = reads(values.angle, 0.0)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        request = build(TeleportRelative.Request, self.linear, self.angular)
+        await script.call(f"{self.turtle}/teleport_relative", request)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rotate(Action):
+    """Turn a turtle to a heading by the rotate action."""
+
+    key: ClassVar[str] = "rotate"
+    turtle: str = reads(values.turtle, "turtle1")
+    theta: float = reads(values.angle)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        goal = build(RotateAbsolute.Goal, self.theta)
+        script.world.send_goal(f"{self.turtle}/rotate_absolute", goal, patience=PATIENCE)
+
+
+_channel = values.whole(0, 255)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pen(Action):
+    """Change a turtle's pen."""
+
+    key: ClassVar[str] = "set_pen"
+    turtle: str = reads(values.turtle, "turtle1")
+    r: int = reads(_channel, PEN_COLOR.r)
+    g: int = reads(_channel, PEN_COLOR.g)
+    b: int = reads(_channel, PEN_COLOR.b)
+    width: int = reads(_channel, PEN_WIDTH)
+    off: bool = reads(values.flag, False)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        request = build(SetPen.Request, self.r, self.g, self.b, self.width, int(self.off))
+        await script.call(f"{self.turtle}/set_pen", request)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClearField(Action):
+    """Wipe all trails."""
+
+    key: ClassVar[str] = "clear"
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        await script.call("clear", Empty.Request())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ResetField(Action):
+    """Begin again with one turtle in the centre."""
+
+    key: ClassVar[str] = "reset"
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        await script.call("reset", Empty.Request())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrameAction(Action, ABC):
+    """Where a child is in its parent."""
+
+    parent: str = reads(values.frame)
+    child: str = reads(values.frame)
+    x: float = reads(values.length, 0.0)
+    y: float = reads(values.length, 0.0)
+    z: float = reads(values.length, 0.0)
+    roll: float = reads(values.angle, 0.0)
+    pitch: float = reads(values.angle, 0.0)
+    yaw: float = reads(values.angle, 0.0)
+
+    @property
+    def transform(self) -> Transform:
+        """Moves points of the child into the parent."""
+        rotation = quaternion_from_rpy(self.roll, self.pitch, self.yaw)
+        return Transform((self.x, self.y, self.z), rotation)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Broadcast(FrameAction):
+    """Broadcast where a child is in its parent, once or repeatedly for a time."""
+
+    key: ClassVar[str] = "broadcast"
+    stamp: RelativeMoment = reads(values.moment, RelativeMoment("now"))
+    every: Duration = reads(values.period, seconds(0.1), beside=True)
+    lasting: Duration = reads(values.duration, 0, key="for", beside=True)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        pose = self.transform
+        at = script.clock.now()
+        end = at + self.lasting
+        whole = True
+        while True:
+            stamp = self.stamp.stamp(script.start, at)
+            sample = TransformStamped(stamp, self.parent, self.child, pose)
+            whole = script.broadcast(sample) and whole
+            at += self.every
+            if at > end:
+                break
+            await script.wait_until(at)
+        if not whole:
+            raise StepFailed(_REFUSED)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BroadcastStatic(FrameAction):
+    """Broadcast where a child is in its parent, for all time."""
+
+    key: ClassVar[str] = "static"
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        now = script.clock.now()
+        pose = self.transform
+        if not script.broadcast_static(TransformStamped(now, self.parent, self.child, pose)):
+            raise StepFailed(_REFUSED)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StopNode(Action):
+    """Stop a node and let it leave."""
+
+    key: ClassVar[str] = "stop"
+    short: ClassVar[str] = "node"
+    node: str = reads(values.name("a node"))
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        # It may be gone already: stopped before, or left out by what hosts this world.
+        gone = [node for node in script.world.nodes if node.name == self.node]
+        for node in gone:
+            # A program of the user's ends with its node. Asked this way, because what runs such
+            # programs is loaded only where there are some.
+            script.world.remove(getattr(node, "program", node))
+        if not gone:
+            script.warn(f"No node is named '{self.node}' (any more); nothing is stopped")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Say(Action):
+    """Write a line into the log, for people who watch."""
+
+    key: ClassVar[str] = "say"
+    short: ClassVar[str] = "text"
+    text: str = reads(values.text)
+
+    async def do(self, script: Script) -> None:
+        """Do it, now."""
+        script.info(self.text)
+
+
+ACTIONS: Mapping[str, type[Action]] = MappingProxyType(
+    {
+        kind.key: kind
+        for kind in (
+            Press,
+            Drive,
+            SpawnTurtle,
+            KillTurtle,
+            Teleport,
+            Hop,
+            Rotate,
+            Pen,
+            ClearField,
+            ResetField,
+            Broadcast,
+            BroadcastStatic,
+            StopNode,
+            Say,
+        )
+    }
+)
+"""Every action, by its key."""

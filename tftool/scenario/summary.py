@@ -14,8 +14,7 @@ from tftool.buffer.sample import Snapshot
 from tftool.geometry.planar import heading
 from tftool.geometry.rigid import distance
 from tftool.scenario.play import Watch, build
-from tftool.scenario.scenario import Scenario
-from tftool.scenario.verdict import Verdict
+from tftool.scenario.scenario import Scenario, Verdict
 from tftool.world.clock import SimClock, run
 
 MOST_FRAMES = 20

@@ -24,8 +24,7 @@ from tftool.opener import scenario_named
 from tftool.recordings.find import METADATA
 from tftool.scenario import builtin
 from tftool.scenario.play import run_scenario
-from tftool.scenario.scenario import Scenario
-from tftool.scenario.verdict import Verdict
+from tftool.scenario.scenario import Scenario, Verdict
 
 SUFFIXES = (".yaml", ".yml")
 """What scenario files in a folder end in."""

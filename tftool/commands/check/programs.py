@@ -14,8 +14,7 @@ from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
 from tftool.scenario.exercise import Entrant, Exercise
-from tftool.scenario.scenario import Scenario
-from tftool.scenario.verdict import Verdict
+from tftool.scenario.scenario import Scenario, Verdict
 
 _IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
 
