@@ -5,7 +5,7 @@ import subprocess
 
 import pytest
 
-from tftool.world.link.link_options import Certificates
+from tftool.world.link.zenoh.reach import Certificates
 
 needs_openssl = pytest.mark.skipif(
     shutil.which("openssl") is None, reason="needs openssl to make certificates"

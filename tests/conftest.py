@@ -51,9 +51,7 @@ def own_sessions():
 def by_memory(monkeypatch):
     """The middleware "memory", which connects links of this process; no link is in it yet."""
     from tests.world.link.memory import MemoryMiddleware
-    from tftool.world.link.seam import MIDDLEWARES
 
-    monkeypatch.setitem(MIDDLEWARES, "memory", f"{MemoryMiddleware.__module__}:MemoryMiddleware")
     monkeypatch.setattr(MemoryMiddleware, "members", [])
 
 

@@ -8,7 +8,7 @@ played on simulated time; a session is listened to.
 import asyncio
 import math
 import os
-from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -22,6 +22,8 @@ from tftool.frames.moment import At, checked_moment
 from tftool.frames.source_options import RecordingOptions, RobotOptions
 from tftool.recordings.find import Found, Kind, find, names_a_path
 from tftool.scenario import builtin
+from tftool.world.link.link_options import read_reach
+from tftool.world.link.reach import Reach
 
 if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer
@@ -54,11 +56,10 @@ def open_frames(
     with_odometry: bool = False,
     no_cache: bool = False,
     domain: int | None = None,
-    connects: Sequence[str] = (),
-    dds: bool = False,
     session: "Session | None" = None,
     watch: "Callable[[World], object] | None" = None,
     progress: "Progress | None" = None,
+    **reach: Any,
 ) -> Frames:
     """Open the frames of a recording, a description, a scenario or the running session.
 
@@ -82,11 +83,11 @@ def open_frames(
         with_odometry: Whether odometry and poses of a recording count as transforms.
         no_cache: Whether to read a recording anew, and keep no columns for the next time.
         domain: Number of the session's ROS domain; ROS_DOMAIN_ID, else 0, if None.
-        connects: Endpoints of other machines' sessions: "tcp/192.168.1.5:7448".
-        dds: Whether to listen over DDS, in place of zenoh.
         session: A session that was joined already, to listen to.
         watch: Called with the world of a scenario or session before it lives.
         progress: Called with how many bytes of how many are read.
+        reach: How to reach a session beyond this machine, by the names of the command line's
+            options: `connect=["tcp/192.168.1.5:7448"]`, for example.
 
     Raises:
         InputError: If `place` names nothing, or it cannot be read.
@@ -97,7 +98,7 @@ def open_frames(
     recording = RecordingOptions(no_cache, with_odometry)
     if place is None:
         refuse_options_of_files(robot, recording, None)
-        session = session or _joined(domain, tuple(connects), dds=dds)
+        session = session or _joined(domain, read_reach(reach))
         return _listened(session, _nanoseconds(listen_for), cache_time, watch)
     found = named(os.fspath(place))
     if found.kind is Kind.SCENARIO:
@@ -296,31 +297,27 @@ def _played(
     return Frames("scenario", scenario.name, buffer=buffer, span=(start, end), log=log, found=found)
 
 
-def _joined(domain: int | None, connects: tuple[str, ...], *, dds: bool) -> "Session":
+def _joined(domain: int | None, reach: Reach) -> "Session":
     """Join the session that runs, to listen only.
 
     Raises:
         LinkError: If none runs.
     """
     from tftool.world.clock import FollowedClock
-    from tftool.world.link.link_options import Options, Reach, domain_here
+    from tftool.world.link.link_options import Options, domain_here
     from tftool.world.link.session import Link
     from tftool.world.link.session_world import joined_session
     from tftool.world.link.zenoh.rendezvous import has_members
 
     domain = domain_here() if domain is None else domain
-    reaches_out = bool(connects) or dds
+    reaches_out = reach.awaits_others(hosts=False)
     if not reaches_out and not has_members(domain):
         raise LinkError(NOTHING_RUNS)
-    middleware = "dds" if dds else "zenoh"
-    link = Link(
-        Options("open", domain, Reach(connect=connects), read_only=True, middleware=middleware)
-    )
+    link = Link(Options("open", domain, reach, read_only=True))
     if not reaches_out and not link.graph.has_sources:
         link.close()
         raise LinkError(NOTHING_RUNS)
-    place = f"DDS domain {domain}" if dds else ", ".join(connects)
-    return joined_session(link, FollowedClock(), place)
+    return joined_session(link, FollowedClock(), reach.place(domain))
 
 
 def _listened(

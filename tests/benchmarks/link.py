@@ -21,6 +21,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.messages.transforms import decode_columns, decode_transforms, encode_transforms
 from tftool.world.clock import WallClock, run
+from tftool.world.link.dds.reach import DdsReach
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
@@ -47,7 +48,7 @@ DDS_DOMAIN = 87
 
 
 def options(name, middleware):
-    return Options(name, DDS_DOMAIN, middleware="dds") if middleware == "dds" else Options(name)
+    return Options(name, DDS_DOMAIN, DdsReach()) if middleware == "dds" else Options(name)
 
 
 async def _read(messages, middleware):

@@ -74,7 +74,7 @@ def test_what_contradicts_itself_is_wrong_usage(tftool, words, told):
     ["tcp/[::1]:7448", "ws/0.0.0.0:0", "udp/here:1?rel=1#iface=lo", "unixsock-stream/tmp/place"],
 )
 def test_an_endpoint_with_all_it_needs_is_taken(told, endpoint):
-    assert told(connect=[endpoint]).connect == (endpoint,)
+    assert told(connect=[endpoint]).reach.connect == (endpoint,)
 
 
 @pytest.mark.parametrize("option", ["--zenoh-config", "--tls-cert", "--tls-key", "--tls-ca"])

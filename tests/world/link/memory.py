@@ -6,6 +6,7 @@ from collections import deque
 from tftool.base.errors import LinkError
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
 from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, GraphEntity
+from tftool.world.link.reach import Reach
 from tftool.world.link.seam import Arrived
 
 
@@ -169,3 +170,10 @@ class Client:
 
     def close(self):
         pass
+
+
+class MemoryReach(Reach):
+    """Reaches the links of this process."""
+
+    def join(self, options):
+        return MemoryMiddleware(options)

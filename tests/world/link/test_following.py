@@ -5,6 +5,7 @@ import contextlib
 import pytest
 
 from tests.world.link.conftest import until
+from tests.world.link.memory import MemoryReach
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -32,7 +33,7 @@ def reading(moment):
 def joined():
     """The link, the world of a host, and that of a guest whose clock follows."""
     host, guest = World(WallClock()), World(FollowedClock())
-    links = [Link(Options(name, middleware="memory")) for name in ("play", "echo")]
+    links = [Link(Options(name, reach=MemoryReach())) for name in ("play", "echo")]
     links[0].attach(host, role=Role.HOST)
     links[1].attach(guest, role=Role.GUEST)
     follower = ClockFollower(guest, guest.clock)

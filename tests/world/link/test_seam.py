@@ -1,10 +1,13 @@
 """The link over another middleware than zenoh: a class and one line are enough."""
 
+import re
 from pathlib import Path
 
 import pytest
 
+import tftool
 from tests.world.link.conftest import new_world, until
+from tests.world.link.memory import MemoryReach
 from tests.world.link.two import play
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -29,7 +32,7 @@ class Pair:
 
     def __enter__(self):
         self.one, self.other = new_world(), new_world()
-        self.links = [Link(Options(name, middleware="memory")) for name in ("one", "other")]
+        self.links = [Link(Options(name, reach=MemoryReach())) for name in ("one", "other")]
         self.links[0].attach(self.one, role=Role.HOST)
         self.links[1].attach(self.other, role=Role.GUEST)
         return self
@@ -144,11 +147,25 @@ def test_who_comes_and_goes_is_seen_whatever_carries_it():
     play(come_and_go())
 
 
-def test_nothing_of_the_link_but_its_own_folder_knows_zenoh():
+def test_the_table_alone_names_dds_outside_its_folder():
+    package = Path(tftool.__file__).parent
+    named = re.compile(r"\bdds\b|dds_", re.IGNORECASE)
+    # zenoh's keys write the names of types as DDS does.
+    apart = ("link/dds", "link/zenoh/keys.py")
+    found = {
+        path.relative_to(package).as_posix()
+        for path in package.rglob("*.py")
+        if not any(one in path.as_posix() for one in apart)
+        and named.search(path.read_text(encoding="utf-8"))
+    }
+    assert found == {"world/link/link_options.py"}
+
+
+def test_nothing_of_the_link_but_its_own_folder_and_the_table_knows_zenoh():
     folder = Path(session.__file__).parent
     knowing = {
         path.name
         for path in folder.glob("*.py")
         if "link.zenoh" in path.read_text(encoding="utf-8")
     }
-    assert knowing == {"seam.py"}
+    assert knowing == {"link_options.py"}

@@ -12,9 +12,10 @@ from tftool.base.errors import LinkError
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.world.link.graph import Role, hosts
-from tftool.world.link.link_options import Options, Reach
+from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
 from tftool.world.link.zenoh import rendezvous
+from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 
@@ -45,11 +46,13 @@ def test_over_tcp_a_guest_reaches_every_process_of_the_other_machine(session_dir
         with Link(Options("static")) as inner:
             inside = new_world()
             inner.attach(inside, role=Role.HOST)
-            with Link(Options("demo", reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))) as gate:
+            with Link(Options("demo", reach=ZenohReach(listen=(f"tcp/127.0.0.1:{port}",)))) as gate:
                 gate.attach(new_world(), role=Role.HOST)
                 # Another folder stands for another machine.
                 monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
-                with Link(Options("echo", reach=Reach(connect=(f"tcp/127.0.0.1:{port}",)))) as far:
+                with Link(
+                    Options("echo", reach=ZenohReach(connect=(f"tcp/127.0.0.1:{port}",)))
+                ) as far:
                     outside = new_world()
                     far.attach(outside, role=Role.GUEST)
                     inside.broadcast([sample(0, "A")], "static", static=True)
@@ -67,7 +70,7 @@ def test_a_configuration_of_the_users_own_says_where_to_meet(tmp_path):
         where = {kind: {"endpoints": [endpoint]} for kind, endpoint in endpoints.items()}
         scouting = {"multicast": {"enabled": False}}
         path.write_text(json.dumps({"mode": "peer", "scouting": scouting, **where}))
-        return Options("demo", reach=Reach(config=path))
+        return Options("demo", reach=ZenohReach(config=path))
 
     async def meet():
         endpoint = f"tcp/127.0.0.1:{free_port()}"
@@ -91,11 +94,12 @@ def test_a_configuration_of_the_users_own_says_where_to_meet(tmp_path):
 def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypatch):
     async def look():
         port = free_port()
-        options = Options("demo", domain=3, reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))
+        options = Options("demo", domain=3, reach=ZenohReach(listen=(f"tcp/127.0.0.1:{port}",)))
         with Link(options) as gate:
             gate.attach(new_world(), role=Role.HOST)
             monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
-            with Link(Options("echo", reach=Reach(connect=(f"tcp/127.0.0.1:{port}",)))) as far:
+            reach = ZenohReach(connect=(f"tcp/127.0.0.1:{port}",))
+            with Link(Options("echo", reach=reach)) as far:
                 world = new_world()
                 far.attach(world, role=Role.HOST)
                 await until(lambda: texts(world))
@@ -113,12 +117,12 @@ def test_nobody_at_the_other_end_is_a_sentence(monkeypatch):
     monkeypatch.setattr("tftool.world.link.zenoh.entry.REACHING", 0.2)
 
     with pytest.raises(LinkError, match=r"no process answers at tcp/127\.0\.0\.1:\d+ within"):
-        Link(Options(reach=Reach(connect=(f"tcp/127.0.0.1:{free_port()}",))))
+        Link(Options(reach=ZenohReach(connect=(f"tcp/127.0.0.1:{free_port()}",))))
 
 
 def test_an_endpoint_that_cannot_be_is_a_sentence_and_leaves_nothing(session_dir):
     with pytest.raises(LinkError, match="the link cannot be opened"):
-        Link(Options(reach=Reach(listen=("pigeon/over:there",))))
+        Link(Options(reach=ZenohReach(listen=("pigeon/over:there",))))
 
     assert [path.name for path in (session_dir / "0").iterdir()] == ["lock"]
 
@@ -150,21 +154,23 @@ def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch,
 
     async def reach():
         endpoint = (f"tls/localhost:{free_port()}",)
-        gate_options = Options("demo", reach=Reach(listen=endpoint, certificates=files))
+        gate_options = Options("demo", reach=ZenohReach(listen=endpoint, certificates=files))
         with Link(gate_options) as gate:
             gate.attach(new_world(), role=Role.HOST)
             monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
-            with Link(Options("echo", reach=Reach(connect=endpoint, certificates=files))) as far:
+            with Link(
+                Options("echo", reach=ZenohReach(connect=endpoint, certificates=files))
+            ) as far:
                 assert hosts(far.graph.processes())
             monkeypatch.setattr("tftool.world.link.zenoh.entry.REACHING", 1.0)
             (tmp_path / "stranger").mkdir()
             stranger = certificates(tmp_path / "stranger")
             with pytest.raises(LinkError, match="no process answers at tls/localhost") as refusal:
-                Link(Options("echo", reach=Reach(connect=endpoint, certificates=stranger)))
+                Link(Options("echo", reach=ZenohReach(connect=endpoint, certificates=stranger)))
             assert f"the other side's by {stranger.authority}" in str(refusal.value)
             plain = (endpoint[0].replace("tls/", "tcp/"),)
             with pytest.raises(LinkError, match="listens with tls/ does not answer tcp/"):
-                Link(Options("echo", reach=Reach(connect=plain)))
+                Link(Options("echo", reach=ZenohReach(connect=plain)))
 
     play(reach())
 

@@ -3,6 +3,7 @@
 import pytest
 
 from tests.world.link.conftest import until
+from tests.world.link.memory import MemoryReach
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -41,7 +42,7 @@ def sample(stamp, parent, child, rotation=(0.0, 0.0, 0.0, 1.0)):
 def test_a_guest_records_statics_sent_before_it_came_and_topics_that_come_up_later():
     async def session():
         host, guest = World(WallClock()), World(WallClock())
-        links = [Link(Options(name, middleware="memory")) for name in ("demo", "record")]
+        links = [Link(Options(name, reach=MemoryReach())) for name in ("demo", "record")]
         links[0].attach(host, role=Role.HOST)
         host.broadcast([sample(0, "base", "laser")], "mounts", static=True)
         links[1].attach(guest, role=Role.GUEST)

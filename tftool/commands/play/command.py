@@ -167,7 +167,7 @@ def run(
     )
     # Last of all: while it has not been decided who hosts, other processes wait.
     link = join_or_host(connection, file).link
-    if link is not None and connection.dds is not None and not force:
+    if link is not None and connection.reach.is_robots and not force:
         _refuse_to_mix(link)
     pace = connection.providers.wall_clock()
     run_loop(pace, playing.play(pace, link))

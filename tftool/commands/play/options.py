@@ -6,9 +6,12 @@ import typer
 
 from tftool.commands.shared.options import RunFor, moment_option, option, within
 from tftool.frames.moment import At
+from tftool.world.link.link_options import REACHES
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
+
+ROBOTS = " or ".join(flag for reach in REACHES if reach.is_robots for flag in reach.FLAGS)
 
 
 def play(
@@ -45,7 +48,7 @@ def play(
         option("Send every other topic too whose type is known, with its own stamps.", "--all"),
     ] = False,
     force: Annotated[
-        bool, option("Over --dds: play beside publishers of /tf that are there.", "--force")
+        bool, option(f"Over {ROBOTS}: play beside publishers of /tf that are there.", "--force")
     ] = False,
     run_for: RunFor = None,
 ) -> None:

@@ -9,19 +9,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
-from typing import TYPE_CHECKING, Self, TypedDict
+from typing import TYPE_CHECKING, Any, Self, TypedDict
 
-from tftool.base.errors import InputError, UsageError
+from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.commands.shared.notices import notice
 from tftool.frames.source_options import RecordingOptions, RobotOptions
-from tftool.world.link.link_options import domain_here
+from tftool.world.link.link_options import REACHES, Options, domain_here, read_reach
+from tftool.world.link.reach import Reach
 
 if TYPE_CHECKING:
     from tftool.base.stamps import Duration, Stamp
     from tftool.frames.frames import Frames
     from tftool.world.clock import Clock
-    from tftool.world.link.link_options import Options
     from tftool.world.link.session import Link
 
 
@@ -31,10 +31,10 @@ HOME = "turtles"
 LOOKING = frozenset(
     ["doctor", "echo", "explain", "export", "monitor", "plot", "record", "session", "tree", "view"]
 )
-"""Commands that over DDS write to no topic."""
+"""Commands that write to no topic of a robot."""
 
 HOSTING = frozenset(["demo", "teleop"])
-"""Commands that host turtles over DDS too, where none are there; others wait for a robot."""
+"""Commands that host turtles where a robot is looked for and none is there; others wait for it."""
 
 
 class Mode(Enum):
@@ -105,13 +105,8 @@ class Connection:
         command: The command's name.
         mode: Join, host, or what fits.
         domain: Number of the ROS domain.
-        listen: Endpoints to open for other machines.
-        connect: Endpoints to go to.
-        tls: Certificate, key and authority, where given.
-        config: A zenoh configuration to take as it is.
+        reach: By which middleware, and how far beyond this machine's own processes.
         read_only: Whether to look only.
-        dds: Where DDS goes, in place of zenoh: interfaces and addresses beyond the loopback,
-            none for the loopback alone; None for zenoh.
         robot: Joint positions, xacro arguments, a description for a recording.
         recording: How a recording is read.
         providers: Where its clocks and links come from.
@@ -120,12 +115,8 @@ class Connection:
     command: str = "tftool"
     mode: Mode = Mode.AUTO
     domain: int = 0
-    listen: tuple[str, ...] = ()
-    connect: tuple[str, ...] = ()
-    tls: tuple[Path, Path, Path] | None = None
-    config: Path | None = None
+    reach: Reach = field(default_factory=REACHES[0])
     read_only: bool = False
-    dds: tuple[str, ...] | None = None
     robot: RobotOptions = field(default_factory=RobotOptions)
     recording: RecordingOptions = field(default_factory=RecordingOptions)
     providers: Providers = field(default_factory=Providers, compare=False, repr=False)
@@ -141,38 +132,23 @@ class Connection:
     @property
     def needs_link(self) -> bool:
         """Whether something was asked for that only a link can give."""
-        return bool(
-            self.mode is Mode.JOIN
-            or self.listen
-            or self.connect
-            or self.config is not None
-            or self.read_only
-            or self.dds is not None
-        )
+        return self.mode is Mode.JOIN or self.read_only or self.reach.is_asked
 
     @property
     def looks(self) -> bool:
         """Whether it is for what others bring, and its own world has no place among that."""
-        return bool(self.connect or (self.dds is not None and self.command not in HOSTING))
+        return self.reach.awaits_others(hosts=self.command in HOSTING)
 
     @property
     def place(self) -> str:
         """Where the others of its session are, in words, where that is not this machine."""
-        if self.dds is None:
-            return ", ".join(self.connect)
-        return f"DDS domain {self.domain} on {', '.join(self.dds) or 'the loopback'}"
+        return self.reach.place(self.domain)
 
-    def options(self) -> "Options":
+    def options(self) -> Options:
         """The same as the link takes it."""
-        from tftool.world.link.link_options import Certificates, Options, Reach
-
-        certificates = None if self.tls is None else Certificates(*self.tls)
-        reach = Reach(self.listen, self.connect, certificates, self.config, self.dds or ())
-        if self.dds is None:
-            return Options(self.command, self.domain, reach, self.read_only)
         # Among a robot's nodes, what only looks has nothing to write.
-        read_only = self.read_only or self.command in LOOKING
-        return Options(self.command, self.domain, reach, read_only, "dds")
+        read_only = self.read_only or (self.reach.is_robots and self.command in LOOKING)
+        return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
         """Open a link, which is closed with this connection at the latest.
@@ -221,10 +197,10 @@ class Connection:
         """
         self.refuse_to_join(word)
         if self.needs_link:
+            flags = ", ".join(flag for reach in REACHES for flag in reach.FLAGS)
             raise UsageError(
                 f"'{visible(word or HOME)}' is played on simulated time here, which cannot be "
-                "shared: leave out --join, --listen, --connect, --zenoh-config, --dds and "
-                "--read-only."
+                f"shared: leave out --join, {flags} and --read-only."
             )
 
     def refuse_to_join(self, word: str | None) -> None:
@@ -262,22 +238,15 @@ def read(
     join: bool = False,
     host: bool = False,
     domain: int | None = None,
-    listen: list[str] | None = None,
-    connect: list[str] | None = None,
-    tls_cert: Path | None = None,
-    tls_key: Path | None = None,
-    tls_ca: Path | None = None,
-    zenoh_config: Path | None = None,
     read_only: bool = False,
-    dds: bool = False,
-    dds_on: list[str] | None = None,
     joint: list[str] | None = None,
     argument: list[str] | None = None,
     urdf: Path | None = None,
     with_odometry: bool = False,
     no_cache: bool = False,
+    **reach: Any,
 ) -> Connection:
-    """Put the options together.
+    """Put the options together; `reach` has those of the middlewares.
 
     Raises:
         UsageError: If they contradict each other.
@@ -287,29 +256,12 @@ def read(
         raise UsageError("--join and --host contradict each other: choose one.")
     if host and read_only:
         raise UsageError("--read-only looks at a session, so it cannot --host one.")
-    if zenoh_config is not None and (listen or connect):
-        raise UsageError("--zenoh-config says all endpoints: leave out --listen and --connect.")
-    if (dds or dds_on) and (listen or connect or zenoh_config or tls_cert or tls_key or tls_ca):
-        raise UsageError(
-            "--dds goes by DDS: leave out --listen, --connect, --zenoh-config and --tls-*, which "
-            "are zenoh's."
-        )
-    for file in (tls_cert, tls_key, tls_ca, zenoh_config):
-        if file is not None and not file.is_file():
-            raise InputError(f"There is no file '{file}'.")
-    tls = _tls(tls_cert, tls_key, tls_ca)
-    for endpoint in (*(listen or ()), *(connect or ())):
-        _check_endpoint(endpoint, has_files=tls is not None)
     return Connection(
         command,
         Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
         domain_here() if domain is None else domain,
-        tuple(listen or ()),
-        tuple(connect or ()),
-        tls,
-        zenoh_config,
+        read_reach(reach),
         read_only,
-        tuple(dds_on or ()) if dds or dds_on else None,
         RobotOptions(
             dict(_joint(word) for word in joint or ()),
             dict(_argument(word) for word in argument or ()),
@@ -340,35 +292,3 @@ def _argument(word: str) -> tuple[str, str]:
     if not name or not assigned:
         raise UsageError(f"'{word}' is no xacro argument: write NAME:=VALUE.")
     return name, value
-
-
-def _tls(cert: Path | None, key: Path | None, ca: Path | None) -> tuple[Path, Path, Path] | None:
-    """The three files of mutual TLS; None where none is given."""
-    if cert is None or key is None or ca is None:
-        if cert or key or ca:
-            raise UsageError(
-                "TLS here is mutual: give --tls-cert, --tls-key and --tls-ca together."
-            )
-        return None
-    from tftool.world.link.link_options import Certificates
-
-    Certificates(cert, key, ca).check()
-    return cert, key, ca
-
-
-def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
-    from tftool.world.link.zenoh.settings import PROTOCOLS, SECURED, has_port
-
-    protocol, slash, address = endpoint.partition("/")
-    if not slash or not address or protocol not in PROTOCOLS:
-        raise UsageError(
-            f"'{endpoint}' is no endpoint: write PROTOCOL/ADDRESS, such as tcp/192.168.1.5:7448, "
-            f"with one of {', '.join(PROTOCOLS)}."
-        )
-    if not has_port(endpoint):
-        raise UsageError(
-            f"'{endpoint}' has no port: write {protocol}/HOST:PORT, such as "
-            f"{protocol}/192.168.1.5:7448."
-        )
-    if protocol in SECURED and not has_files:
-        raise UsageError(f"'{endpoint}' needs --tls-cert, --tls-key and --tls-ca.")

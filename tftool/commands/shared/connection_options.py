@@ -5,17 +5,25 @@ import inspect
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, get_args
 
 import typer
 
 from tftool.commands.shared.options import option
-from tftool.world.link.link_options import LARGEST_DOMAIN
+from tftool.world.link.link_options import LARGEST_DOMAIN, REACHES
+from tftool.world.link.reach import Reach
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Providers
 
-FLAGS = ("join", "host", "read_only", "dds", "with_odometry", "no_cache")
+
+def _declared(reach: type[Reach]) -> dict[str, Any]:
+    """Return a middleware's options, as typer takes them."""
+    return {
+        name: Annotated[one.kind, option(one.text, one.flag, metavar=one.metavar)]
+        for name, one in reach.OPTIONS.items()
+    }
+
 
 SESSION_OPTIONS: dict[str, Any] = {
     "join": Annotated[
@@ -32,53 +40,11 @@ SESSION_OPTIONS: dict[str, Any] = {
             help="Session to share; ROS_DOMAIN_ID, else 0, if not said.",
         ),
     ],
-    "listen": Annotated[
-        list[str] | None,
-        option(
-            "Let other machines in, at tcp/0.0.0.0:7448 for example. All who reach "
-            "that port can see and drive everything: use tls/ in a network you share.",
-            "--listen",
-            metavar="ENDPOINT",
-        ),
-    ],
-    "connect": Annotated[
-        list[str] | None,
-        option(
-            "Join another machine's session, or ROS 2's zenoh router: tcp/localhost:7447.",
-            "--connect",
-            metavar="ENDPOINT",
-        ),
-    ],
-    "tls_cert": Annotated[
-        Path | None, option("Our certificate, for tls/.", "--tls-cert", metavar="FILE")
-    ],
-    "tls_key": Annotated[Path | None, option("Its private key.", "--tls-key", metavar="FILE")],
-    "tls_ca": Annotated[
-        Path | None, option("Who signed the other side's certificate.", "--tls-ca", metavar="FILE")
-    ],
-    "zenoh_config": Annotated[
-        Path | None, option("A zenoh configuration, as it is.", "--zenoh-config", metavar="FILE")
-    ],
+    **_declared(REACHES[0]),
     "read_only": Annotated[
         bool, option("Only look: publish nothing, serve nothing.", "--read-only")
     ],
-    "dds": Annotated[
-        bool,
-        option(
-            "A ROS 2 robot over DDS, not zenoh: what is sent stays on this machine's loopback "
-            "(DDS receives on 0.0.0.0 all the same).",
-            "--dds",
-        ),
-    ],
-    "dds_on": Annotated[
-        list[str] | None,
-        option(
-            "The same on an interface (eth0), or with a machine (192.168.1.5); again for "
-            "more. DDS here has no TLS: all of that network can read and write.",
-            "--dds-on",
-            metavar="PLACE",
-        ),
-    ],
+    **{name: kind for reach in REACHES[1:] for name, kind in _declared(reach).items()},
 }
 
 
@@ -163,7 +129,7 @@ def with_connection(
         inspect.Parameter(
             name,
             inspect.Parameter.KEYWORD_ONLY,
-            default=False if name in FLAGS else None,
+            default=False if get_args(annotation)[0] is bool else None,
             annotation=annotation,
         )
         for name, annotation in added_options.items()

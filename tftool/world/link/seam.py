@@ -1,27 +1,20 @@
 """What a link needs of a middleware: a ROS graph, and messages and questions as CDR.
 
-A middleware is a folder beside `zenoh/` with a class that has the methods of `Middleware`,
-and one line in `MIDDLEWARES`. Nothing else of the link knows which one carries it: values
+A middleware is a folder beside `zenoh/` with a class that has the methods of `Middleware`, a
+`Reach` that declares its options and joins a session, and one line in
+`link_options.MIDDLEWARES`. Nothing else of the link knows which one carries it: values
 go in at the bridges (`topics`, `tf`, `services`, `actions`), CDR comes out here. Whatever a
 middleware calls back, it calls on the event loop.
 """
 
 import asyncio
 from collections.abc import Callable, Sequence
-from importlib import import_module
-from typing import Any, Final, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 from tftool.base.errors import MalformedMessage
 from tftool.base.stamps import Stamp
 from tftool.world.endpoints import Quality
 from tftool.world.link.graph import Graph, GraphEntity, Process
-from tftool.world.link.link_options import Options
-
-MIDDLEWARES: Final = {
-    "dds": "tftool.world.link.dds.middleware:DdsMiddleware",
-    "zenoh": "tftool.world.link.zenoh.middleware:ZenohMiddleware",
-}
-"""Where the class of each middleware is; imported when a link opens and not before."""
 
 
 class Arrived(NamedTuple):
@@ -100,6 +93,9 @@ class Watcher(Protocol):
 class Middleware(Protocol):
     """A process's part in a ROS graph. Names have no leading slash.
 
+    `Reach.join` makes it. No other process of this machine can join until `settle` or `close`
+    is called.
+
     Attributes:
         graph: Who else is there; filled before the constructor returns with those who were.
         session: This process's name in the graph.
@@ -111,15 +107,6 @@ class Middleware(Protocol):
     session: str
     unanswering: tuple[int, ...]
     notices: tuple[str, ...]
-
-    def __init__(self, options: Options) -> None:
-        """Join the others of this machine, and those `options` reach out to.
-
-        No other process of this machine can join until `settle` or `close` is called.
-
-        Raises:
-            LinkError: If there is no way in.
-        """
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Call back on `loop` from now on, and report changes of the graph."""
@@ -178,15 +165,3 @@ class Middleware(Protocol):
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
         """Ask a service as a node of this process."""
-
-
-def join(options: Options) -> Middleware:
-    """Join a session by the middleware that the options name.
-
-    Raises:
-        LinkError: If there is no way in.
-    """
-    module, _, name = MIDDLEWARES[options.middleware].partition(":")
-    made: Any = getattr(import_module(module), name)(options)
-    joined: Middleware = made
-    return joined

@@ -19,7 +19,6 @@ from tftool.world.link.actions import ActionClient, ActionServer
 from tftool.world.link.graph import NODE, SERVER, GraphEntity, Process, Role, hosts
 from tftool.world.link.link_context import NAME, LinkContext
 from tftool.world.link.link_options import Options
-from tftool.world.link.seam import join
 from tftool.world.link.services import ServiceClient, ServiceServer
 from tftool.world.link.tf import StaticBridge, TransformBridge
 from tftool.world.link.topic_link import TopicBridge
@@ -54,7 +53,7 @@ class Link(LinkContext):
         Raises:
             LinkError: If there is no place to meet, or the middleware is missing or refuses.
         """
-        super().__init__(options, join(options))
+        super().__init__(options, options.reach.join(options))
         self._nodes: dict[str, Callable[[], None]] = {}
         self._removals: dict[GraphEntity, Callable[[], None]] = {}
         self._stops: list[Callable[[], None]] = []

@@ -24,7 +24,7 @@ TOLD = seconds(2)
 """How long a joined world waits for the first that `/clock` says, where it is published."""
 
 STATICS = seconds(8)
-"""How much longer for static transforms of publishers that are there: DDS repeats what was lost."""
+"""How much longer for static transforms of publishers that are there: lost ones come again."""
 
 
 def _keep_silent(record: "LogRecord") -> None:
@@ -100,9 +100,9 @@ class Session:
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
-        """Listen for `duration` nanoseconds, over DDS until the static transforms have come."""
+        """Listen for `duration` nanoseconds, to a robot until its static transforms have come."""
         await self.lasting(duration)
-        if self.link is None or self.link.options.middleware != "dds":
+        if self.link is None or not self.link.options.reach.is_robots:
             return
         clock = pace_of(self.world.clock)
         end = clock.now() + STATICS

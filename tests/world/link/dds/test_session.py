@@ -11,6 +11,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import INTERFACES
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.world.link.dds.reach import DdsReach
 from tftool.world.link.graph import NODE, Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
@@ -27,7 +28,7 @@ class Silent(Node):
 @contextlib.asynccontextmanager
 async def joined(domain, role=Role.SOURCE, **options):
     world = new_world()
-    with Link(Options("test", domain, middleware="dds", **options)) as link:
+    with Link(Options("test", domain, DdsReach(), **options)) as link:
         link.attach(world, role=role)
         yield world, link
 

@@ -18,8 +18,9 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.classes import INTERFACES
 from tftool.world.clock import WallClock, run
 from tftool.world.link.graph import Role
-from tftool.world.link.link_options import Options, Reach
+from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
+from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 
@@ -146,7 +147,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
         port = probe.getsockname()[1]
 
     async def meet():
-        with Link(Options("demo", reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))) as link:
+        with Link(Options("demo", reach=ZenohReach(listen=(f"tcp/127.0.0.1:{port}",)))) as link:
             world = new_world()
             simulator = Turtlesim(world)
             link.attach(world, role=Role.HOST)

@@ -17,6 +17,7 @@ from tftool.world.link.dds.dds_services import CycloneClient, CycloneServer, Ser
 from tftool.world.link.dds.dds_types import Raw, Types
 from tftool.world.link.dds.discovery import Discovery
 from tftool.world.link.dds.participant import DdsSample, Participant, TopicReader, TopicWriter
+from tftool.world.link.dds.reach import DdsReach
 from tftool.world.link.dds.settings import network, other_domains, participants_here
 from tftool.world.link.graph import GraphEntity, Process, node_name
 from tftool.world.link.link_options import Options
@@ -45,10 +46,10 @@ class DdsMiddleware:
         notices: What the user should know before anything else, as sentences.
     """
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: Options, reach: DdsReach) -> None:
         """Join, as the seam says."""
         self._options = options
-        self._network = network(options.reach.interfaces)
+        self._network = network(reach.places)
         self.notices: tuple[str, ...] = self._network.told
         name = f"tftool {options.command} ({os.getpid()})"
         self._participant = Participant(options.domain, self._network, name, names.ENCLAVE.encode())

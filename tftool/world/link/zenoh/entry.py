@@ -9,10 +9,11 @@ from tftool.base.errors import LinkError
 from tftool.base.stamps import seconds
 from tftool.world.clock import WallClock
 from tftool.world.link.graph import Graph
-from tftool.world.link.link_options import Options, Reach
+from tftool.world.link.link_options import Options
 from tftool.world.link.zenoh import keys, rendezvous
+from tftool.world.link.zenoh.reach import SECURED, ZenohReach, protocol_of
 from tftool.world.link.zenoh.rendezvous import Rendezvous
-from tftool.world.link.zenoh.settings import SECURED, Local, protocol_of
+from tftool.world.link.zenoh.settings import Local
 from tftool.world.link.zenoh.transport import Wire
 
 REACHING: Final = 5.0
@@ -46,7 +47,7 @@ class Opening:
             do not answer.
     """
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: Options, reach: ZenohReach) -> None:
         """Go in; at once where no other process is there.
 
         No other process of this machine can do so in between until `settle` or `close` is
@@ -60,7 +61,7 @@ class Opening:
         self._place: Rendezvous | None = None
         others: dict[str, int] = {}
         local = Local()
-        reach = options.reach
+        self._reach = reach
         # Without sockets a password guards this machine's processes; zenoh asks it of all
         # that connect, other machines' too, which cannot know it.
         outward = bool(reach.listen or reach.connect)
@@ -117,7 +118,7 @@ class Opening:
         if not _await(lambda: not silent(), NEARBY):
             _await(lambda: all(rendezvous.is_stopped(pid) for pid in silent()), BUSY - NEARBY)
             self.unanswering = tuple(silent())
-        reach = self._options.reach
+        reach = self._reach
         if reach.config is not None:
             _await(lambda: bool(self.wire.neighbours), NEARBY)
         elif reach.connect and not _await(
@@ -145,7 +146,7 @@ class Opening:
             _await(all_are_known, SHOWN if is_expected else 0.0)
 
 
-def _no_answer_at(reach: Reach) -> str:
+def _no_answer_at(reach: ZenohReach) -> str:
     """What to look for where no process answers; a refusal of certificates looks the same."""
     protocols = {protocol_of(endpoint) for endpoint in reach.connect}
     text = (

@@ -14,6 +14,7 @@ from tftool.world.link.seam import Arrived, Middleware, Watcher, WireRequest
 from tftool.world.link.zenoh import keys
 from tftool.world.link.zenoh.entry import Opening
 from tftool.world.link.zenoh.keys import Attachment, Token
+from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.link.zenoh.transport import KeyPublisher, Query, Sample, Wire
 
 SERVICE: Final = Quality(depth=10)
@@ -31,10 +32,10 @@ class ZenohMiddleware:
         wire: The zenoh session.
     """
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: Options, reach: ZenohReach) -> None:
         """Join, as the seam says."""
         self._options = options
-        self._opening = Opening(options)
+        self._opening = Opening(options, reach)
         self.wire: Wire = self._opening.wire
         self.graph = self._opening.graph
         self.session = self.wire.zid

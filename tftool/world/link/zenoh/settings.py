@@ -5,23 +5,14 @@ pay for it, and a platform without it can still do everything else.
 """
 
 import json
-import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from tftool.base.errors import LinkError
-from tftool.world.link.link_options import Reach
+from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.link.zenoh.rendezvous import USER
 
-PROTOCOLS: Final = ("tcp", "udp", "tls", "quic", "ws", "unixsock-stream")
-"""How an endpoint may begin."""
-
-SECURED: Final = ("tls", "quic")
-"""Those of them where both sides show certificates."""
-
-_PATHS: Final = ("unixsock-stream",)  # what names a file and not a port
-_PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
 _CONGESTED = 1_000_000  # microseconds a sender waits for a reader that takes nothing
 _NEAR_HELLO, _FAR_HELLO = 1000, 5000  # milliseconds for two processes to get to know each other
 _SCOUTING_DELAY = 100  # milliseconds `open` waits at most for a peer that does not answer
@@ -44,19 +35,6 @@ class Local:
     passwords: Path = Path()
 
 
-def protocol_of(endpoint: str) -> str:
-    """How an endpoint begins."""
-    return endpoint.partition("/")[0]
-
-
-def has_port(endpoint: str) -> bool:
-    """Whether an endpoint says its port, where it must; zenoh would look in vain for one."""
-    protocol, _, rest = endpoint.partition("/")
-    # What follows a question mark or a hash are zenoh's own settings of an endpoint.
-    address = re.split(r"[?#]", rest, maxsplit=1)[0]
-    return protocol in _PATHS or _PORT.fullmatch(address) is not None
-
-
 def import_zenoh() -> Any:
     """The library.
 
@@ -73,7 +51,7 @@ def import_zenoh() -> Any:
     return zenoh
 
 
-def open_zenoh(zenoh: Any, reach: Reach, local: Local) -> Any:
+def open_zenoh(zenoh: Any, reach: ZenohReach, local: Local) -> Any:
     """Open a zenoh session.
 
     Args:
@@ -102,7 +80,7 @@ def open_zenoh(zenoh: Any, reach: Reach, local: Local) -> Any:
         ) from error
 
 
-def settings(reach: Reach, local: Local) -> dict[str, Any]:
+def settings(reach: ZenohReach, local: Local) -> dict[str, Any]:
     """What we tell zenoh, by its own names; its defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {

@@ -12,8 +12,8 @@ from tftool.base.errors import LinkError
 from tftool.messages.layouts import LARGEST
 from tftool.world.endpoints import Quality
 from tftool.world.link.inbox import Inbox
-from tftool.world.link.link_options import Reach
 from tftool.world.link.outbox import Outbox
+from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.link.zenoh.settings import Local, import_zenoh, open_zenoh
 
 
@@ -83,7 +83,7 @@ class Wire:
         oversized: Messages that were larger than what we read.
     """
 
-    def __init__(self, reach: Reach, local: Local) -> None:
+    def __init__(self, reach: ZenohReach, local: Local) -> None:
         """Open the session; other threads' callbacks wait until `start`.
 
         Args:

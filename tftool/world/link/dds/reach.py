@@ -1,0 +1,68 @@
+"""How far a link over DDS goes: its options, and what contradicts them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from tftool.world.link.reach import LinkOption, Reach
+
+if TYPE_CHECKING:
+    from tftool.world.link.link_options import Options
+    from tftool.world.link.seam import Middleware
+
+
+@dataclass(frozen=True, slots=True)
+class DdsReach(Reach):
+    """Where DDS goes beyond the loopback; nowhere unless asked.
+
+    Attributes:
+        places: Interfaces to use and addresses to go to.
+    """
+
+    OPTIONS: ClassVar[Mapping[str, LinkOption]] = {
+        "dds": LinkOption(
+            bool,
+            "--dds",
+            "A ROS 2 robot over DDS, not zenoh: what is sent stays on this machine's loopback "
+            "(DDS receives on 0.0.0.0 all the same).",
+        ),
+        "dds_on": LinkOption(
+            list[str] | None,
+            "--dds-on",
+            "The same on an interface (eth0), or with a machine (192.168.1.5); again for "
+            "more. DDS here has no TLS: all of that network can read and write.",
+            "PLACE",
+        ),
+    }
+    FLAGS: ClassVar[tuple[str, ...]] = ("--dds",)
+    ALONE: ClassVar[str] = (
+        "--dds goes by DDS: leave out --listen, --connect, --zenoh-config and --tls-*, which "
+        "are zenoh's."
+    )
+    is_robots: ClassVar[bool] = True
+
+    places: tuple[str, ...] = ()
+
+    @classmethod
+    def read(cls, given: Mapping[str, Any]) -> "DdsReach":
+        """Put the values of the options together; see `Reach.read`."""
+        return cls(tuple(given.get("dds_on") or ()))
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether a link is needed: always, as the robot is in another process."""
+        return True
+
+    def awaits_others(self, *, hosts: bool) -> bool:
+        """Whether to wait for a robot: unless the command hosts turtles where there is none."""
+        return not hosts
+
+    def place(self, domain: int) -> str:
+        """Return the domain and the places it goes to."""
+        return f"DDS domain {domain} on {', '.join(self.places) or 'the loopback'}"
+
+    def join(self, options: "Options") -> "Middleware":
+        """Join a session over DDS; see `Reach.join`."""
+        from tftool.world.link.dds.middleware import DdsMiddleware
+
+        return DdsMiddleware(options, self)

@@ -1,0 +1,87 @@
+"""What each middleware declares of itself: its options, what contradicts them, and its words.
+
+A middleware derives from `Reach` in its folder, as `zenoh/reach.py` does; one line in
+`link_options.MIDDLEWARES` adds it. Commands know no middleware by its name.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    from tftool.world.link.link_options import Options
+    from tftool.world.link.seam import Middleware
+
+
+@dataclass(frozen=True, slots=True)
+class LinkOption:
+    """One option of the command line.
+
+    Attributes:
+        kind: The type of its value: bool, `list[str] | None` or `Path | None`.
+        flag: How it is written, "--listen".
+        text: Its help.
+        metavar: What its value is called; None for a flag.
+    """
+
+    kind: Any
+    flag: str
+    text: str
+    metavar: str | None = None
+
+
+class Reach:
+    """What a link of one middleware opens beyond this machine's own processes.
+
+    Derived as frozen data; made without arguments it opens nothing that was not asked for.
+    """
+
+    __slots__ = ()
+
+    OPTIONS: ClassVar[Mapping[str, LinkOption]] = {}
+    """Its options by the names of their parameters."""
+
+    FLAGS: ClassVar[tuple[str, ...]] = ()
+    """The options that open something, as sentences name them."""
+
+    ALONE: ClassVar[str] = ""
+    """Why its options do not go together with another middleware's."""
+
+    is_robots: ClassVar[bool] = False
+    """Whether it is among a robot's nodes: there, commands that only look write nothing, and
+    static transforms that were lost come again."""
+
+    @classmethod
+    def read(cls, given: Mapping[str, Any]) -> "Reach":
+        """Put the values of its options together.
+
+        Raises:
+            UsageError: If they contradict each other.
+            InputError: If a file is not there, or not what it is given as.
+        """
+        raise NotImplementedError
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether something was asked for that only a link can give."""
+        raise NotImplementedError
+
+    def awaits_others(self, *, hosts: bool) -> bool:
+        """Whether the session is elsewhere, so that a world of one's own has no place in it.
+
+        Args:
+            hosts: Whether the command hosts turtles where it finds none.
+        """
+        raise NotImplementedError
+
+    def place(self, domain: int) -> str:
+        """Return where the others are, in words; "" for this machine."""
+        raise NotImplementedError
+
+    def join(self, options: "Options") -> "Middleware":
+        """Join a session; the middleware's library is imported here and not before.
+
+        Raises:
+            LinkError: If there is no way in.
+        """
+        raise NotImplementedError

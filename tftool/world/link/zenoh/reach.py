@@ -1,0 +1,191 @@
+"""How far a link over zenoh goes: its options, and what contradicts them."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+from tftool.base.errors import InputError, UsageError
+from tftool.world.link.reach import LinkOption, Reach
+
+if TYPE_CHECKING:
+    from tftool.world.link.link_options import Options
+    from tftool.world.link.seam import Middleware
+
+PROTOCOLS: Final = ("tcp", "udp", "tls", "quic", "ws", "unixsock-stream")
+"""How an endpoint may begin."""
+
+SECURED: Final = ("tls", "quic")
+"""Those of them where both sides show certificates."""
+
+_PATHS: Final = ("unixsock-stream",)  # what names a file and not a port
+_PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class Certificates:
+    """Files for mutual TLS: who we are, and whom we believe.
+
+    Attributes:
+        certificate: Our certificate, PEM.
+        key: Its private key, PEM.
+        authority: The certificate that signed the other side's, PEM.
+    """
+
+    certificate: Path
+    key: Path
+    authority: Path
+
+    def check(self) -> None:
+        """See that the files are what they are given as; zenoh says of none which is not.
+
+        Raises:
+            InputError: If one is no such PEM file, or the key is another certificate's.
+        """
+        import ssl
+
+        file = self.certificate
+        try:
+            ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(file)
+            file = self.authority
+            ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(file)
+        except ssl.SSLError as error:
+            raise InputError(f"'{file}' holds no certificate in PEM.") from error
+        except OSError as error:
+            raise InputError(f"'{file}' cannot be read: {error.strerror}.") from error
+        try:
+            # A password to go with it, or openssl would ask for one in the terminal.
+            context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+            context.load_cert_chain(self.certificate, self.key, password="")
+        except ssl.SSLError as error:
+            raise InputError(self._unusable(error.reason)) from error
+        except OSError as error:
+            raise InputError(f"'{self.key}' cannot be read: {error.strerror}.") from error
+
+    def _unusable(self, reason: str | None) -> str:
+        if reason == "KEY_VALUES_MISMATCH":
+            return f"'{self.key}' is not the key of the certificate '{self.certificate}'."
+        if reason:
+            told = reason.lower().replace("_", " ")
+            return f"'{self.certificate}' cannot be used with '{self.key}': {told}."
+        return f"'{self.key}' holds no private key in PEM, or one with a password."
+
+
+@dataclass(frozen=True, slots=True)
+class ZenohReach(Reach):
+    """What a link opens beyond this machine's own processes; nothing unless asked.
+
+    Attributes:
+        listen: Endpoints where other machines may come in, "tcp/0.0.0.0:7448".
+        connect: Endpoints to go to, "tcp/robot:7447".
+        certificates: For endpoints that begin with tls/ or quic/.
+        config: A zenoh configuration, JSON5, taken in place of ours.
+    """
+
+    OPTIONS: ClassVar[Mapping[str, LinkOption]] = {
+        "listen": LinkOption(
+            list[str] | None,
+            "--listen",
+            "Let other machines in, at tcp/0.0.0.0:7448 for example. All who reach "
+            "that port can see and drive everything: use tls/ in a network you share.",
+            "ENDPOINT",
+        ),
+        "connect": LinkOption(
+            list[str] | None,
+            "--connect",
+            "Join another machine's session, or ROS 2's zenoh router: tcp/localhost:7447.",
+            "ENDPOINT",
+        ),
+        "tls_cert": LinkOption(Path | None, "--tls-cert", "Our certificate, for tls/.", "FILE"),
+        "tls_key": LinkOption(Path | None, "--tls-key", "Its private key.", "FILE"),
+        "tls_ca": LinkOption(
+            Path | None, "--tls-ca", "Who signed the other side's certificate.", "FILE"
+        ),
+        "zenoh_config": LinkOption(
+            Path | None, "--zenoh-config", "A zenoh configuration, as it is.", "FILE"
+        ),
+    }
+    FLAGS: ClassVar[tuple[str, ...]] = ("--listen", "--connect", "--zenoh-config")
+
+    listen: tuple[str, ...] = ()
+    connect: tuple[str, ...] = ()
+    certificates: Certificates | None = None
+    config: Path | None = None
+
+    @classmethod
+    def read(cls, given: Mapping[str, Any]) -> "ZenohReach":
+        """Put the values of the options together; see `Reach.read`."""
+        listen, connect = tuple(given.get("listen") or ()), tuple(given.get("connect") or ())
+        config: Path | None = given.get("zenoh_config")
+        if config is not None and (listen or connect):
+            raise UsageError("--zenoh-config says all endpoints: leave out --listen and --connect.")
+        files = [given.get(name) for name in ("tls_cert", "tls_key", "tls_ca")]
+        for file in (*files, config):
+            if file is not None and not file.is_file():
+                raise InputError(f"There is no file '{file}'.")
+        certificates = _tls(*files)
+        for endpoint in (*listen, *connect):
+            _check_endpoint(endpoint, has_files=certificates is not None)
+        return cls(listen, connect, certificates, config)
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether something was asked for that only a link can give."""
+        return bool(self.listen or self.connect or self.config is not None)
+
+    def awaits_others(self, *, hosts: bool) -> bool:
+        """Whether it goes to another machine's session."""
+        return bool(self.connect)
+
+    def place(self, domain: int) -> str:
+        """Return the endpoints it goes to."""
+        return ", ".join(self.connect)
+
+    def join(self, options: "Options") -> "Middleware":
+        """Join a session over zenoh; see `Reach.join`."""
+        from tftool.world.link.zenoh.middleware import ZenohMiddleware
+
+        return ZenohMiddleware(options, self)
+
+
+def protocol_of(endpoint: str) -> str:
+    """How an endpoint begins."""
+    return endpoint.partition("/")[0]
+
+
+def has_port(endpoint: str) -> bool:
+    """Whether an endpoint says its port, where it must; zenoh would look in vain for one."""
+    protocol, _, rest = endpoint.partition("/")
+    # What follows a question mark or a hash are zenoh's own settings of an endpoint.
+    address = re.split(r"[?#]", rest, maxsplit=1)[0]
+    return protocol in _PATHS or _PORT.fullmatch(address) is not None
+
+
+def _tls(cert: Path | None, key: Path | None, ca: Path | None) -> Certificates | None:
+    """Return the three files of mutual TLS; None where none is given."""
+    if cert is None or key is None or ca is None:
+        if cert or key or ca:
+            raise UsageError(
+                "TLS here is mutual: give --tls-cert, --tls-key and --tls-ca together."
+            )
+        return None
+    files = Certificates(cert, key, ca)
+    files.check()
+    return files
+
+
+def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
+    protocol, slash, address = endpoint.partition("/")
+    if not slash or not address or protocol not in PROTOCOLS:
+        raise UsageError(
+            f"'{endpoint}' is no endpoint: write PROTOCOL/ADDRESS, such as tcp/192.168.1.5:7448, "
+            f"with one of {', '.join(PROTOCOLS)}."
+        )
+    if not has_port(endpoint):
+        raise UsageError(
+            f"'{endpoint}' has no port: write {protocol}/HOST:PORT, such as "
+            f"{protocol}/192.168.1.5:7448."
+        )
+    if protocol in SECURED and not has_files:
+        raise UsageError(f"'{endpoint}' needs --tls-cert, --tls-key and --tls-ca.")
