@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer
     from tftool.buffer.sample import Snapshot
     from tftool.doctor.findings import Finding
+    from tftool.frames.frames import Frames
     from tftool.recordings.recording import Recording
     from tftool.robots.robot_model import Robot
 
@@ -44,6 +45,11 @@ def buffer_picture(buffer: "Buffer") -> str:
     snapshot = buffer.snapshot(0)
     newest = max((frame.newest for frame in snapshot.frames if frame.newest), default=0)
     return snapshot_picture(buffer.snapshot(newest))
+
+
+def frames_picture(frames: "Frames") -> str:
+    """The frames that were opened as SVG, at their end."""
+    return snapshot_picture(frames.buffer.snapshot(frames.span[1]))
 
 
 def snapshot_picture(snapshot: "Snapshot") -> str:
@@ -132,7 +138,7 @@ class PageView:
 
 
 def view(
-    shown: "Buffer | Recording",
+    shown: "Buffer | Frames | Recording",
     *,
     robot: "Robot | None" = None,
     meshes: Sequence[str | Path] = (),
@@ -141,7 +147,7 @@ def view(
     """Show frames in 3-D: in a notebook below the cell, elsewhere by `.save("view.html")`.
 
     Args:
-        shown: Whose frames: all that a buffer remembers, or a whole recording.
+        shown: Whose frames: all that a buffer remembers, a whole recording, what was opened.
         robot: A robot to draw; that of the recording if None.
         meshes: Folders in which its meshes lie.
         height: How tall it is shown, pixels.
@@ -151,10 +157,11 @@ def view(
 
     Raises:
         InputError: If nothing of the recording can be read.
-        TypeError: If it is neither a buffer nor a recording.
+        TypeError: If it has no frames.
     """
     from tftool.base.errors import without_frames
     from tftool.buffer.buffer import Buffer
+    from tftool.frames.frames import Frames
     from tftool.recordings.recording import Recording
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.protocol import reach
@@ -162,9 +169,12 @@ def view(
     from tftool.screens.browser.standalone import StandaloneData, standalone_page
     from tftool.screens.first_moment import first_moment
 
-    if isinstance(shown, Recording):
+    if isinstance(shown, Frames):
+        name, buffer, robot = shown.title, shown.buffer, robot or shown.robot
+        span: tuple[int, int] | None = None if shown.start is None else shown.span
+    elif isinstance(shown, Recording):
         name, buffer, robot = f"recording '{shown.name}'", shown.buffer, robot or shown.robot
-        span: tuple[int, int] | None = shown.span
+        span = shown.span
     elif isinstance(shown, Buffer):
         name, buffer, span = "a buffer", shown, reach(shown.snapshot(0).frames)
     else:
@@ -193,6 +203,7 @@ _SHOWN: Final[tuple[tuple[str, str, str, Callable[[Any], str]], ...]] = (
     ("image/svg+xml", "tftool.buffer.buffer", "Buffer", buffer_picture),
     ("image/svg+xml", "tftool.buffer.sample", "Snapshot", snapshot_picture),
     ("text/html", "tftool.buffer.batch.transform_array", "TransformArray", array_table),
+    ("image/svg+xml", "tftool.frames.frames", "Frames", frames_picture),
     ("text/html", "tftool.recordings.recording", "Recording", recording_table),
     ("text/html", "tftool.doctor.findings", "Finding", finding_table),
 )

@@ -21,10 +21,11 @@ from tftool.recordings.contract import Progress
 from tftool.recordings.recording_writer import library_name
 
 if TYPE_CHECKING:
+    from tftool.frames.frames import Frames
     from tftool.recordings.recording import Recording
     from tftool.robots.robot_model import Robot
 
-Framed: TypeAlias = "Buffer | Recording | Robot"
+Framed: TypeAlias = "Buffer | Frames | Recording | Robot"
 """What frames are exported from; of a robot description with every joint at rest."""
 
 
@@ -111,7 +112,7 @@ def export(
     in what is returned.
 
     Args:
-        frames: A recording, a buffer, or a robot description.
+        frames: What was opened, a recording, a buffer, or a robot description.
         path: Where to; its end says what: .tum .kitti .csv .npz .parquet of pairs,
             .urdf .launch.py .launch.xml .launch.yaml .sh .mcap of links.
         target_frame: What poses are expressed in; None to write links.
@@ -275,6 +276,8 @@ def refuse_input(frames: object, path: Path) -> None:
     Raises:
         UsageError: If that is asked for.
     """
+    if getattr(frames, "kind", "") in ("scenario", "session"):
+        return
     name = getattr(frames, "name", None)
     if not isinstance(name, str) or not os.path.exists(name) or not os.path.lexists(path):
         return

@@ -37,7 +37,7 @@ def open_found(found: Found) -> Container:
     if found.kind is Kind.ROSBAG2:
         return _open_folder(found.paths[0])
     if found.kind is Kind.SEVERAL:
-        return _joined(found.paths, [])
+        return _joined(found.paths, [], by_time=True)
     return _open_file(found.paths[0])
 
 
@@ -95,8 +95,14 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
     return parts
 
 
-def _joined(paths: Sequence[Path], damage: list[str]) -> Container:
-    """Some files as one recording; those that cannot be read are told, unless none can."""
+def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) -> Container:
+    """Some files as one recording; those that cannot be read are told, unless none can.
+
+    Args:
+        paths: The files.
+        damage: What is odd about them is added to it.
+        by_time: Whether the recording that begins first comes first, whatever its name.
+    """
     parts: list[tuple[str, Container]] = []
     refused: list[InputError] = []
     for path in paths:
@@ -113,6 +119,8 @@ def _joined(paths: Sequence[Path], damage: list[str]) -> Container:
     if len(parts) == 1 and len(paths) == 1:
         parts[0][1].damage[:0] = damage
         return parts[0][1]
+    if by_time:
+        parts.sort(key=lambda part: part[1].start)
     return Joined(parts, damage)
 
 
