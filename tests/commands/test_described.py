@@ -143,7 +143,7 @@ def test_a_scenario_takes_no_joint_positions(tftool):
 
 def test_words_with_an_assignment_are_arguments_of_xacro(tftool, tmp_path):
     pytest.importorskip("xacrodoc")
-    path = tmp_path / "post.urdf"
+    path = tmp_path / "post.urdf.xacro"
     path.write_text(
         ROBOT.replace('name="post"', 'name="post" xmlns:xacro="http://www.ros.org/wiki/xacro"')
         .replace("<link", '<xacro:arg name="height" default="2"/><link', 1)

@@ -7,6 +7,7 @@ import pytest
 
 from tests.patience import PATIENCE
 from tftool.base.errors import DescriptionError, InputError
+from tftool.robots import xacro_process
 from tftool.robots.description import (
     BoxShape,
     CapsuleShape,
@@ -14,7 +15,7 @@ from tftool.robots.description import (
     MeshShape,
     SphereShape,
 )
-from tftool.robots.urdf import is_xacro, load_description
+from tftool.robots.urdf import is_xacro, load_description, parse_description
 from tftool.robots.urdf import parse_description as parse
 
 ARM = """<?xml version="1.0"?>
@@ -304,10 +305,50 @@ def test_xacro_is_expanded_with_its_arguments(tmp_path):
 
 def test_xacro_that_fails_is_a_sentence(tmp_path):
     pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
-    path = tmp_path / "arm.urdf"
+    path = tmp_path / "arm.urdf.xacro"
     path.write_text(ARM.replace('xyz="0 0 1"', 'xyz="0 0 ${nothing}"'))
 
     with pytest.raises(InputError, match="cannot be expanded by xacro"):
+        load_description(path)
+
+
+def test_xacro_in_a_file_of_another_name_is_not_run(tmp_path):
+    path = tmp_path / "arm.urdf"
+    trap = tmp_path / "ran"
+    path.write_text(
+        ARM.replace(
+            "<gazebo>", f"<xacro:property name='x' value='${{open(\"{trap}\", \"w\")}}'/><gazebo>"
+        )
+    )
+
+    with pytest.raises(InputError, match="contains xacro, which may run Python"):
+        load_description(path)
+    assert not trap.exists()
+
+
+def test_a_description_with_elements_of_xacro_is_refused_where_it_is_published():
+    text = ARM.replace("<gazebo>", "<xacro:arm/><gazebo>").replace(
+        'name="arm"', 'name="arm" xmlns:xacro="http://ros.org/wiki/xacro"'
+    )
+
+    with pytest.raises(InputError, match="has elements of xacro"):
+        parse_description(text, "run.bag:/robot_description")
+
+
+@pytest.mark.parametrize(
+    ("expression", "told"),
+    [
+        ("[0 for i in range(10**12)]", "within 1 s|GB of memory"),
+        ("len('x' * 2**32)", "1 GB of memory"),
+    ],
+)
+def test_xacro_without_bound_ends(tmp_path, monkeypatch, expression, told):
+    pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
+    monkeypatch.setattr(xacro_process, "TIME_LIMIT", 5.0 if "2**32" in expression else 1.0)
+    path = tmp_path / "arm.urdf.xacro"
+    path.write_text(ARM.replace('xyz="0 0 1"', f'xyz="0 0 ${{{expression}}}"'))
+
+    with pytest.raises(InputError, match=told):
         load_description(path)
 
 
@@ -343,7 +384,7 @@ def test_what_xacro_includes_lies_beside_the_file_wherever_it_is_read_from(tmp_p
 
 def test_a_package_that_xacro_does_not_find_is_named_with_the_remedy(tmp_path):
     pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
-    path = tmp_path / "arm.urdf"
+    path = tmp_path / "arm.urdf.xacro"
     include = '<xacro:include filename="$(find elsewhere)/wheel.xacro"/><link'
     robot = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
     path.write_text(ARM.replace("<robot", robot, 1).replace("<link", include, 1))

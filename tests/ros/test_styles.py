@@ -191,6 +191,28 @@ def test_a_file_runs_as_it_is_written(ros_runtime, tmp_path, text, status, said)
     assert lines == said
 
 
+RASH = """
+import rclpy
+rclpy.init()
+node = rclpy.create_node('rash')
+def tick():
+    raise KeyboardInterrupt
+node.create_timer(0.1, tick)
+rclpy.spin(node)
+"""
+
+
+def test_a_callback_that_raises_keyboard_interrupt_is_the_programs_failure(ros_runtime, tmp_path):
+    file = tmp_path / "rash.py"
+    file.write_text(RASH)
+
+    program = ros_runtime.start(file, on_exit=lambda _: None)
+    ros_runtime.sleep(1.0)
+
+    assert program.status == 1
+    assert isinstance(program.failure, KeyboardInterrupt)
+
+
 UNCALLED = """
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,5 @@
 import gc
+import math
 import weakref
 
 import pytest
@@ -260,6 +261,41 @@ def test_what_the_buffer_refuses_goes_no_further_and_is_logged():
 
     assert world.tf.count == 0
     assert "TF_SELF_TRANSFORM" in world.log.records[-1].text
+
+
+def test_refused_samples_of_ever_new_frames_are_said_a_few_times_and_counted():
+    world = World(SimClock())
+    node = Node(world, "sender")
+
+    for number in range(10_000):
+        node.broadcast(transform(f"f{number}", math.nan))
+
+    told = [one.text for one in world.log.records]
+    assert len(told) < 30
+    assert "TF_NAN_INPUT" in told[0]
+    assert "(1000 more like it, of other names)" in told[-1]
+
+
+def test_a_listener_that_fails_at_every_message_is_said_once_and_counted():
+    world = World(SimClock())
+    world.topic("pose", Pose).subscribe(lambda _: 1 / 0, "plotter")
+
+    for _ in range(999):
+        world.topic("pose", Pose).publish(Pose())
+
+    told = [one.text for one in world.log.records]
+    assert ["100 times so far" in text for text in told] == [False, False, True]
+
+
+def test_a_node_that_raises_keyboard_interrupt_is_named():
+    def interrupt():
+        raise KeyboardInterrupt
+
+    world = World(SimClock())
+    Script(world, "rash", seconds(1), interrupt)
+
+    with pytest.raises(NodeFailed, match=r"node 'rash' failed: KeyboardInterrupt"):
+        lived(world)
 
 
 def test_a_static_message_always_holds_all_of_its_senders_newest_statics():

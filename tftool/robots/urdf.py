@@ -37,6 +37,7 @@ from tftool.robots.description import (
     SphereShape,
     Surface,
 )
+from tftool.robots.xacro_process import expand
 
 T = TypeVar("T")
 
@@ -44,14 +45,13 @@ LARGEST = 64 * 1024 * 1024
 """Bytes a description may have."""
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-_NO_PACKAGE = re.compile(r"Package not found: (\S+)")
 _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
 
 
 def load_description(
     path: str | Path, arguments: Mapping[str, str] | None = None, *, plain: bool = False
 ) -> RobotDescription:
-    """Read a URDF file; a file that contains xacro is expanded first.
+    """Read a URDF file; one that contains xacro and is called .xacro is expanded first.
 
     Args:
         path: The file.
@@ -60,7 +60,7 @@ def load_description(
         plain: Whether to refuse a file that contains xacro.
 
     Raises:
-        InputError: If it cannot be read.
+        InputError: If it cannot be read, or contains xacro and is not called .xacro.
         DescriptionError: If it has mistakes; all of them, with line and column.
         UsageError: If it contains xacro and the extra `xacro` is not installed, or if
             arguments are given to a file without xacro.
@@ -72,7 +72,12 @@ def load_description(
                 f"'{path}' contains xacro, which a scenario does not run: expand it first "
                 "(xacro FILE -o robot.urdf)"
             )
-        return parse_description(_expanded(Path(path), arguments or {}), f"{path} (expanded)")
+        if Path(path).suffix != ".xacro":
+            raise InputError(
+                f"'{path}' contains xacro, which may run Python, and its name does not end in "
+                ".xacro: rename it, or expand it first (xacro FILE -o robot.urdf)"
+            )
+        return parse_description(expand(Path(path), arguments or {}), f"{path} (expanded)")
     if arguments:
         given = ", ".join(f"{name}:={value}" for name, value in arguments.items())
         raise UsageError(f"'{path}' contains no xacro, so it takes no arguments: leave out {given}")
@@ -87,7 +92,7 @@ def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -
         UsageError: If the extra `xacro` is not installed.
     """
     text = _text_of(Path(path))
-    return _expanded(Path(path), arguments or {}) if is_xacro(text) else text
+    return expand(Path(path), arguments or {}) if is_xacro(text) else text
 
 
 def is_xacro(text: str) -> bool:
@@ -134,7 +139,13 @@ def parse_description(text: str, name: str = "robot_description") -> RobotDescri
 
     Raises:
         DescriptionError: If it has mistakes; all of them, with line and column.
+        InputError: If it has elements of xacro, which is expanded by whoever publishes it.
     """
+    if "<xacro:" in text and is_xacro(text):
+        raise InputError(
+            f"'{name}' has elements of xacro, which were not expanded: expand the file that it "
+            "comes from (xacro FILE -o robot.urdf)"
+        )
     return _Reader(text, name).read()
 
 
@@ -157,30 +168,6 @@ def _text_of(path: Path) -> str:
         ) from error
     except ValueError as error:
         raise InputError(f"'{path}' is not text in {encoding}: {error}") from error
-
-
-def _expanded(path: Path, arguments: Mapping[str, str]) -> str:
-    try:
-        from xacrodoc import XacroDoc, xacrodoc
-    except ImportError:
-        raise UsageError(
-            f"'{path}' contains xacro, which needs an extra: pip install 'tftool-tf2[xacro]'"
-        ) from None
-    try:
-        # What a file includes lies beside it, wherever it is read from.
-        xacrodoc.xacro.init_stacks(str(path.resolve()))
-        # Names of meshes stay as written: what finds them comes later, or never.
-        expanded = XacroDoc.from_file(str(path), subargs=dict(arguments), resolve_packages=False)
-        return str(expanded.dom.toprettyxml(indent="  "))
-    except Exception as error:  # xacro raises whatever an expression in the file raises.
-        said = " ".join(str(error).split()) or type(error).__name__
-        if missing := _NO_PACKAGE.search(said):
-            raise InputError(
-                f"'{path}' cannot be expanded by xacro: there is no package '{missing[1]}': put "
-                "the folder it lies in into the environment variable ROS_PACKAGE_PATH, or source "
-                "its workspace"
-            ) from error
-        raise InputError(f"'{path}' cannot be expanded by xacro: {said}") from error
 
 
 @dataclass(slots=True)

@@ -1,9 +1,10 @@
 """What nodes have to say, kept for screens and handed to listeners."""
 
+import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Final, Literal, get_args
 
 from tftool.base.listeners import Listeners, Report
 from tftool.base.stamps import NANOSECONDS, Stamp
@@ -41,6 +42,38 @@ class LogRecord:
         second, rest = divmod(self.stamp, NANOSECONDS)
         logger = self.node.replace("/", ".")
         return f"[{self.level}] [{second}.{rest:09d}] [{logger}]: {self.text}"
+
+
+MOST_KINDS: Final = 20
+"""How many kinds of line of one origin are told apart; further ones are counted together."""
+
+
+class Repeats:
+    """Counts alike lines: the first of a kind is said, then the 10th, the 100th and so on."""
+
+    def __init__(self) -> None:
+        self._counts: dict[str, int] = {}
+
+    def said(self, kind: str, text: str) -> str:
+        """Count a line; return how it is to be said, "" where it is only counted.
+
+        Args:
+            kind: What is the same in lines that are alike.
+            text: The line.
+        """
+        others = kind not in self._counts and len(self._counts) >= MOST_KINDS
+        if others:
+            kind = ""
+        count = self._counts[kind] = self._counts.get(kind, 0) + 1
+        if math.log10(count) % 1:
+            return ""
+        if others:
+            return (
+                f"{text} ({count} more like it, of other names)"
+                if count > 1
+                else (f"{text} (others like it are counted)")
+            )
+        return text if count == 1 else f"{text} ({count} times so far)"
 
 
 class Log:

@@ -196,7 +196,8 @@ class _Supervisor(Supervision):
             return await work
         except Overdue as overdue:
             self._has_not_returned(resident, overdue, line_of(overdue, users_only=True))
-        except (Exception, SystemExit) as error:
+        except (Exception, SystemExit, KeyboardInterrupt) as error:
+            # The stopper takes signals: here, KeyboardInterrupt is raised by the node's own code.
             self.fail(resident, error)
         return None
 

@@ -2,7 +2,6 @@
 
 import asyncio
 import inspect
-import math
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterable, Mapping
 from types import MappingProxyType
@@ -25,16 +24,13 @@ from tftool.world.endpoints import (
     Quality,
     Role,
 )
-from tftool.world.log import Log
+from tftool.world.log import Log, Repeats
 from tftool.world.memory_limit import MemoryBound, allowed
 from tftool.world.offers import NamedOffers, Offer
 from tftool.world.resident import Resident, Supervision
 from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic
 
 T = TypeVar("T")
-
-MOST_REFUSALS = 1_000
-"""How many kinds of what the buffer refuses are told apart while they are counted."""
 
 
 class _Transforms(NamedTuple):
@@ -139,8 +135,9 @@ class World:
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
         self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
-        # How often the buffer refused the same, by what it says.
-        self._refused: dict[str, int] = {}
+        # What the buffer refused, by the code it begins with.
+        self._refused: dict[str, Repeats] = {}
+        self._failed_listeners = Repeats()
         self._statics: dict[str, dict[str, TransformStamped]] = {}
         self._far_statics: dict[str, TransformStamped] = {}
         self.far_nodes: tuple[str, ...] = ()
@@ -621,7 +618,10 @@ class World:
             # A listener of the log that fails at every line fails at this one, too.
             self._is_reporting = True
             try:
-                self.log.error(owner or "world", listener_text("", failure))
+                text = listener_text("", failure)
+                # A listener of messages fails at each one that a peer sends.
+                if text := self._failed_listeners.said(f"{owner}: {text}", text):
+                    self.log.error(owner or "world", text)
             finally:
                 self._is_reporting = False
 
@@ -630,15 +630,14 @@ class World:
         self._supervisor = supervision
 
     def _log_buffer(self, level: str, text: str) -> None:
-        # A node whose samples are refused usually sends them at a high rate.
+        # A node whose samples are refused usually sends them at a high rate, and one that sends
+        # garbage names a new frame each time.
+        code = text.partition(" ")[0]
         kind = text.partition(" because ")[0].partition(" at time ")[0]
-        if kind not in self._refused and len(self._refused) >= MOST_REFUSALS:
-            self._refused.clear()
-        count = self._refused[kind] = self._refused.get(kind, 0) + 1
-        if count > 1:
-            if math.log10(count) % 1:
-                return
-            text = f"{text} ({count} times so far)"
+        kinds = self._refused.setdefault(code, Repeats())
+        text = kinds.said(kind, text)
+        if not text:
+            return
         if level == "ERROR":
             self.log.error("buffer", text)
         else:

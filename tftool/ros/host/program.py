@@ -163,8 +163,8 @@ class Program(Node):
 
     def _leave(self) -> None:
         raised = self.failure or self.fiber.error
-        if isinstance(raised, KeyboardInterrupt):
-            self.status, raised = (130 if self.interrupted else 1), None
+        if isinstance(raised, KeyboardInterrupt) and self.interrupted:
+            self.status, raised = 130, None
         elif isinstance(raised, SystemExit):
             self.status = exit_status(raised)
         else:

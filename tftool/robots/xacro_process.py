@@ -1,0 +1,107 @@
+"""xacro in a process of its own: a description may evaluate Python, without end and without bound.
+
+The process is given the path and the arguments on its command line, and says one JSON object.
+"""
+
+import contextlib
+import importlib.util
+import json
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Final
+
+from tftool.base.errors import InputError, UsageError
+
+TIME_LIMIT: Final = 20.0
+"""Seconds that an expansion may take."""
+
+MEMORY_LIMIT: Final = 1 << 30
+"""Bytes of address space it may take beyond what Python and xacro themselves do."""
+
+_NO_PACKAGE = re.compile(r"Package not found: (\S+)")
+
+
+def expand(path: Path, arguments: Mapping[str, str]) -> str:
+    """Return the text of a description with its xacro expanded.
+
+    Args:
+        path: The file; what it includes lies beside it.
+        arguments: Values of xacro arguments.
+
+    Raises:
+        InputError: If it cannot be expanded, in `TIME_LIMIT` and `MEMORY_LIMIT`.
+        UsageError: If the extra `xacro` is not installed.
+    """
+    if importlib.util.find_spec("xacrodoc") is None:
+        raise UsageError(
+            f"'{path}' contains xacro, which needs an extra: pip install 'tftool-tf2[xacro]'"
+        )
+    refused = f"'{path}' cannot be expanded by xacro"
+    command = [sys.executable, "-m", __name__, str(path), json.dumps(dict(arguments))]
+    try:
+        ended = subprocess.run(command, capture_output=True, timeout=TIME_LIMIT, check=False)
+    except subprocess.TimeoutExpired as error:
+        raise InputError(f"{refused} within {TIME_LIMIT:g} s") from error
+    try:
+        said = json.loads(ended.stdout)
+    except ValueError:
+        said = {"error": f"its process ended with status {ended.returncode}"}
+    if "text" in said:
+        return str(said["text"])
+    if missing := _NO_PACKAGE.search(said["error"]):
+        raise InputError(
+            f"{refused}: there is no package '{missing[1]}': put "
+            "the folder it lies in into the environment variable ROS_PACKAGE_PATH, or source "
+            "its workspace"
+        )
+    raise InputError(f"{refused}: {said['error']}")
+
+
+def _main(path: str, arguments: str) -> None:
+    """Expand a file, on the child's side."""
+    # What expressions of the file print goes nowhere: stdout is for the answer alone.
+    with os.fdopen(os.dup(1), "w", encoding="utf-8") as answer:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        json.dump(_expanded(path, json.loads(arguments)), answer)
+
+
+def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
+    from xacrodoc import XacroDoc, xacrodoc
+
+    _bound_memory()
+    try:
+        # What a file includes lies beside it, wherever it is read from.
+        xacrodoc.xacro.init_stacks(str(Path(path).resolve()))
+        # Names of meshes stay as written: what finds them comes later, or never.
+        expanded = XacroDoc.from_file(path, subargs=arguments, resolve_packages=False)
+        return {"text": str(expanded.dom.toprettyxml(indent="  "))}
+    except BaseException as error:  # xacro raises whatever an expression in the file raises.
+        if _lacks_memory(error):
+            return {"error": f"it needs more than {MEMORY_LIMIT >> 30} GB of memory"}
+        return {"error": " ".join(str(error).split()) or type(error).__name__}
+
+
+def _lacks_memory(error: BaseException | None) -> bool:
+    """Whether an error is a MemoryError, or xacro's own because of one."""
+    return error is not None and (
+        isinstance(error, MemoryError)
+        or _lacks_memory(error.__cause__ or error.__context__ or getattr(error, "exc", None))
+    )
+
+
+def _bound_memory() -> None:
+    # Not on Windows, where there is no such limit, and not where /proc tells nothing.
+    with contextlib.suppress(ImportError, OSError, ValueError):
+        import resource
+
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+        used = pages * resource.getpagesize()
+        resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY_LIMIT, used + MEMORY_LIMIT))
+
+
+if __name__ == "__main__":
+    _main(*sys.argv[1:])
