@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from rich.cells import cell_len
 
 from tftool.base.color import Color
-from tftool.drawing import paper, sprites, theme
+from tftool.drawing import sprites, theme
 from tftool.drawing.canvas import Canvas
 from tftool.drawing.plane import (
     Drawn,
@@ -394,7 +394,7 @@ def frame(name, x, y, theta=0.0, **how):
 
 
 def test_a_frame_is_a_point_with_its_name_a_red_axis_ahead_and_a_green_one_to_its_left():
-    colors = paper.paper(theme.DARK)
+    colors = theme.paper(theme.DARK)
 
     lines = draw(PlanePicture("m", (frame("carrot1", CENTRE, CENTRE, math.pi / 2),)))
 
@@ -409,7 +409,7 @@ def test_a_frame_is_a_point_with_its_name_a_red_axis_ahead_and_a_green_one_to_it
 
 
 def test_an_axis_that_points_at_the_eye_is_not_drawn_and_the_third_is_blue():
-    colors = paper.paper(theme.DARK)
+    colors = theme.paper(theme.DARK)
     down = PlaneFrame("lens", CENTRE, CENTRE, ((0.0, 0.0), (0.0, 1.0), (1.0, 0.0)))
 
     lines = draw(PlanePicture("m", (down,)))
@@ -424,7 +424,7 @@ def test_a_line_leads_from_every_frame_to_its_parent():
     child = frame("b", 9.0, 2.0, parent=(2.0, 2.0))
 
     cells = dotted(
-        draw(PlanePicture("m", (frame("a", 2.0, 2.0), child))), paper.paper(theme.DARK).link
+        draw(PlanePicture("m", (frame("a", 2.0, 2.0), child))), theme.paper(theme.DARK).link
     )
 
     assert {row for _, row in cells} == {13}

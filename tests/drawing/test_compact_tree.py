@@ -7,7 +7,7 @@ from rich.cells import cell_len
 
 from tests.drawing.test_frame_tree import WORLD, fixed, moving, root, snapshot
 from tftool.base.stamps import seconds
-from tftool.drawing.compact_tree import TreeOrder, compact
+from tftool.drawing.frame_tree import TreeOrder, compact
 
 
 def lines(picture, width=80, **options):

@@ -8,7 +8,7 @@ from tftool.base.stamps import seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.drawing.pair_plot import PlotSpan, pair_plot
+from tftool.drawing.line_plot import PlotSpan, pair_plot
 from tftool.geometry.rigid import Transform
 
 START = seconds(1000)

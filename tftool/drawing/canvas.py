@@ -16,19 +16,18 @@ from rich.segment import Segment
 from tftool.base.color import Color
 from tftool.base.fixed_width import fitted
 from tftool.drawing import sprites, theme
-from tftool.drawing.braille_trail import Ink, LooseInk, Stroke, sign_of
-from tftool.drawing.cells import Line, cells_of, line_of, style_of
-from tftool.drawing.labels import Label, PlacedLabel, Placer
-from tftool.drawing.paper import (
-    LINK,
-    ROLES,
-    X_AXIS,
-    Y_AXIS,
-    Z_AXIS,
-    PaperColors,
-    on_field,
-    paper,
+from tftool.drawing.cells import (
+    Cell,
+    Ink,
+    Line,
+    LooseInk,
+    Stroke,
+    cells_of,
+    line_of,
+    sign_of,
+    style_of,
 )
+from tftool.drawing.labels import Label, PlacedLabel, Placer
 from tftool.drawing.plane import (
     FARTHEST,
     Drawn,
@@ -39,7 +38,16 @@ from tftool.drawing.plane import (
     Viewport,
     grid_step,
 )
-from tftool.drawing.sprites import Cell
+from tftool.drawing.theme import (
+    LINK,
+    ROLES,
+    X_AXIS,
+    Y_AXIS,
+    Z_AXIS,
+    PaperColors,
+    on_field,
+    paper,
+)
 from tftool.geometry.motion.unicycle import FIELD
 
 _Overlay: TypeAlias = dict[int, dict[int, Cell]]

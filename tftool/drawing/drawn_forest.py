@@ -1,11 +1,13 @@
-"""Which frames a drawing shows, and what hangs from what, loops and all.
+"""The frames a drawing shows: what hangs from what, loops and all, as rows with guides and facts.
 
 A buffer holds a forest, but what comes in over a link may be anything: a frame whose
 parent hangs from itself must not send a drawing round in circles.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+from tftool.base.stamps import NANOSECONDS, Stamp, display
 from tftool.buffer.sample import FrameInfo, Snapshot
 
 
@@ -88,3 +90,110 @@ def _walk(roots: list[str], children: dict[str, list[str]]) -> list[str]:
     for name in order:  # grows while it is walked
         order.extend(children[name])
     return order
+
+
+@dataclass(frozen=True, slots=True)
+class Guides:
+    """The four pieces a tree is drawn with, all equally wide, and what stands before a name."""
+
+    child: str
+    last: str
+    past: str
+    blank: str
+    gap: str = ""
+
+    def lead(self, turns: tuple[bool, ...]) -> str:
+        """What is drawn before a name.
+
+        Args:
+            turns: From the root's child down to the frame: whether each is the last of its
+                siblings; empty for a root.
+        """
+        if not turns:
+            return ""
+        above = "".join(self.blank if last else self.past for last in turns[:-1])
+        return above + (self.last if turns[-1] else self.child) + self.gap
+
+    def width(self, depth: int) -> int:
+        """How many cells stand before the name of a frame so far below its root."""
+        return len(self.child) * depth + len(self.gap) if depth else 0
+
+
+UNICODE = (
+    Guides("├── ", "└── ", "│   ", "    "),
+    Guides("├─ ", "└─ ", "│  ", "   "),
+    Guides("├ ", "└ ", "│ ", "  "),
+    Guides("├", "└", "│", " ", " "),
+)
+"""From wide to narrow."""
+
+ASCII = (
+    Guides("|-- ", "`-- ", "|   ", "    "),
+    Guides("|- ", "`- ", "|  ", "   "),
+    Guides("| ", "` ", "| ", "  "),
+    Guides("|", "`", "|", " ", " "),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """One frame where it stands in its tree.
+
+    Attributes:
+        info: The frame.
+        turns: What `Guides.lead` draws its guides by.
+        closes_loop: Whether its own link closes a loop, which is cut there.
+    """
+
+    info: FrameInfo
+    turns: tuple[bool, ...]
+    closes_loop: bool
+
+
+def branches(forest: Forest) -> Iterator[Branch]:
+    """Every frame, parents before children; a deep tree needs no deep stack."""
+    waiting: list[tuple[str, tuple[bool, ...]]] = [(root, ()) for root in reversed(forest.roots)]
+    while waiting:
+        frame, turns = waiting.pop()
+        yield Branch(forest.info[frame], turns, frame in forest.loops)
+        for place, child in enumerate(reversed(forest.children[frame])):
+            waiting.append((child, (*turns, place == 0)))
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What is known of one link, as text; numbers lose trailing zeros as they do in rqt_tf_tree."""
+
+    broadcaster: str
+    rate: str
+    buffer_length: str
+    newest: str
+    oldest: str
+
+    def lines(self, *, units: bool) -> tuple[str, str, str, str, str]:
+        """The five lines in rqt_tf_tree's words, with units behind the numbers if asked for."""
+        hertz, second = (" Hz", " s") if units else ("", "")
+        return (
+            f"Broadcaster: {self.broadcaster}",
+            f"Average rate: {self.rate}{hertz}",
+            f"Buffer length: {self.buffer_length}{second}",
+            f"Most recent transform: {self.newest}{second}",
+            f"Oldest transform: {self.oldest}{second}",
+        )
+
+
+def facts(frame: FrameInfo) -> Facts:
+    """Write the facts of the link above `frame`; the numbers pass through Python's own floats."""
+    return Facts(
+        broadcaster=frame.authority or "no recorded authority",
+        rate=str(float(f"{frame.rate:.3f}")),
+        buffer_length=str(float(f"{frame.buffer_length / NANOSECONDS:.3f}")),
+        newest=str(float(display(frame.newest))),
+        oldest=str(float(display(frame.oldest))),
+    )
+
+
+def recorded_at(now: Stamp) -> str:
+    """The legend: when the snapshot was taken."""
+    whole, rest = divmod(now, NANOSECONDS)
+    return f"Recorded at time: {whole + rest / 1e9}"

@@ -1,7 +1,13 @@
-"""Every tree of frames: as text for people, as data for programs."""
+"""Every tree of frames: as text for people, in full or in a terminal's width; as data for programs.
+
+In a terminal, what does not fit goes one by one: first the columns that say least, of the
+broadcasters' names their middle, then wide guides, then the middle of the frames' names.
+"""
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
 from itertools import zip_longest
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
@@ -10,11 +16,12 @@ from rich.cells import cell_len
 from rich.text import Text
 
 from tftool.base.escaping import distinct, visible
-from tftool.base.short_numbers import finite
-from tftool.base.stamps import as_seconds, display
+from tftool.base.fixed_width import middle_cut
+from tftool.base.short_numbers import finite, short_duration, short_rate
+from tftool.base.stamps import FRAME_TIMEOUT, Stamp, as_seconds, display
 from tftool.buffer.sample import FrameInfo, Snapshot
-from tftool.drawing.branches import ASCII, UNICODE, Branch, Guides, branches
-from tftool.drawing.drawn_forest import grow
+from tftool.drawing.drawn_forest import ASCII, UNICODE, Branch, Forest, Guides, branches, grow
+from tftool.drawing.table_columns import Cell, TableColumn, fit
 from tftool.geometry.rigid import Transform
 
 NOTHING = "No tf data received"
@@ -245,3 +252,283 @@ def _pose_object(pose: Transform | None) -> dict[str, list[float | None]] | None
         "translation": [finite(number) for number in pose.translation],
         "rotation": [finite(number) for number in pose.rotation],
     }
+
+
+LEAST_NAME = 16
+"""Cells that names get, and what is before them, before a column is given up for them."""
+
+SHARE = 0.6
+"""Of the width, what names and guides may take before guides shrink and names are cut."""
+
+BROADCASTERS = (24, 16, 11)
+"""How many cells names of broadcasters get; fewer rather than none."""
+
+
+class TreeOrder(StrEnum):
+    """What decides which frame stands above which."""
+
+    tree = "tree"
+    name = "name"
+    rate = "rate"
+    age = "age"
+    broadcaster = "broadcaster"
+
+
+@dataclass(frozen=True, slots=True)
+class CompactTree:
+    """Lines of a terminal.
+
+    Attributes:
+        heading: Above the frames: when, how many trees, and what the columns are.
+        rows: One a frame.
+        is_cut: Whether a name is not there in full.
+    """
+
+    heading: tuple[Text, ...]
+    rows: tuple[Text, ...]
+    is_cut: bool
+
+
+Told = Callable[[FrameInfo], str]
+
+
+def _measured(told: Told) -> Told:
+    return lambda info: "" if info.is_static else told(info)
+
+
+def _broadcaster(info: FrameInfo) -> str:
+    return visible(info.authority or "-")
+
+
+def _rate(info: FrameInfo) -> str:
+    if info.is_static:
+        return "static"
+    return "-" if info.samples < 2 else short_rate(info.rate)
+
+
+_KEPT = _measured(lambda info: short_duration(info.buffer_length))
+_OLDEST = _measured(lambda info: display(info.oldest))
+_NEWEST = _measured(lambda info: display(info.newest))
+_AGE = _measured(lambda info: short_duration(info.age))
+
+
+def compact(
+    snapshot: Snapshot,
+    width: int,
+    *,
+    ascii_only: bool = False,
+    moving: Collection[str] | None = None,
+    marks: Mapping[str, Sequence[str]] | None = None,
+    order: TreeOrder = TreeOrder.tree,
+    wanted: str = "",
+) -> CompactTree:
+    """Draw every tree, one line a frame.
+
+    Args:
+        snapshot: What to draw.
+        width: Columns there are.
+        ascii_only: Whether to keep to ASCII for the guides.
+        moving: Of a robot description, the frames whose joint moves; None for other frames.
+        marks: What is wrong with frames: ids of the doctor's checks.
+        order: What decides the order; any but the tree's own leaves out guides.
+        wanted: Only frames whose name has these letters, and in the tree what they hang from.
+    """
+    forest = grow(snapshot)
+    rows = _ordered(forest, order, wanted)
+    if moving is not None:
+        rows = [_of_robot(branch, moving) for branch in rows]
+    told = _told(snapshot, moving)
+    more = "~" if ascii_only else "…"
+    drawing = _Drawing(rows, distinct(forest.info), width, ascii_only, order)
+    longest = max(drawing.longest(drawing.guides), cell_len(told), LEAST_NAME)
+    columns = fit(
+        _link_columns(rows, width, moving, marks or {}),
+        width,
+        wanted=min(longest, drawing.most),
+        longest=longest,
+        more=more,
+    )
+    heading = [columns.heading(told)]
+    if len(forest.roots) > 1:
+        listed = ", ".join(visible(root) for root in forest.roots)
+        text = middle_cut(f"{len(forest.roots)} separate trees: {listed}", width, more=more)
+        heading.insert(0, Text(text, style="yellow"))
+    lines = tuple(
+        columns.row(
+            place,
+            drawing.first(
+                branch, columns.room, marked=bool(_wrong(branch, marks or {})), more=more
+            ),
+        )
+        for place, branch in enumerate(rows)
+    )
+    return CompactTree(tuple(heading), lines, drawing.is_cut)
+
+
+def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
+    """The same frame; in a description nothing is sent, and a joint that moves counts."""
+    info = branch.info
+    return replace(branch, info=info._replace(is_static=info.frame not in moving))
+
+
+def moment(stamp: Stamp) -> str:
+    """A stamp where the drawing has little room: to the millisecond."""
+    return f"{as_seconds(stamp):.3f}"
+
+
+def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
+    """What the drawing is of, in few words."""
+    if moving is not None:
+        return f"{len(moving)} of {len(snapshot.frames) - 1} joints move"
+    if snapshot.at:
+        return f"at {moment(snapshot.at)}, seen at {moment(snapshot.now)}"
+    return f"at {moment(snapshot.now)}"
+
+
+def _ordered(forest: Forest, order: TreeOrder, wanted: str) -> list[Branch]:
+    rows = list(branches(forest))
+    if wanted:
+        found = {one.info.frame for one in rows if wanted.lower() in one.info.frame.lower()}
+        if order is TreeOrder.tree:
+            # What they hang from is drawn too, or the guides would lead nowhere.
+            for one in reversed(rows):
+                if one.info.frame in found and one.info.parent is not None:
+                    found.add(one.info.parent)
+            return list(branches(_pruned(forest, found)))
+        rows = [one for one in rows if one.info.frame in found]
+    if order is not TreeOrder.tree:
+        rows.sort(key=lambda one: _key(one.info, order))
+    return rows
+
+
+def _pruned(forest: Forest, kept: Collection[str]) -> Forest:
+    children = {
+        name: tuple(child for child in below if child in kept)
+        for name, below in forest.children.items()
+        if name in kept
+    }
+    roots = tuple(root for root in forest.roots if root in kept)
+    return Forest(roots, forest.loops, children, {}, forest.info)
+
+
+def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
+    """What frames are sorted by: what is fast, or old, comes first, and statics last."""
+    still = info.is_static or info.parent is None
+    if order is TreeOrder.rate:
+        return (still, -info.rate if info.samples > 1 else 0.0, info.frame)
+    if order is TreeOrder.age:
+        return (still, -info.age, info.frame)
+    if order is TreeOrder.broadcaster:
+        return (info.parent is None, info.authority or "", info.frame)
+    return (info.frame,)
+
+
+def _wrong(branch: Branch, marks: Mapping[str, Sequence[str]]) -> str:
+    if branch.closes_loop:
+        return f"a loop: hangs from {visible(branch.info.parent or '-')}"
+    ids = marks.get(branch.info.frame, ())
+    if not ids:
+        return ""
+    return ids[0] if len(ids) == 1 else f"{ids[0]} +{len(ids) - 1}"
+
+
+def _link_columns(
+    rows: list[Branch],
+    width: int,
+    moving: Collection[str] | None,
+    marks: Mapping[str, Sequence[str]],
+) -> list[TableColumn]:
+    """What there is to say about each frame, beside its name."""
+
+    def cells(told: Told, style: str = "") -> list[Cell]:
+        return [
+            ("", "")
+            if one.info.parent is None
+            else (told(one.info), "dim" if one.info.is_static else style)
+            for one in rows
+        ]
+
+    wrong = [(_wrong(one, marks), "yellow") for one in rows]
+    last = TableColumn("wrong", wrong, caps=(max(12, width // 4),))
+    if moving is not None:
+        kinds = cells(lambda info: "fixed" if info.is_static else "moving")
+        return [
+            TableColumn("link", kinds, goes=2),
+            TableColumn("joint", cells(_broadcaster), caps=BROADCASTERS, goes=1),
+            last,
+        ]
+    ages = [
+        (text, _age_style(one.info) if why else style)
+        for one, (text, style), (why, _) in zip(rows, cells(_AGE), wrong, strict=True)
+    ]
+    return [
+        TableColumn("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, goes=4),
+        TableColumn("rate", cells(_rate), stands_right=True, goes=5),
+        TableColumn("kept", cells(_KEPT), stands_right=True, goes=3),
+        TableColumn("oldest", cells(_OLDEST, "dim"), stands_right=True, goes=1),
+        TableColumn("newest", cells(_NEWEST, "dim"), stands_right=True, goes=2),
+        TableColumn("age", ages, stands_right=True, goes=6),
+        last,
+    ]
+
+
+class _Drawing:
+    """The first column: guides, and names behind them."""
+
+    def __init__(
+        self,
+        rows: list[Branch],
+        names: Mapping[str, str],
+        width: int,
+        ascii_only: bool,
+        order: TreeOrder,
+    ) -> None:
+        self.rows = rows
+        self.names = names
+        self.is_flat = order is not TreeOrder.tree
+        self.most = max(LEAST_NAME, int(width * SHARE))
+        kinds = ASCII if ascii_only else UNICODE
+        self.guides = next((one for one in kinds if self.longest(one) <= self.most), kinds[-1])
+        self.is_cut = False
+
+    def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
+        """Guides and name of one frame in `room` cells."""
+        lead = self._lead(branch, more)
+        name = self.names[branch.info.frame]
+        shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)
+        self.is_cut = self.is_cut or shown != name
+        return (
+            Text().append(lead, style="dim").append(shown, style=_name_style(branch.info, marked))
+        )
+
+    def longest(self, guides: Guides) -> int:
+        """How many cells the longest name takes with what is before it."""
+        return max(
+            (
+                cell_len(self.names[one.info.frame])
+                + (0 if self.is_flat else min(guides.width(len(one.turns)), self.most))
+                for one in self.rows
+            ),
+            default=LEAST_NAME,
+        )
+
+    def _lead(self, branch: Branch, more: str) -> str:
+        if self.is_flat or not branch.turns:
+            return ""
+        depth = len(branch.turns)
+        if self.guides.width(depth) <= self.most:
+            return self.guides.lead(branch.turns)
+        # So deep that guides alone would fill the line: a number says where it hangs.
+        return f"{depth}{more}{self.guides.lead(branch.turns[-1:])}"
+
+
+def _name_style(info: FrameInfo, marked: bool) -> str:
+    if marked:
+        return "yellow"
+    if info.parent is None:
+        return "bold"
+    return "cyan" if info.is_static else ""
+
+
+def _age_style(info: FrameInfo) -> str:
+    return "red" if as_seconds(info.age) > FRAME_TIMEOUT else "yellow"

@@ -2,12 +2,64 @@
 
 Every PDF reader brings Helvetica along, for the letters of Western Europe only. Any
 other letter is written as its number, <U+4E16>, so that nothing vanishes in silence.
+
+The font's published widths, in thousandths of its size, make the boxes fit what is written
+into them; browsers draw the same sheets with a font of their own that is about as wide.
 """
 
 import zlib
+from typing import TYPE_CHECKING
 
-from tftool.drawing.font import fit, width
-from tftool.drawing.picture import Box, Curve, Picture, Text
+if TYPE_CHECKING:
+    from tftool.drawing.picture import Box, Curve, Picture, Text
+
+
+_ASCII = (
+    # 0x20 to 0x7e
+    *(278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278),
+    *(556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556),
+    *(1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778),
+    *(667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556),
+    *(333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556),
+    *(556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584),
+)
+_OTHER = 620
+_WIDE = 1000
+_BOLD = 1.07
+
+
+def width(text: str, size: float, *, bold: bool = False) -> float:
+    """Estimate how long a text is, in the unit of `size`."""
+    total = sum(map(_char_width, text)) * size / 1000
+    return total * _BOLD if bold else total
+
+
+def _char_width(char: str) -> int:
+    code = ord(char) - 0x20
+    if 0 <= code < len(_ASCII):
+        return _ASCII[code]
+    # From Hangul's first letters on, most of what people write is about square.
+    return _WIDE if ord(char) >= 0x1100 else _OTHER
+
+
+def fit(text: str, size: float, room: float, *, bold: bool = False) -> str:
+    """Cut a text in its middle until it is no wider than `room`."""
+    if width(text, size, bold=bold) <= room:
+        return text
+    budget = room - width("…", size, bold=bold)
+    head, tail = 0, len(text)
+    while head < tail:
+        from_head = head <= len(text) - tail
+        char = text[head] if from_head else text[tail - 1]
+        budget -= width(char, size, bold=bold)
+        if budget < 0:
+            break
+        if from_head:
+            head += 1
+        else:
+            tail -= 1
+    return f"{text[:head]}…{text[tail:]}"
+
 
 _LARGEST = 14_400.0
 """Readers refuse pages longer than this many points; larger drawings are scaled down."""
@@ -37,7 +89,7 @@ _STATIC_LINK = _STROKE["static"]
 _QUARTER = 0.5523
 
 
-def render(picture: Picture) -> bytes:
+def render(picture: "Picture") -> bytes:
     """Write a picture as a PDF file of one page."""
     scale = min(1.0, _LARGEST / max(picture.width, picture.height))
     wide, high = picture.width * scale, picture.height * scale
@@ -66,7 +118,7 @@ def render(picture: Picture) -> bytes:
     )
 
 
-def missing_letters(picture: Picture) -> str:
+def missing_letters(picture: "Picture") -> str:
     """The letters of a picture that Helvetica has not, each once, in their order there."""
     return "".join(
         dict.fromkeys(char for text in picture.texts for char in text.text if not _has_letter(char))
@@ -92,13 +144,13 @@ def _file(objects: list[bytes]) -> bytes:
     return bytes(out)
 
 
-def _link(link: Curve) -> str:
+def _link(link: "Curve") -> str:
     dash = "[5 4] 0 d" if link.static else "[] 0 d"
     ink = _colour(_STATIC_LINK if link.static else _LINK, "RG")
     return f"{ink} 1.6 w {dash} {link.x0:.2f} {link.y0:.2f} m {_numbers(*link.bends)} c S"
 
 
-def _box(box: Box) -> str:
+def _box(box: "Box") -> str:
     fill = _FILL[box.kind]
     style = [_colour(_STROKE[box.kind], "RG"), "1.2 w", _DASH.get(box.kind, "[] 0 d")]
     if fill is not None:
@@ -107,7 +159,7 @@ def _box(box: Box) -> str:
     return " ".join([*style, _rounded(box, radius), "B" if fill is not None else "S"])
 
 
-def _rounded(box: Box, radius: float) -> str:
+def _rounded(box: "Box", radius: float) -> str:
     left, top, right, bottom = box.x, box.y, box.x + box.width, box.y + box.height
     handle = radius * (1 - _QUARTER)
     return " ".join(
@@ -125,7 +177,7 @@ def _rounded(box: Box, radius: float) -> str:
     )
 
 
-def _text(text: Text) -> str:
+def _text(text: "Text") -> str:
     bold = text.kind == "name"
     latin = _latin(text.text)
     if latin != text.text:

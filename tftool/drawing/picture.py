@@ -15,9 +15,8 @@ from tftool.base.escaping import distinct, visible
 from tftool.base.short_numbers import short_duration
 from tftool.base.stamps import Duration
 from tftool.buffer.sample import Snapshot
-from tftool.drawing.drawn_forest import Forest, grow
-from tftool.drawing.font import fit, width
-from tftool.drawing.link_facts import facts, recorded_at
+from tftool.drawing.drawn_forest import Forest, facts, grow, recorded_at
+from tftool.drawing.pdf import fit, width
 from tftool.drawing.tree_layout import Item, tidy
 
 MOST_DRAWN = 1000

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple, TypeAlias
 
 from tftool.base.color import BACKGROUND, Color
-from tftool.drawing.braille_trail import Stroke
+from tftool.drawing.cells import Stroke
 from tftool.geometry.motion.unicycle import FIELD
 
 _APART: Final = 3.4

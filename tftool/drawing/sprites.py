@@ -6,10 +6,10 @@ A body is drawn with quadrant blocks: four pixels and two colours to a cell.
 import math
 from collections import Counter
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from tftool.base.color import Color
 from tftool.drawing import theme
+from tftool.drawing.cells import Cell
 
 ARROWS = "→↗↑↖←↙↓↘"
 ASCII_ARROWS = ">7^F<LvJ"
@@ -23,15 +23,6 @@ BODY_FROM = 2.4
 
 BADGE_FROM = 0.9
 """Rows per metre from which the arrow gets a coloured badge of about a metre."""
-
-
-class Cell(NamedTuple):
-    """What one cell of the screen shows. No ground colour: the field's own."""
-
-    text: str
-    ink: Color | None = None
-    ground: Color | None = None
-    bold: bool = False
 
 
 def octant(theta: float) -> int:

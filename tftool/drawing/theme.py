@@ -1,4 +1,4 @@
-"""Colours: turtlesim's own, a stable one per name, and those of screens, dark and light.
+"""Colours: turtlesim's own, a stable one per name, and those of screens and grounds.
 
 Fading as rviz does is the page's: `screens/browser/page/model.js`.
 """
@@ -6,13 +6,14 @@ Fading as rviz does is the page's: `screens/browser/page/model.js`.
 import zlib
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from tftool.base.color import Color
 from tftool.base.stamps import FRAME_TIMEOUT
 
 if TYPE_CHECKING:
     from rich.style import Style
+
 
 WALL = Color(255, 92, 87)
 INK = Color(16, 20, 48)
@@ -129,3 +130,52 @@ def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool
     """Tell from COLORFGBG, which some terminals set, whether their ground is light."""
     ground = environment.get("COLORFGBG", "").rpartition(";")[2]
     return ground in {"7", "15"}
+
+
+class PaperColors(NamedTuple):
+    """What is drawn on a ground: its colours for all that is no frame's own."""
+
+    ground: Color
+    grid: Color
+    link: Color
+    x_axis: Color
+    y_axis: Color
+    z_axis: Color
+    accent: Color
+
+
+_BRIGHT: Final = (Color(255, 85, 85), Color(80, 230, 120), Color(110, 170, 255))
+_DEEP: Final = (Color(205, 20, 30), Color(0, 135, 50), Color(20, 90, 230))
+
+LINK, X_AXIS, Y_AXIS, Z_AXIS, PAIR = (Color(-1, -1, -1 - number) for number in range(5))
+"""Stand for colours that depend on the ground below; no real colour is negative."""
+
+ROLES: Final = {LINK: 2, X_AXIS: 3, Y_AXIS: 4, Z_AXIS: 5, PAIR: 6}
+"""Which of `PaperColors` each of them stands for."""
+
+
+def paper(palette: Palette) -> PaperColors:
+    """The colours on a screen's own ground."""
+    red, green, blue = _DEEP if palette is LIGHT else _BRIGHT
+    return PaperColors(
+        palette.panel,
+        blend(palette.panel, palette.dim, 0.25),
+        blend(palette.panel, palette.dim, 0.85),
+        red,
+        green,
+        blue,
+        palette.accent,
+    )
+
+
+def on_field(ground: Color) -> PaperColors:
+    """The colours on the turtles' field, turtlesim's blue unless it is repainted."""
+    return PaperColors(
+        ground,
+        blend(ground, WHITE, 0.13),
+        blend(ground, WHITE, 0.45),
+        Color(255, 110, 110),
+        Color(95, 255, 135),
+        Color(170, 205, 255),
+        DARK.accent,
+    )

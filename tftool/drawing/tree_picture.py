@@ -12,10 +12,8 @@ from tftool.base.escaping import distinct, shorten, visible
 from tftool.buffer.sample import Snapshot
 from tftool.drawing import pdf as pdf_writer
 from tftool.drawing import svg as svg_writer
-from tftool.drawing import tree_html as page_writer
-from tftool.drawing.drawn_forest import Forest, grow
+from tftool.drawing.drawn_forest import Forest, facts, grow, recorded_at
 from tftool.drawing.frame_tree import NO_MARKS, Marks
-from tftool.drawing.link_facts import facts, recorded_at
 from tftool.drawing.picture import MOST_DRAWN, lay_out
 
 
@@ -173,7 +171,7 @@ def svg(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
 def page(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Draw the trees as one file of HTML: the SVG, and below it every frame in a table."""
     picture = lay_out(snapshot, stale=_stale(marks))
-    content = page_writer.render(snapshot, svg_writer.render(picture), marks)
+    content = svg_writer.page(snapshot, svg_writer.render(picture), marks)
     return Drawing(content, picture.left_out, _picture_note(picture.left_out))
 
 

@@ -5,8 +5,7 @@ from rich.text import Text
 
 from tftool.buffer.sample import Snapshot
 from tftool.drawing import frame_tree
-from tftool.drawing.compact_tree import compact
-from tftool.drawing.frame_tree import NOTHING, Marks, advice
+from tftool.drawing.frame_tree import NOTHING, Marks, advice, compact
 
 Moving = frozenset[str] | None
 """The links of a description whose joint moves; None for other frames."""

@@ -9,7 +9,7 @@ from tftool.base.errors import TransformException
 from tftool.base.stamps import Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.drawing import theme
-from tftool.drawing.braille_trail import Stroke
+from tftool.drawing.cells import Stroke
 from tftool.drawing.plane import FARTHEST, Box, Drawn, Point
 
 PERIOD = seconds(0.1)

@@ -5,7 +5,7 @@ from rich.text import Text
 
 from tftool.base.errors import TransformException
 from tftool.base.stamps import seconds
-from tftool.drawing.pair_plot import LABELS, PlotSpan, pair_plot
+from tftool.drawing.line_plot import PAIR_LABELS, PlotSpan, pair_plot
 from tftool.screens.terminal.scene import Scene, SceneMoment
 from tftool.screens.terminal.text_style import Look, wrapped
 
@@ -38,7 +38,7 @@ class PairPlot:
             first = now - SPAN if moment.behind <= SPAN else moment.stamp - SPAN // 2
             span = PlotSpan(first, first + SPAN, scene.start, moment.stamp)
         pair = moment.pair
-        columns = max(1, width - LABELS - 1)
+        columns = max(1, width - PAIR_LABELS - 1)
         period = max(1, SPAN // (2 * columns))
         # On a grid of its own, so that a curve moves and does not tremble.
         stamps = np.arange(span.first // period + 1, span.last // period + 1) * period

@@ -10,7 +10,7 @@ from tftool.base.errors import TransformException
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.buffer.snapshot import rate_of
-from tftool.drawing.braille_trail import Stroke
+from tftool.drawing.cells import Stroke
 from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
 from tftool.geometry.motion.unicycle import FIELD
 from tftool.geometry.planar import heading, transform_from_pose

@@ -9,8 +9,7 @@ from textual.app import ComposeResult
 
 from tftool.base.fixed_width import fitted, plain
 from tftool.buffer.sample import Snapshot
-from tftool.drawing.compact_tree import CompactTree, TreeOrder, compact
-from tftool.drawing.frame_tree import NOTHING
+from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
 from tftool.screens.terminal.panel import Panel
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.text_style import wrapped
