@@ -4,8 +4,8 @@ from functools import partial
 import pytest
 
 from tftool.commands.shared import on_screen as onscreen
-from tftool.screens.terminal import run_screen as showing
 from tftool.screens.terminal import turtle_app as terminal
+from tftool.screens.terminal import world_app as showing
 
 BAD = """\
 about: Nothing holds.

@@ -5,7 +5,7 @@ import pytest
 from tftool.base.errors import UsageError
 from tftool.commands.teleop.command import press_there
 from tftool.messages.turtle_messages import Pose, Twist
-from tftool.screens.terminal import run_screen as showing
+from tftool.screens.terminal import world_app as showing
 from tftool.world.clock import SimClock, run
 from tftool.world.nodes.turtle_teleop import BANNER
 from tftool.world.world import World

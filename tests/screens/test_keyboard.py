@@ -4,7 +4,7 @@ import sys
 
 from textual.driver import Driver
 
-from tftool.screens.terminal.keyboard import events, tolerant
+from tftool.screens.terminal.world_app import input_events, tolerant
 
 
 class Broken:
@@ -41,9 +41,9 @@ def test_the_keys_are_read_on_where_textual_has_moved_its_parser(monkeypatch):
 
 
 def test_textual_has_its_parser_where_the_keyboard_looks_for_it():
-    found = [event.key for event in events("q")]
+    found = [event.key for event in input_events("q")]
 
-    assert found == ["q"], "Textual moved XTermParser: mend screens/terminal/keyboard.py"
+    assert found == ["q"], "Textual moved XTermParser: mend screens/terminal/world_app.py"
 
 
 def test_a_driver_that_decodes_nothing_stays_as_it_is():

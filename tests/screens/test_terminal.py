@@ -4,6 +4,7 @@ import asyncio
 
 import pytest
 from rich.cells import cell_len
+from rich.text import Text
 
 from tests.screens.visiting import screen, settled, shown, told, visit
 from tests.world.nodes.vectors import VECTORS
@@ -12,10 +13,9 @@ from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.drawing import theme
 from tftool.geometry.rigid import Transform
-from tftool.screens.terminal.keyboard import events
-from tftool.screens.terminal.panel import Panel
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.turtle_app import TurtleApp
+from tftool.screens.terminal.world_app import Panel, input_events
 from tftool.world.nodes.idle_drawing import IdleDrawing
 
 BANNER = ("Reading from keyboard", "'q' to quit.")
@@ -271,6 +271,22 @@ def test_the_key_help_comes_and_goes(danced):
     assert told(shown(danced, keys=("?", "escape"))) == told(plain)
 
 
+def test_a_panel_shows_text_it_was_given_before_it_had_a_size(danced):
+    lines = []
+
+    async def steps(app, pilot):
+        panel = app.panel("keys")
+        panel.show([Text("given early")])
+        panel.display = True
+        panel.styles.width, panel.styles.height = 30, 5
+        await settled(pilot)
+        lines.extend(screen(app))
+
+    visit(danced, (100, 30), steps)
+
+    assert "given early" in "\n".join(lines)
+
+
 @pytest.mark.parametrize("case", VECTORS["teleop_keys"], ids=lambda case: case["key"])
 def test_what_a_terminal_sends_for_a_key_drives(danced, case):
     final = chr(int(case["final_byte"], 16))
@@ -279,7 +295,7 @@ def test_what_a_terminal_sends_for_a_key_drives(danced, case):
 
     async def steps(app, pilot):
         # As the terminal's driver does it, from the bytes on.
-        for event in events(sent):
+        for event in input_events(sent):
             app.post_message(event)
         await settled(pilot)
 

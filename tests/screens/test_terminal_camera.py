@@ -1,7 +1,7 @@
 """What of the picture the screen of the turtles shows."""
 
 from tests.screens.visiting import screen, settled, shown, visit
-from tftool.screens.terminal.keyboard import events
+from tftool.screens.terminal.world_app import input_events
 
 
 def test_the_picture_is_drawn_in_the_frame_that_is_chosen(danced):
@@ -46,7 +46,7 @@ def test_the_picture_is_moved(danced):
 def mouse(app, *sent):
     """Hand over what a terminal sends for its mouse: SGR codes, from the bytes on."""
     for code in sent:
-        for event in events(f"\x1b[<{code}"):
+        for event in input_events(f"\x1b[<{code}"):
             app.post_message(event)
 
 

@@ -7,9 +7,9 @@ import pytest
 from tests.screens.visiting import visit
 from tftool.base.errors import NodeFailed, TftoolError
 from tftool.base.stamps import seconds
-from tftool.screens.terminal.run_screen import show
 from tftool.screens.terminal.scene import Scene
 from tftool.screens.terminal.turtle_app import TurtleApp
+from tftool.screens.terminal.world_app import show
 from tftool.world.clock import WallClock, run
 from tftool.world.node import Node
 from tftool.world.supervisor import live

@@ -19,9 +19,9 @@ from tftool.opener import kind_in_words, load_described, named
 from tftool.recordings.find import Kind
 from tftool.robots.robot_model import Robot
 from tftool.screens.terminal.robot_app import RobotApp
-from tftool.screens.terminal.run_screen import show
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.sliders import Sliders
+from tftool.screens.terminal.world_app import show
 from tftool.world.clock import run as run_loop
 from tftool.world.link.session_world import Session
 from tftool.world.nodes.joints import (

@@ -76,10 +76,10 @@ def run_app(
         NodeFailed: If a node raised.
         KeyboardInterrupt: If a signal or Ctrl-C ended it.
     """
-    from tftool.screens.terminal.run_screen import show
     from tftool.screens.terminal.scene import Scene
     from tftool.screens.terminal.screen_options import setting_from
     from tftool.screens.terminal.turtle_app import TurtleApp
+    from tftool.screens.terminal.world_app import show
     from tftool.world.clock import run
     from tftool.world.nodes.remote_turtles import FarTurtles
 

@@ -6,9 +6,9 @@ import sys
 from tftool.base.stamps import Duration
 from tftool.commands.shared.notices import is_news
 from tftool.doctor.frame_marks import marks
-from tftool.screens.terminal.run_screen import show
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.tree_app import TreeWatch
+from tftool.screens.terminal.world_app import show
 from tftool.world.clock import run
 from tftool.world.link.session_world import Session
 from tftool.world.log import LogRecord

@@ -1,19 +1,22 @@
-"""The text in the panels of the terminal app: pure, from a moment to lines of a given width."""
+"""The text in the panels of the terminal app, from a moment to lines of a width, and its keys."""
 
 import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
+import numpy as np
 from rich.cells import cell_len
 from rich.text import Text
 
+from tftool.base.errors import TransformException
 from tftool.base.fixed_width import fitted, padded, plain
-from tftool.base.stamps import as_seconds
+from tftool.base.stamps import as_seconds, seconds
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.drawing import theme
+from tftool.drawing.line_plot import PAIR_LABELS, PlotSpan, pair_plot
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.screens.terminal.scene import SceneMoment
-from tftool.screens.terminal.screen_layout import BLOCK_LINES
+from tftool.screens.terminal.scene import Scene, SceneMoment
+from tftool.screens.terminal.screen_options import BLOCK_LINES
 from tftool.screens.terminal.text_style import Look, wrapped
 
 
@@ -288,3 +291,138 @@ def footer(hints: Sequence[Hint], width: int, look: Look) -> Text:
         room -= hint.cell_len + 2
     line.append_text(last)
     return line
+
+
+DRIVING = """\
+ Arrow keys   drive turtle1; a press lasts a second
+ g t r e      turn to 0, 45, 90, 135 degrees
+ d c v b      turn to 180, -135, -90, -45 degrees
+ f            give the turn up
+
+"""
+
+LOOKING = """\
+ Tab          next panel (Shift+Tab: back)
+ Up, Down     in the tree: pick a frame (also j, k)
+ Enter        measure from the frame picked
+ x            swap the two frames
+ F            draw the picture in the frame picked (again: in the root)
+
+ + - 0        nearer, farther, all there is (also the wheel)
+ Shift+Arrow  move the picture (or drag it)
+
+ [ ]          back and on in time by 0.1 s
+ { }          by a second
+ l            back to live
+
+ L            open the log, or close it (Esc closes it too)
+"""
+
+CHOOSING = """\
+ o            another scenario
+"""
+
+LEAVING = """\
+ m            light or dark
+ ? or Esc     close these keys
+ q            quit
+"""
+
+
+def told(*, drives: bool, chooses: bool) -> str:
+    """Say what every key does, a line each; none that does nothing here.
+
+    Args:
+        drives: Whether something can be driven.
+        chooses: Whether another scenario can be chosen.
+    """
+    return f"{DRIVING if drives else ''}{LOOKING}{CHOOSING if chooses else ''}{LEAVING}"
+
+
+def hints(
+    panel: str, *, drives: bool, past: bool, ascii_only: bool, chooses: bool = False
+) -> Sequence[Hint]:
+    """List the keys that matter now, in the order in which a narrow line keeps them.
+
+    Args:
+        panel: The panel that has the keys.
+        drives: Whether something can be driven.
+        past: Whether an earlier moment is shown.
+        ascii_only: Whether keys are written in ASCII.
+        chooses: Whether another scenario can be chosen.
+    """
+    arrows, updown = ("arrows", "up/down") if ascii_only else ("↑↓←→", "↑↓")
+    travel = [Hint("l", "live"), Hint("[ ]", "time")] if past else [Hint("[ ]", "past")]
+    always = [*travel, Hint("Tab", "panel"), Hint("?", "keys")]
+    if panel == "scenarios":
+        return [
+            Hint(updown, "choose"),
+            Hint("Enter", "show it"),
+            Hint("Esc", "back"),
+            Hint("q", "quit"),
+        ]
+    end = Hint("q", "quit")
+    if panel == "tree":
+        pick = [Hint(updown, "pick"), Hint("Enter", "measure from"), Hint("x", "swap")]
+        return [*pick, *always, end]
+    if panel == "pair":
+        return [Hint(updown, "source"), Hint("x", "swap"), *always, end]
+    if panel == "log":
+        return [Hint(updown, "scroll"), *always, end]
+    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom")]
+    other = [Hint("o", "scenarios")] if chooses else []
+    if not drives:
+        return [*always, *look, *other, end]
+    turn = [Hint("gbvcdert", "turn, f cancel")]
+    return [Hint(arrows, "drive"), *always, *look, *other, *turn, end]
+
+
+SPAN = seconds(10.0)
+"""How much of time is shown."""
+
+
+class PairPlot:
+    """Draws a pair's distance and yaw, and where in it the moment shown lies."""
+
+    def __init__(self) -> None:
+        self._key: object = None
+        self._lines: list[Text] = []
+
+    def lines(
+        self, moment: SceneMoment, scene: Scene, width: int, height: int, look: Look
+    ) -> list[Text]:
+        """Look the pair up over the last seconds, or round an earlier moment.
+
+        Args:
+            moment: What is shown.
+            scene: Where the pair is looked up.
+            width: Cells across.
+            height: Lines.
+            look: How to paint.
+        """
+        now = moment.stamp + moment.behind
+        span = PlotSpan(now - SPAN, now, scene.start)
+        if moment.behind:
+            first = now - SPAN if moment.behind <= SPAN else moment.stamp - SPAN // 2
+            span = PlotSpan(first, first + SPAN, scene.start, moment.stamp)
+        pair = moment.pair
+        columns = max(1, width - PAIR_LABELS - 1)
+        period = max(1, SPAN // (2 * columns))
+        # On a grid of its own, so that a curve moves and does not tremble.
+        stamps = np.arange(span.first // period + 1, span.last // period + 1) * period
+        newest = scene.newest(pair.target, pair.source)
+        if newest is not None and span.first < newest <= span.last:
+            stamps = np.append(stamps[stamps < newest], newest)
+        key = (pair.target, pair.source, span, newest, width, height, look)
+        if key == self._key:
+            return self._lines
+        self._key = key
+        try:
+            path = scene.world.buffer.lookup_transforms(
+                pair.target, pair.source, stamps[stamps > 0], missing="nan", threads=1
+            )
+        except TransformException:
+            self._lines = wrapped("No poses to plot.", width, look.ink(look.palette.dim))
+            return self._lines
+        self._lines = pair_plot(path, span, width, height, look.palette, ascii_only=look.ascii_only)
+        return self._lines

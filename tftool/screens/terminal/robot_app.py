@@ -12,12 +12,11 @@ from tftool.base.counts import count
 from tftool.base.errors import TransformException
 from tftool.base.fixed_width import fitted, padded
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.screens.terminal.panel import Panel
 from tftool.screens.terminal.panel_text import Hint, footer
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.sliders import Slider, Sliders, tip_of
 from tftool.screens.terminal.text_style import Look, wrapped
-from tftool.screens.terminal.world_app import PanelApp
+from tftool.screens.terminal.world_app import Panel, PanelApp
 from tftool.world.world import World
 
 LOOKS_PER_SECOND = 15

@@ -15,8 +15,8 @@ from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
 from tftool.geometry.motion.unicycle import FIELD
 from tftool.geometry.planar import heading, transform_from_pose
 from tftool.geometry.rigid import Transform
-from tftool.screens.terminal.frame_trails import FrameTrails
 from tftool.screens.terminal.frames_picture import (
+    FrameTrails,
     Lookup,
     in_snapshot,
     moving,

@@ -1,4 +1,4 @@
-"""What a screen is asked to be, and what its terminal can show."""
+"""What a screen is asked to be, what its terminal can show, and who gets how much of it."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -56,3 +56,79 @@ def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting)
         colors=wanted.colors and not environment.get("NO_COLOR"),
         light=wanted.light or theme.prefers_light(environment),
     )
+
+
+SMALLEST = (30, 10)
+"""Columns and rows below which there is nothing but a sentence."""
+
+WITH_PANELS = 56
+"""Columns from which the field gets company."""
+
+PAIR_LINES = 6
+"""Lines the echo needs to say everything shortly."""
+
+BLOCK_LINES = 11
+"""Lines in which it says the rotation as radians and as a matrix, too."""
+
+LEAST_PLOT = 6
+"""Lines of the plots, with their border."""
+
+SCALE = 5
+"""Columns left of the picture for its metres."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScreenLayout:
+    """Sizes with their borders, in cells; 0 for whatever is left.
+
+    Attributes:
+        small: Whether there is room for nothing.
+        alone: Whether the picture has no panels beside it.
+        portrait: Whether they stand under it.
+        field: The picture's width and height.
+        tree: The tree's height.
+        pair: The echo's height.
+        log: The log's height when it is open.
+    """
+
+    small: bool = False
+    alone: bool = False
+    portrait: bool = False
+    field: tuple[int, int] = (0, 0)
+    tree: int = 0
+    pair: int = 0
+    log: int = 0
+
+
+def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
+    """Share a screen out.
+
+    Args:
+        width: Its columns.
+        height: Its rows.
+        banner: How many of them a banner takes.
+        frames: How many lines the tree would like.
+    """
+    if width < SMALLEST[0] or height < SMALLEST[1]:
+        return ScreenLayout(small=True)
+    # A top line, the log's strip and a line of keys; and every panel has a border.
+    room = height - 3 - banner
+    log = max(4, min(12, room // 3))
+    if width < WITH_PANELS:
+        return ScreenLayout(alone=True, log=log)
+    beside = min(room - 2, (width - (28 if width < 84 else 38)) // 2)
+    pair = PAIR_LINES + 2
+    tree = max(4, frames + 3)
+    under = min((width - 2) // 2, room - 2 - pair - LEAST_PLOT - min(tree, 7))
+    if under > 1.15 * beside:
+        left = room - under - 2 - pair - LEAST_PLOT
+        return ScreenLayout(
+            portrait=True, field=(0, under + 2), tree=min(tree, left), pair=pair, log=log
+        )
+    if room >= 36:
+        pair = BLOCK_LINES + 2
+    tree = min(tree, max(5, room - pair - max(LEAST_PLOT, room // 4)))
+    across = 2 * beside + 2
+    if width - across - SCALE >= 38:
+        across += SCALE
+    return ScreenLayout(field=(across, 0), tree=tree, pair=pair, log=log)

@@ -10,10 +10,9 @@ from textual.app import ComposeResult
 from tftool.base.fixed_width import fitted, plain
 from tftool.buffer.sample import Snapshot
 from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
-from tftool.screens.terminal.panel import Panel
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.text_style import wrapped
-from tftool.screens.terminal.world_app import WorldApp
+from tftool.screens.terminal.world_app import Panel, WorldApp
 from tftool.world.world import World
 
 LOOKS_PER_SECOND = 2

@@ -18,18 +18,16 @@ from textual.content import Content
 
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, seconds
-from tftool.screens.terminal import key_bindings as keys
+from tftool.screens.terminal import panel_text as keys
 from tftool.screens.terminal import panel_text as panels
 from tftool.screens.terminal.log_lines import Journal
-from tftool.screens.terminal.pair_history import PairPlot
-from tftool.screens.terminal.panel import Panel
+from tftool.screens.terminal.panel_text import PairPlot
 from tftool.screens.terminal.plane_view import PlaneView
 from tftool.screens.terminal.question import SceneQuestion
 from tftool.screens.terminal.scene import Scene, SceneMoment
-from tftool.screens.terminal.screen_layout import SMALLEST, arranged
-from tftool.screens.terminal.screen_options import Setting
+from tftool.screens.terminal.screen_options import SMALLEST, Setting, arranged
 from tftool.screens.terminal.text_style import wrapped
-from tftool.screens.terminal.world_app import PanelApp
+from tftool.screens.terminal.world_app import Panel, PanelApp
 from tftool.world.nodes.idle_drawing import IdleDrawing
 
 LOOKS_PER_SECOND = 20
@@ -514,12 +512,18 @@ class TurtleApp(PanelApp):
         if panel.display:
             self._offered = self._offered or self.setting.scenarios()
             width, height = self.size
-            wide, high = min(width - 2, 96), min(height - 2, len(self._offered) + 2)
+            wide, high = self._offered_size()
             panel.styles.width, panel.styles.height = wide, high
             panel.styles.offset = max(0, (width - wide) // 2), max(0, (height - high) // 2)
-            self.call_after_refresh(self._show_offered)
+            self._show_offered()
         self.redraw()
 
     def _show_offered(self) -> None:
-        panel = self.panel("scenarios")
-        panel.show(panels.scenarios(self._offered, self._offer, *panel.size, self.look))
+        # Inside its border, by the size it was given: its own is known only after the layout.
+        wide, high = self._offered_size()
+        lines = panels.scenarios(self._offered, self._offer, wide - 2, high - 2, self.look)
+        self.panel("scenarios").show(lines)
+
+    def _offered_size(self) -> tuple[int, int]:
+        width, height = self.size
+        return min(width - 2, 96), min(height - 2, len(self._offered) + 2)

@@ -1,23 +1,129 @@
-"""What every screen over a world is: a textual app that fails and ends in one way."""
+"""Every screen over a world: a textual app of panels that reads keys, fails and ends in one way."""
 
 import asyncio
-from collections.abc import Callable
-from typing import ClassVar
+import os
+from collections.abc import Callable, Coroutine, Iterable
+from typing import Any, ClassVar
 
+from rich.segment import Segment
 from rich.text import Text
 from textual import events
 from textual.app import App
 from textual.binding import Binding, BindingType
 from textual.driver import Driver
-from textual.geometry import Size
+from textual.geometry import Region, Size
+from textual.message import Message
+from textual.strip import Strip
+from textual.theme import Theme
+from textual.widget import Widget
 
+from tftool.base.errors import TftoolError
 from tftool.base.stamps import Stamp
 from tftool.drawing import theme
-from tftool.screens.terminal.keyboard import tolerant
-from tftool.screens.terminal.panel import Panel, themes
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.text_style import Look
+from tftool.world.stopping import leave_screen
 from tftool.world.world import World
+
+
+def input_events(sent: str) -> Iterable[Message]:
+    """What a terminal sends, as the keys and mouse moves that Textual makes of it.
+
+    The one place that knows where Textual keeps its parser, which it does not promise: where a
+    version has moved it, nothing is made.
+    """
+    try:
+        from textual._xterm_parser import XTermParser
+    except ImportError:
+        return ()
+    return XTermParser().feed(sent)
+
+
+def tolerant(driver: type[Driver]) -> type[Driver]:
+    """A driver that reads on after bytes that are no UTF-8, where it reads bytes itself.
+
+    Textual's own takes them for a failure of the app: a terminal of another encoding, or a
+    cat on the keyboard, would end it with a traceback.
+
+    Args:
+        driver: What Textual takes on this platform; that of Windows has no bytes to decode.
+    """
+    if not hasattr(driver, "run_input_thread"):
+        return driver
+    base: Any = driver
+
+    class TolerantDriver(base):  # type: ignore[misc]
+        def run_input_thread(self) -> None:
+            while True:
+                try:
+                    super().run_input_thread()
+                except UnicodeDecodeError as error:
+                    # What was read together with them is kept; the next round reads what follows.
+                    for event in input_events(error.object.decode(errors="ignore")):
+                        self.process_message(event)
+                    continue
+                return
+
+    return TolerantDriver
+
+
+class Panel(Widget):
+    """Lines of text that repaints only those that changed."""
+
+    def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
+        super().__init__(id=name)
+        self.can_focus = can_focus
+        self._title = title
+        self._lines: list[Text] | list[list[Segment]] = []
+        self._strips: list[Strip] = []
+
+    def on_mount(self) -> None:
+        """Stand under its title."""
+        if self._title:
+            self.border_title = self._title
+
+    def show(self, lines: list[Text] | list[list[Segment]]) -> None:
+        """Show these lines from now on."""
+        self._lines = lines
+        width, height = self.size
+        strips = [
+            Strip(line.render(self.app.console, end="") if isinstance(line, Text) else line)
+            for line in lines[:height]
+        ]
+        ground = self.rich_style
+        strips = [strip.adjust_cell_length(width).apply_style(ground) for strip in strips]
+        before, self._strips = self._strips, strips
+        for y in range(max(len(before), len(strips))):
+            if y >= len(before) or y >= len(strips) or before[y] != strips[y]:
+                self.refresh(Region(0, y, width, 1))
+
+    def on_resize(self) -> None:
+        """Cut the lines to the new size: they may have come before the panel had any."""
+        self.show(self._lines)
+
+    def render_line(self, y: int) -> Strip:
+        """Give one line to textual."""
+        if y < len(self._strips):
+            return self._strips[y]
+        return Strip.blank(self.size.width, self.rich_style)
+
+
+def themes() -> list[Theme]:
+    """Give `theme`'s two palettes to textual, as tftool-dark and tftool-light."""
+    return [
+        Theme(
+            name=name,
+            primary=theme.hexadecimal(palette.accent),
+            accent=theme.hexadecimal(palette.accent),
+            foreground=theme.hexadecimal(palette.text),
+            background=theme.hexadecimal(palette.ground),
+            surface=theme.hexadecimal(palette.panel),
+            panel=theme.hexadecimal(palette.panel),
+            secondary=theme.hexadecimal(theme.blend(palette.ground, palette.dim, 0.6)),
+            dark=palette is theme.DARK,
+        )
+        for name, palette in (("tftool-dark", theme.DARK), ("tftool-light", theme.LIGHT))
+    ]
 
 
 class WorldApp(App[None]):
@@ -161,7 +267,55 @@ class PanelApp(WorldApp):
             max(0, (width - self.KEYS_WIDTH) // 2),
             max(0, (height - len(lines) - 2) // 2),
         )
-        self.call_after_refresh(lambda: panel.show([Text(line) for line in lines]))
+        panel.show([Text(line) for line in lines])
 
     def _shade(self) -> None:
         self.theme = "tftool-light" if self._light else "tftool-dark"
+
+
+async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
+    """Put the app on the terminal while its world lives, until one of them ends.
+
+    Whatever ends it, the terminal is restored before this returns or raises.
+
+    Args:
+        app: What to show.
+        life: Lives the app's world through; cancelled when the user quits.
+        headless: Do all of it but draw on a terminal.
+
+    Raises:
+        NodeFailed: If a node raised.
+        TftoolError: If the screen itself failed.
+        KeyboardInterrupt: If the user pressed Ctrl-C.
+    """
+    # Ctrl-C as a signal, not as a key: the loop, which reads keys, may be held up by a node.
+    os.environ.setdefault("TEXTUAL_ALLOW_SIGNALS", "1")
+    undo = app.world.clock.when_killed.add(leave_screen, "screen")
+    screen = asyncio.ensure_future(app.run_async(headless=headless))
+
+    async def lived() -> None:
+        # Making the panels takes a while in which no node would get its turn.
+        await app.ready.wait()
+        app.begin(app.world.clock.now())
+        await life
+
+    living = asyncio.ensure_future(lived())
+    try:
+        await asyncio.wait({living, screen}, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        if not screen.done():
+            app.exit()
+            await asyncio.wait({screen})
+        living.cancel()
+        await asyncio.wait({living})
+        life.close()
+        undo()
+    if not living.cancelled():
+        living.result()
+    if app.failure is not None:
+        raise TftoolError(
+            f"the screen failed: {type(app.failure).__name__}: {app.failure}"
+        ) from app.failure
+    screen.result()
+    if app.interrupted:
+        raise KeyboardInterrupt
