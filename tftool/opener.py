@@ -66,17 +66,14 @@ def open_frames(
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
 
-    Several recordings, by a folder or a glob, are joined in the order of time. Works inside a
-    running event loop, as in a notebook.
+    Several recordings are joined in the order of time. It works inside a running event loop.
 
     Args:
         place: What has the frames; None for the session that runs.
         listen_for: How long to listen to a session, seconds.
         until: Up to which second to play a scenario; 5 s if None, all of it if infinite.
-        margin: How long to play on behind `until`, seconds, for what arrives later than its
-            stamp says.
-        cache_time: How far back the buffer of a scenario or session remembers, nanoseconds;
-            all of it if None.
+        margin: How long to play on behind it, seconds, for what arrives after its stamp.
+        cache_time: How far back the buffer of a scenario or session remembers; all if None.
         joints: Positions of a description's joints, radians or metres.
         arguments: Values of xacro arguments.
         urdf: The description of the robot in a recording that has none inside.
@@ -94,7 +91,7 @@ def open_frames(
         LinkError: If there is no session to listen to.
         UsageError: If an option does not fit what is opened, or an extra is not installed.
     """
-    robot = RobotOptions(joints or {}, arguments or {}, None if urdf is None else Path(urdf))
+    robot = RobotOptions(joints or {}, arguments or {}, Path(urdf) if urdf else None)
     recording = RecordingOptions(no_cache, with_odometry)
     if place is None:
         refuse_options_of_files(robot, recording, None)
@@ -104,14 +101,8 @@ def open_frames(
     if found.kind is Kind.SCENARIO:
         refuse_options_of_files(robot, recording, found.name)
         return _played(found, until, seconds(margin), cache_time, watch)
-    if cache_time is not None:
-        raise UsageError(
-            f"All of '{visible(found.name)}' is known, to its beginning: leave out --cache-time."
-        )
-    if found.kind.is_recording:
-        return _read_recording(found, robot, recording, progress)
-    recording.refuse(f"'{found.name}' is a {found.kind.value}")
-    return _read_statics(found, robot) if found.kind is Kind.STATICS else _described(found, robot)
+    refuse_to_forget(found, cache_time)
+    return _read(found, robot, recording, progress)
 
 
 # Which kind of source a word names
@@ -174,7 +165,29 @@ def refuse_options_of_files(
     recording.refuse(f"{what} is no recording")
 
 
+def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
+    """Refuse --cache-time where FROM is all there, and lookups reach back to its beginning.
+
+    Raises:
+        UsageError: If it was given.
+    """
+    if cache_time is not None:
+        raise UsageError(
+            f"All of '{visible(found.name)}' is known, to its beginning: leave out --cache-time."
+        )
+
+
 # Files
+
+
+def _read(
+    found: Found, robot: RobotOptions, recording: RecordingOptions, progress: "Progress | None"
+) -> Frames:
+    """Read a recording, a robot description or a file of static transforms."""
+    if found.kind.is_recording:
+        return _read_recording(found, robot, recording, progress)
+    recording.refuse(f"'{found.name}' is a {found.kind.value}")
+    return _read_statics(found, robot) if found.kind is Kind.STATICS else _described(found, robot)
 
 
 def _read_recording(
@@ -206,11 +219,13 @@ def _robot_beside(options: RobotOptions) -> "Robot | None":
     """Read the description that goes with a recording."""
     if options.joints:
         options.refuse("In a recording joints are where they were")
+    if options.urdf is None and not options.arguments:
+        return None
     if options.urdf is None:
         options.refuse("Only a description takes arguments: give it with --urdf FILE")
-        return None
     from tftool.robots.robot_model import load_urdf
 
+    assert options.urdf is not None
     return load_urdf(options.urdf, options.arguments)
 
 

@@ -42,31 +42,13 @@ def run(
     """Run `tftool echo`; the parameters are its options."""
     frames = target, source
     place, rate = _place_or_rate(place, rate)
-    refuse(
-        (once and count not in (None, 1), f"--once and --count {count} contradict each other."),
-        (
-            at is not None and count not in (None, 1),
-            f"--at asks about one moment, and has one answer, not {count}.",
-        ),
-        (
-            fixed_frame is not None and offset is None,
-            "--fixed-frame needs --offset: it carries SOURCE over that time.",
-        ),
-        (
-            at is not None and offset is not None,
-            "--at and --offset both choose the moment: leave one out.",
-        ),
-    )
+    _refuse_contradictions(once, count, at, offset, fixed_frame)
     refuse_file_as_frame(*frames, place)
     _check_names(*frames, *([] if fixed_frame is None else [fixed_frame]))
     kind = None if place is None else named(place).kind
     is_file = kind not in (None, Kind.SCENARIO)
-    refuse(
-        (
-            stamps_of is not None and (not is_file or at is not None or offset is not None),
-            "--at-stamps-of goes with a recording, and without --at and --offset.",
-        )
-    )
+    if stamps_of is not None and not (is_file and at is None and offset is None):
+        raise UsageError("--at-stamps-of goes with a recording, and without --at and --offset.")
     printer = Printer(precision, distance, for_programs)
     pair = FramePair(*frames, offset=offset or 0, fixed_frame=fixed_frame)
     is_one_moment = stamps_of is None and (once or at is not None or offset is not None)
@@ -93,6 +75,35 @@ def run(
             cache_time=cache_time,
         )
     return ExitStatus.DONE
+
+
+def _refuse_contradictions(
+    once: bool,
+    count: int | None,
+    at: At | None,
+    offset: Duration | None,
+    fixed_frame: str | None,
+) -> None:
+    """Refuse options that do not go together.
+
+    Raises:
+        UsageError: If two were given.
+    """
+    refuse(
+        (once and count not in (None, 1), f"--once and --count {count} contradict each other."),
+        (
+            at is not None and count not in (None, 1),
+            f"--at asks about one moment, and has one answer, not {count}.",
+        ),
+        (
+            fixed_frame is not None and offset is None,
+            "--fixed-frame needs --offset: it carries SOURCE over that time.",
+        ),
+        (
+            at is not None and offset is not None,
+            "--at and --offset both choose the moment: leave one out.",
+        ),
+    )
 
 
 def _print_moment(

@@ -106,20 +106,22 @@ def join_or_host(
                 f"No {what} is running in domain {connection.domain}: start one with "
                 "'tftool demo', or leave out the option to host one here."
             )
-    elif link.unanswering and not _has_host(link):
+    elif alone := _why_alone(connection, link):
         link.close()
-        alone = f"This world keeps to itself. {link.unanswering}"
-        notice(alone)
-        return JoinDecision(alone=alone)
-    elif _has_host(link):
-        link.close()
-        alone = (
-            f"A session is running here, {session_name(link, connection.place)}; this world keeps "
-            "to itself (--domain N would give it a session of its own)."
-        )
         notice(alone)
         return JoinDecision(alone=alone)
     return JoinDecision(link=link)
+
+
+def _why_alone(connection: Connection, link: "Link") -> str:
+    """Say why a world that is hosted now keeps to itself; nothing where it does not."""
+    if _has_host(link):
+        name = session_name(link, connection.place)
+        return (
+            f"A session is running here, {name}; this world keeps to itself (--domain N would "
+            "give it a session of its own)."
+        )
+    return f"This world keeps to itself. {link.unanswering}" if link.unanswering else ""
 
 
 def open_session(
@@ -140,7 +142,7 @@ def open_session(
         connection: What the command's options say.
         word: What FROM names, which is hosted; None for the session that runs.
         simulated: Whether a hosted world lives on simulated time, from its beginning on.
-        head_start: How much of a hosted scenario on the wall clock is lived through at once.
+        head_start: How much of a scenario on the wall clock is lived through at once.
         cache_time: How far back the world's buffer remembers, in place of the scenario's own.
         without: Says which of a hosted scenario's nodes to leave out.
         needs_turtles: Whether only a session with a turtle simulator will do.
@@ -152,12 +154,7 @@ def open_session(
         LinkError: If a session was asked for and there is none.
         UsageError: If sharing was asked for where time is simulated.
     """
-    found = None if word is None else named(word)
-    if found is not None and found.kind is not Kind.SCENARIO:
-        raise UsageError(
-            f"'{visible(found.name)}' is {kind_in_words(found)}, from which no message "
-            f"arrives: 'tftool tree {visible(found.name)}' shows its frames."
-        )
+    _refuse_files(word)
     refuse_options_of_files(connection.robot, connection.recording, word)
     link = None
     if simulated:
@@ -199,6 +196,21 @@ def _scenario_to_host(
         hosted = "a turtlesim alone" if alone else f"scenario '{HOME}'"
         notice(f"{because}: hosting {hosted}.")
     return replace(scenario, expect=())
+
+
+def _refuse_files(word: str | None) -> None:
+    """Refuse what is read and not lived in.
+
+    Raises:
+        UsageError: If the word names a recording or a description.
+    """
+    found = None if word is None else named(word)
+    if found is not None and found.kind is not Kind.SCENARIO:
+        shown = visible(found.name)
+        raise UsageError(
+            f"'{shown}' is {kind_in_words(found)}, from which no message arrives: "
+            f"'tftool tree {shown}' shows its frames."
+        )
 
 
 def join_session(

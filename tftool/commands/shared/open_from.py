@@ -2,7 +2,8 @@
 
 import math
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
@@ -44,8 +45,7 @@ def open_from(
 ) -> Frames:
     """Open the frames of FROM; they are closed with the connection at the latest.
 
-    Without FROM the session that runs is listened to; where none runs, or a moment was chosen,
-    the turtles are played.
+    Without FROM the session is listened to; if none runs, or at a moment, turtles are played.
 
     Args:
         connection: What the command's options say.
@@ -78,8 +78,7 @@ def open_from(
         because = A_MOMENT if isinstance(until, At) else NO_SESSION
         notice(f"{because}: hosting scenario '{HOME}'.")
         place = HOME
-    bar = _bar(place)
-    try:
+    with _bar(place) as bar:
         frames = open_frames(
             place,
             **connection.file_options,
@@ -89,14 +88,8 @@ def open_from(
             watch=watch,
             progress=bar,
         )
-    finally:
-        if bar is not None:
-            bar.stop()
     connection.keep(frames)
-    for text in () if frames.found is None else frames.found.told():
-        notice(visible(text))
-    if tells:
-        tell_notes(frames)
+    _tell(frames, notes=tells)
     return frames
 
 
@@ -127,19 +120,32 @@ def listen_from(
     )
 
 
-def _bar(place: str) -> "Bar | None":
-    """Return a bar for a person who waits."""
+@contextmanager
+def _bar(place: str) -> "Iterator[Bar | None]":
+    """Show a bar to a person who waits."""
     if not sys.stderr.isatty():
-        return None
+        yield None
+        return
     from tftool.commands.shared.reading_bar import Bar
 
     # The end of a path is what tells files apart, and all of it would not fit beside the bar.
     short = place.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]
-    return Bar(f"Reading {visible(short)}")
+    bar = Bar(f"Reading {visible(short)}")
+    try:
+        yield bar
+    finally:
+        bar.stop()
 
 
-def tell_notes(frames: Frames) -> None:
-    """Say what is odd about frames."""
+def _tell(frames: Frames, *, notes: bool) -> None:
+    """Say which files were passed over, and what is odd about the frames."""
+    for text in () if frames.found is None else frames.found.told():
+        notice(visible(text))
+    if notes:
+        _tell_notes(frames)
+
+
+def _tell_notes(frames: Frames) -> None:
     notes = frames.notes
     most = _MOST_NOTES if frames.recording is not None else len(notes)
     for text in notes[:most]:
