@@ -11,7 +11,7 @@ from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import Broadcaster
 from tftool.world.nodes.follower import Follower
-from tftool.world.nodes.squares import DrawSquare
+from tftool.world.nodes.turtle_drivers import DrawSquare
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 from tftool.world.world import World

@@ -78,7 +78,7 @@ def test_our_own_modules_are_no_package_of_interfaces(ros_runtime):
     from tftool.messages.classes import INTERFACES
 
     # The simulator of the turtles brings interfaces of its own with it.
-    from tftool.world.nodes.drawings import KIND
+    from tftool.world.nodes.trail import KIND
 
     assert KIND.interface__.startswith("tftool_interfaces/srv/")
     assert "tftool" not in INTERFACES.packages()

@@ -14,7 +14,7 @@ from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
 from tftool.ros.launch.engine import Launch
-from tftool.world.nodes.squares import DrawSquare
+from tftool.world.nodes.turtle_drivers import DrawSquare
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import TransformMessage
 

@@ -19,7 +19,7 @@ from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.turtle_app import TurtleApp
 from tftool.world.clock import Phase, SimClock, run
 from tftool.world.node import Node
-from tftool.world.nodes.idle_drawing import IdleDrawing
+from tftool.world.nodes.turtle_drivers import IdleDrawing
 
 PICTURES = Path(__file__).parents[1] / "pictures"
 STILL, MOVING = PICTURES / "demo.svg", PICTURES / "demo-moving.svg"

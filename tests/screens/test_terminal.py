@@ -16,7 +16,7 @@ from tftool.geometry.rigid import Transform
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.turtle_app import TurtleApp
 from tftool.screens.terminal.world_app import Panel, input_events
-from tftool.world.nodes.idle_drawing import IdleDrawing
+from tftool.world.nodes.turtle_drivers import IdleDrawing
 
 BANNER = ("Reading from keyboard", "'q' to quit.")
 

@@ -27,13 +27,13 @@ from tftool.world.nodes.broadcasters import (
     Broadcaster,
     DynamicCarrot,
     FixedCarrot,
+    Noise,
     StaticBroadcaster,
 )
 from tftool.world.nodes.follower import Follower
 from tftool.world.nodes.mobile_robot import LaserPoint, MapCorrection, RobotOdometry
-from tftool.world.nodes.noise import Noise
 from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
-from tftool.world.nodes.squares import DrawSquare, Mimic
+from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic
 from tftool.world.nodes.turtle_teleop import Teleop
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import World

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 from tftool.base.errors import NodeFailed, TftoolError, line_of
 from tftool.base.stamps import Stamp
 from tftool.world.clock import Clock, Phase
-from tftool.world.resident import Resident, Supervision
-from tftool.world.stopping import PATIENCE, Overdue, abandon, line_of_task, node_task_name
+from tftool.world.registry import Resident, Supervision
+from tftool.world.stopper import PATIENCE, Overdue, abandon, line_of_task, node_task_name
 from tftool.world.world import World
 
 T = TypeVar("T")

@@ -26,8 +26,7 @@ from tftool.world.endpoints import (
 )
 from tftool.world.log import Log, Repeats
 from tftool.world.memory_limit import MemoryBound, allowed
-from tftool.world.offers import NamedOffers, Offer
-from tftool.world.resident import Resident, Supervision
+from tftool.world.registry import NamedOffers, Offer, Resident, Supervision
 from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic
 
 T = TypeVar("T")

@@ -10,9 +10,9 @@ from tftool.messages.classes import INTERFACES, build
 from tftool.messages.turtle_messages import RotateAbsolute
 from tftool.world import action_parts
 from tftool.world.clock import WallClock, run
-from tftool.world.link.actions import ActionServer
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
+from tftool.world.link.service_bridges import ActionServer
 from tftool.world.link.session import Link
 
 ROTATE = "turtlesim/action/RotateAbsolute"

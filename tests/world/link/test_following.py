@@ -12,10 +12,10 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.classes import INTERFACES
 from tftool.world.clock import FollowedClock, WallClock, run
 from tftool.world.endpoints import Quality
-from tftool.world.link.clock_follower import ClockFollower, is_clock_shown
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
+from tftool.world.link.topic_bridges import ClockFollower, is_clock_shown
 from tftool.world.world import World
 
 pytestmark = pytest.mark.usefixtures("by_memory")

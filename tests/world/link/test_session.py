@@ -19,7 +19,7 @@ from tftool.messages.turtle_messages import (
 from tftool.world.link.graph import Role, hosts
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
-from tftool.world.link.tf import TF, TRANSFORMS
+from tftool.world.link.topic_bridges import TF, TRANSFORMS
 from tftool.world.link.zenoh.keys import Token, quality
 from tftool.world.node import Node
 from tftool.world.nodes.remote_turtles import FarTurtles

@@ -16,7 +16,7 @@ from tftool.messages.turtle_messages import Empty, Twist, twist
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
-from tftool.world.link.tf import TF
+from tftool.world.link.topic_bridges import TF
 from tftool.world.node import Node
 from tftool.world.world import TransformMessage
 

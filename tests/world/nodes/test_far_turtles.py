@@ -9,9 +9,8 @@ from tftool.messages.classes import INTERFACES, build
 from tftool.messages.turtle_messages import Empty, Pose, SetPen, TeleportAbsolute, Twist, twist
 from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
-from tftool.world.nodes.drawings import MOST_STROKES, DrawingService, FarDrawing
 from tftool.world.nodes.remote_turtles import MOST, FarTurtles
-from tftool.world.nodes.trail import Segment, Trail
+from tftool.world.nodes.trail import MOST_STROKES, DrawingService, FarDrawing, Segment, Trail
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 from tftool.world.world import World

@@ -6,7 +6,7 @@ from tftool.base.stamps import seconds
 from tftool.messages.turtle_messages import Twist, twist
 from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
-from tftool.world.nodes.idle_drawing import IdleDrawing
+from tftool.world.nodes.turtle_drivers import IdleDrawing
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 from tftool.world.world import World

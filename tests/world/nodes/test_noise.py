@@ -7,7 +7,7 @@ from tests.world.nodes.harness import play
 from tftool.base.errors import UsageError
 from tftool.base.stamps import seconds
 from tftool.world.clock import SimClock
-from tftool.world.nodes.noise import Noise
+from tftool.world.nodes.broadcasters import Noise
 from tftool.world.world import World
 
 PERIOD = seconds(0.1)

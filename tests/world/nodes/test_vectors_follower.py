@@ -10,7 +10,7 @@ from tftool.messages.turtle_messages import Kill, Spawn
 from tftool.world.clock import SimClock
 from tftool.world.nodes.broadcasters import Broadcaster, FixedCarrot
 from tftool.world.nodes.follower import Follower
-from tftool.world.nodes.squares import DrawSquare
+from tftool.world.nodes.turtle_drivers import DrawSquare
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import World
 

@@ -31,7 +31,7 @@ from tftool.scenario.summary import as_json, play_through, written
 from tftool.screens.first_moment import first_look
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.link.session_world import Session, shared
-from tftool.world.nodes.idle_drawing import IdleDrawing
+from tftool.world.nodes.turtle_drivers import IdleDrawing
 from tftool.world.world import World
 
 

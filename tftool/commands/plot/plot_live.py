@@ -13,7 +13,7 @@ from tftool.commands.shared.keypresses import keyboard
 from tftool.commands.shared.suspend import left_while_stopped
 from tftool.frames.pair_samples import Moments, sample
 from tftool.world.clock import Phase
-from tftool.world.stopping import leave_screen
+from tftool.world.stopper import leave_screen
 from tftool.world.world import World
 
 ON_ITS_WAY = seconds(1)

@@ -11,7 +11,7 @@ from tftool.base.stamps import seconds
 if TYPE_CHECKING:
     from tftool.screens.terminal.scene import Scene
     from tftool.screens.terminal.screen_options import Setting
-    from tftool.world.nodes.idle_drawing import IdleDrawing
+    from tftool.world.nodes.turtle_drivers import IdleDrawing
     from tftool.world.nodes.turtle_teleop import Teleop
     from tftool.world.nodes.turtlesim import Turtlesim
     from tftool.world.world import World

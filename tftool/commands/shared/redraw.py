@@ -31,7 +31,7 @@ class Redrawing:
         from rich.console import Console
 
         from tftool.commands.shared.suspend import left_while_stopped
-        from tftool.world.stopping import leave_screen
+        from tftool.world.stopper import leave_screen
 
         self.console: Console = Console()
         self._live: Live | None = None

@@ -15,7 +15,7 @@ from tftool.commands.tree.tree_text import fitting
 from tftool.doctor.frame_marks import marks
 from tftool.world.clock import Phase, pace_of
 from tftool.world.log import LogRecord
-from tftool.world.stopping import leave_screen
+from tftool.world.stopper import leave_screen
 from tftool.world.world import World
 
 

@@ -22,11 +22,11 @@ from tftool.world.nodes.broadcasters import (
     DynamicCarrot,
     FixedCarrot,
     StaticBroadcaster,
+    static_turtle,
 )
 from tftool.world.nodes.follower import Follower
 from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
-from tftool.world.nodes.squares import DrawSquare, Mimic
-from tftool.world.nodes.static_turtle import static_turtle
+from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.world import World
 

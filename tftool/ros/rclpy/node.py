@@ -26,7 +26,7 @@ from tftool.ros.rclpy.time import Clock, Rate, ROSClock
 from tftool.ros.rclpy.timers import Timer, period_of
 from tftool.ros.rclpy.topics import Publisher, Subscription
 from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
-from tftool.world.nodes.parameter_services import parameter_services
+from tftool.world.node_parameters import parameter_services
 
 E = TypeVar("E", bound=NodeEntity)
 

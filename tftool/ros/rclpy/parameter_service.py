@@ -15,7 +15,7 @@ _REFUSALS = (ParameterNotDeclaredException, ValueError, TypeError)
 
 
 class ServedParameters:
-    """A node's parameters, as `nodes.parameter_services` serves them."""
+    """A node's parameters, as `node_parameters` serves them."""
 
     def __init__(self, node: NodeParameters) -> None:
         self._node = node

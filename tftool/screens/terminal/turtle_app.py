@@ -28,7 +28,7 @@ from tftool.screens.terminal.scene import Scene, SceneMoment
 from tftool.screens.terminal.screen_options import SMALLEST, Setting, arranged
 from tftool.screens.terminal.text_style import wrapped
 from tftool.screens.terminal.world_app import Panel, PanelApp
-from tftool.world.nodes.idle_drawing import IdleDrawing
+from tftool.world.nodes.turtle_drivers import IdleDrawing
 
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3

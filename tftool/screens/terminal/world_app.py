@@ -22,7 +22,7 @@ from tftool.base.stamps import Stamp
 from tftool.drawing import theme
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.text_style import Look
-from tftool.world.stopping import leave_screen
+from tftool.world.stopper import leave_screen
 from tftool.world.world import World
 
 

@@ -15,14 +15,17 @@ from tftool.base.errors import MalformedMessage
 from tftool.messages.classes import INTERFACES, Message
 from tftool.world.clock import WallClock
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
-from tftool.world.link.actions import ActionClient, ActionServer
 from tftool.world.link.graph import NODE, SERVER, GraphEntity, Process, Role, hosts
 from tftool.world.link.link_context import NAME, LinkContext
 from tftool.world.link.link_options import Options
-from tftool.world.link.services import ServiceClient, ServiceServer
-from tftool.world.link.tf import StaticBridge, TransformBridge
-from tftool.world.link.topic_link import TopicBridge
-from tftool.world.offers import Offer
+from tftool.world.link.service_bridges import (
+    ActionClient,
+    ActionServer,
+    ServiceClient,
+    ServiceServer,
+)
+from tftool.world.link.topic_bridges import StaticBridge, TopicBridge, TransformBridge
+from tftool.world.registry import Offer
 from tftool.world.world import TransformMessage, World
 
 _NAMED: Final = (

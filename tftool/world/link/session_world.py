@@ -114,7 +114,7 @@ class Session:
         if self.head_start:
             await clock.sleep_until(clock.epoch + self.head_start, Phase.WATCH)
         if isinstance(clock, FollowedClock) and self.link is not None:
-            from tftool.world.link.clock_follower import is_clock_shown
+            from tftool.world.link.topic_bridges import is_clock_shown
 
             if is_clock_shown(self.link.graph):
                 await clock.told_once(TOLD)
@@ -197,8 +197,8 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     if link is None:
         yield
         return
-    from tftool.world.link.clock_follower import ClockFollower
     from tftool.world.link.graph import Role
+    from tftool.world.link.topic_bridges import ClockFollower
 
     follower: ClockFollower | None = None
     try:

@@ -1,14 +1,16 @@
 """The tutorial's follower: look where the leader is, steer there, once a period."""
 
-from tftool.base.errors import TransformException, UsageError
+from typing import Any
+
+from tftool.base.errors import TftoolError, TransformException, UsageError
 from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.motion import pursuit
 from tftool.geometry.motion.pid import Gains
-from tftool.messages.turtle_messages import Twist, twist
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Spawn, Twist, twist
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import require_period
-from tftool.world.nodes.spawn import Spawning
 from tftool.world.nodes.turtle import require_turtle_name
 from tftool.world.world import World
 
@@ -135,3 +137,53 @@ class Follower(Node):
             self.info(f"There is newer data of {self.leader}: following again")
         self._stale = stale
         return stale
+
+
+class Spawning:
+    """The tutorial's start-up machine, stepped by a node's timer.
+
+    One step asks for the turtle, a later one sees the answer, and only the one
+    after that begins: with a period of one second, three seconds after the start.
+    """
+
+    def __init__(self, node: Node, x: float, y: float, theta: float, name: str) -> None:
+        self._node = node
+        self._request = build(Spawn.Request, x, y, theta, name)
+        self._is_asked = False
+        self._answer: Any | TftoolError | None = None
+        self._confirmed = False
+
+    def step(self) -> bool:
+        """Do what is next; True once the turtle was there before this step."""
+        if self._confirmed:
+            return True
+        if not self._is_asked:
+            if self._node.world.has_service("spawn"):
+                self._is_asked = True
+                self._node.start_soon(self._ask())
+            else:
+                self._node.info("Service is not ready")
+        elif self._answer is None:
+            self._node.info("Spawn is not finished")
+        else:
+            self._take(self._answer)
+        return False
+
+    async def _ask(self) -> None:
+        try:
+            self._answer = await self._node.call("spawn", self._request)
+        except TftoolError as refusal:
+            self._answer = refusal
+
+    def _take(self, answer: Any | TftoolError) -> None:
+        if isinstance(answer, TftoolError):
+            self._node.warn(f"Could not spawn '{self._request.name}', asking again: {answer}")
+            self._is_asked, self._answer = False, None
+            return
+        # Any answer counts, as in the tutorial: an empty name says that a turtle of
+        # that name is there already, and that one will do.
+        if answer.name:
+            self._node.info(f"Successfully spawned {answer.name}")
+        else:
+            self._node.warn(f"{self._request.name} is there already, and will do")
+        self._confirmed = True

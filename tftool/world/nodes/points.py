@@ -8,7 +8,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, seconds
 from tftool.messages.turtle_messages import PointStamped, Pose, point_stamped, twist
 from tftool.world.node import Node
 from tftool.world.nodes.broadcasters import require_period
-from tftool.world.nodes.spawn import Spawning
+from tftool.world.nodes.follower import Spawning
 from tftool.world.nodes.turtle import require_turtle_name
 from tftool.world.world import World
 

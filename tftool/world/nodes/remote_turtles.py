@@ -14,8 +14,7 @@ from tftool.messages.parameter_values import value_of
 from tftool.messages.turtle_messages import Pose
 from tftool.world.endpoints import PUBLISHER
 from tftool.world.node import Node
-from tftool.world.nodes.drawings import SERVICE, FarDrawing
-from tftool.world.nodes.trail import Segment, Trail
+from tftool.world.nodes.trail import SERVICE, FarDrawing, Segment, Trail
 from tftool.world.nodes.turtle import PEN_COLOR, PEN_WIDTH
 from tftool.world.nodes.turtlesim import BACKGROUND_PARAMETERS
 from tftool.world.world import World

@@ -13,13 +13,15 @@ from tftool.messages.turtle_messages import ColorMessage, Empty, Kill, Spawn
 from tftool.world.clock import Phase
 from tftool.world.log import Level
 from tftool.world.node import Node
-from tftool.world.nodes.drawings import DrawingService
-from tftool.world.nodes.parameter_services import ParameterServices
-from tftool.world.nodes.tick_queue import TickQueue
-from tftool.world.nodes.trail import Segment, Trail
+from tftool.world.node_parameters import ParameterServices, Value
+from tftool.world.nodes.trail import DrawingService, Segment, Trail
 from tftool.world.nodes.turtle import Turtle, require_turtle_name, shown
-from tftool.world.nodes.turtle_ports import TurtlePorts, requested_placement, require_byte
-from tftool.world.parameters import Value
+from tftool.world.nodes.turtle_ports import (
+    TickQueue,
+    TurtlePorts,
+    requested_placement,
+    require_byte,
+)
 from tftool.world.world import World
 
 MOST_TURTLES = 1000

@@ -9,7 +9,7 @@ import pytest
 from tests.world.link.dds.conftest import ON_LOOPBACK
 from tftool.app.main import main
 from tftool.base.errors import LinkError
-from tftool.world.link.dds import dds_names as names
+from tftool.world.link.dds import dds_types as names
 from tftool.world.link.dds.participant import Participant
 from tftool.world.link.dds.settings import network
 from tftool.world.link.graph import Process, Role

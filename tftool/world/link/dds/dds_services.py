@@ -15,7 +15,7 @@ from tftool.base.errors import LinkError
 from tftool.base.stamps import Stamp, seconds
 from tftool.world.clock import WallClock
 from tftool.world.endpoints import Quality
-from tftool.world.link.dds import dds_names as names
+from tftool.world.link.dds import dds_types as names
 from tftool.world.link.dds.dds_types import Raw, Types
 from tftool.world.link.dds.participant import DdsSample, Participant
 from tftool.world.link.graph import SERVER, Graph

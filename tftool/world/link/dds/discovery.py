@@ -13,7 +13,7 @@ from tftool.base.errors import LinkError, MalformedMessage
 from tftool.messages.classes import Interfaces, Message
 from tftool.messages.codec import Codec, codec
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
-from tftool.world.link.dds import dds_names as names
+from tftool.world.link.dds import dds_types as names
 from tftool.world.link.dds.dds_types import Types
 from tftool.world.link.dds.participant import DdsSample, Participant, TopicWriter
 from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, GraphEntity, Process, node_name

@@ -12,7 +12,7 @@ from tftool.messages.classes import INTERFACES
 from tftool.messages.hashes import type_hash
 from tftool.world.clock import WallClock
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, TF, TF_STATIC, Quality, conflict
-from tftool.world.link.dds import dds_names as names
+from tftool.world.link.dds import dds_types as names
 from tftool.world.link.dds.dds_services import CycloneClient, CycloneServer, ServicePart
 from tftool.world.link.dds.dds_types import Raw, Types
 from tftool.world.link.dds.discovery import Discovery

@@ -13,8 +13,7 @@ from tftool.world.link.link_options import Options
 from tftool.world.link.zenoh import keys, rendezvous
 from tftool.world.link.zenoh.reach import SECURED, ZenohReach, protocol_of
 from tftool.world.link.zenoh.rendezvous import Rendezvous
-from tftool.world.link.zenoh.settings import Local
-from tftool.world.link.zenoh.transport import Wire
+from tftool.world.link.zenoh.transport import Local, Wire
 
 REACHING: Final = 5.0
 """Seconds to wait for a process at the other end of `connect`."""

@@ -9,7 +9,7 @@ import termios
 import pytest
 
 from tests.patience import PATIENCE
-from tftool.world.stopping import FAILED, INTERRUPTED
+from tftool.world.stopper import FAILED, INTERRUPTED
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs signals")
 

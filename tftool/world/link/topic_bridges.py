@@ -1,0 +1,413 @@
+"""Topics of a world, joined with those of other processes; tf and /clock in their own way."""
+
+from collections.abc import Callable
+from typing import Any, Final
+
+from tftool.base.errors import MalformedMessage
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
+from tftool.buffer.clock_jumps import FELL_BACK, must_clear
+from tftool.buffer.sample import TransformStamped
+from tftool.messages.classes import INTERFACES
+from tftool.messages.codec import codec
+from tftool.messages.transforms import decode_columns, decode_transforms, encode_transforms
+from tftool.world.clock import FollowedClock
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, TF, TF_STATIC, USUAL, Endpoint
+from tftool.world.link.graph import Graph
+from tftool.world.link.link_context import NAME, LinkContext
+from tftool.world.link.seam import Arrived, WirePublisher
+from tftool.world.topics import Topic
+from tftool.world.world import TransformMessage, World
+
+
+class TopicBridge:
+    """A topic of messages.
+
+    Nodes that state what they publish and subscribe, and with what quality, are shown one
+    by one; all others together as the first node of the world. What comes in is taken once
+    for all, except by latched subscriptions: each is sent what was there before it.
+    """
+
+    def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
+        """Carry a topic of messages.
+
+        Raises:
+            MalformedMessage: If the bytes of such messages differ between ROS 2 releases.
+        """
+        self._link = link
+        self._topic = topic
+        self._type = topic.kind.interface__
+        self._codec = codec(topic.kind)
+        self._senders: dict[Endpoint | None, WirePublisher] = {}
+        self._subscriptions: dict[Endpoint | None, Callable[[], None]] = {}
+        self._stop_in: Callable[[], None] | None = None
+        self._inbound: Any = None
+        topic.on_demand = self.refresh
+        if not link.options.read_only:
+            topic.relay = self._send
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show what there is, and listen where a subscriber here needs it."""
+        topic, endpoints = self._topic, self._link.world.endpoints
+        # The simulator computes colours only while a subscriber is counted.
+        topic.far_subscribers = sum(
+            one.ros_type == self._type
+            for one in self._link.graph.entities(SUBSCRIPTION, name=topic.name)
+        )
+        publishers = _here(endpoints.of(topic.name, PUBLISHER))
+        for gone in self._senders.keys() - {None, *publishers}:
+            self._senders.pop(gone).close()
+        if not self._link.options.read_only:
+            for one in publishers:
+                if one not in self._senders:
+                    self._senders[one] = self._sender(one)
+                    # What it kept before there was a link is for those who come late, too.
+                    for value in one.kept or ():
+                        self._put(self._senders[one], value)
+
+        subscriptions = _here(endpoints.of(topic.name, SUBSCRIPTION))
+        latched = sum(one.deliver is not None for one in subscriptions)
+        if topic.near_subscribers > latched:
+            self._stop_in = self._stop_in or self._listen(self._arrived)
+        elif self._stop_in is not None:
+            self._stop_in()
+            self._stop_in = None
+        shown: set[Endpoint | None] = set(subscriptions)
+        if topic.near_subscribers > len(subscriptions):
+            shown.add(None)
+        for gone in self._subscriptions.keys() - shown:
+            self._subscriptions.pop(gone)()
+        for new in shown - self._subscriptions.keys():
+            self._subscriptions[new] = self._subscribe(new)
+
+    def close(self) -> None:
+        """Neither send nor listen any more."""
+        self._topic.on_demand = self._topic.relay = None
+        self._topic.far_subscribers = 0
+        for stop in (self._stop_in, *self._subscriptions.values()):
+            if stop is not None:
+                stop()
+        for sender in self._senders.values():
+            sender.close()
+
+    # In
+
+    def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
+        """Show a subscription, and ask for what was sent before if it is latched."""
+        link, name, ros_type = self._link, self._topic.name, self._type
+        node = link.main_node if stated is None else stated.node
+        quality = USUAL if stated is None else stated.quality
+        deliver = None if stated is None else stated.deliver
+        if deliver is None:
+            return link.middleware.subscription(node, name, ros_type, quality)
+        hand_over = deliver
+
+        def arrived(message: Arrived) -> None:
+            read = self._read(message)
+            if read is not None:
+                hand_over(*read)
+
+        # Shown last: what sees it may send at once and is heard.
+        stop = self._listen(arrived, is_latched=True)
+        hide = link.middleware.subscription(node, name, ros_type, quality)
+
+        def both() -> None:
+            hide()
+            stop()
+
+        return both
+
+    def _listen(
+        self, arrived: Callable[[Arrived], object], *, is_latched: bool = False
+    ) -> Callable[[], None]:
+        return self._link.middleware.listen(
+            self._topic.name, self._type, arrived, is_latched=is_latched
+        )
+
+    def _arrived(self, message: Arrived) -> None:
+        read = self._read(message)
+        if read is None:
+            return
+        self._inbound, sender = read
+        try:
+            self._topic.publish(self._inbound, sender)
+        finally:
+            self._inbound = None
+
+    def _read(self, message: Arrived) -> tuple[Any, Endpoint] | None:
+        """What a message says and who sent it; None for one that is refused."""
+        try:
+            value = self._codec.decode(message.payload)
+        except MalformedMessage as refusal:
+            self._link.refuse(self._topic.name, refusal)
+            return None
+        self._link.received += 1
+        return value, self._link.endpoint(message.sender, self._topic.name, self._type)
+
+    # Out
+
+    def _send(self, value: Any) -> None:
+        if value is self._inbound:
+            return
+        stated = self._topic.sender
+        sender = self._senders.get(stated)
+        if sender is None:
+            sender = self._senders[stated] = self._sender(stated)
+        # Encoded only if a subscriber or a cache takes it.
+        if sender.is_wanted:
+            self._put(sender, value)
+
+    def _put(self, sender: WirePublisher, value: Any) -> None:
+        try:
+            sender.put(self._codec.encode(value), self._link.now())
+        except MalformedMessage as refusal:
+            self._link.refuse(self._topic.name, refusal)
+
+    def _sender(self, stated: Endpoint | None) -> WirePublisher:
+        node = self._link.main_node if stated is None else stated.node
+        quality = USUAL if stated is None else stated.quality
+        return self._link.middleware.publisher(node, self._topic.name, self._type, quality)
+
+
+def _here(endpoints: list[Endpoint]) -> list[Endpoint]:
+    return [one for one in endpoints if not one.is_remote]
+
+
+LARGE: Final = 256 * 1024
+"""Bytes from which a message of transforms may be taken in as arrays: whole paths at once."""
+
+LONG: Final = 64
+"""How many samples a link has in it on the average, at least, for that to pay."""
+
+TRANSFORMS: Final = TransformMessage.interface__
+
+YEAR: Final = seconds(365.25 * 24 * 3600)
+
+AHEAD: Final = seconds(2)
+"""So far in the future no clock that agrees with ours can stamp anything."""
+
+
+class TransformBridge:
+    """`tf`: transforms of many nodes, each of them a publisher of its own."""
+
+    quality = TF
+
+    def __init__(self, link: LinkContext, topic: Topic[TransformMessage]) -> None:
+        self._link = link
+        self._topic = topic
+        self._senders: dict[str, WirePublisher] = {}
+        self._nodes: set[str] = set()
+        self._inbound: TransformMessage | None = None
+        topic.relay = self._publish
+        self._stops = [
+            link.middleware.listen(
+                topic.name, TRANSFORMS, self._arrived, is_latched=self.quality.is_latched
+            ),
+            link.middleware.subscription(link.main_node, topic.name, TRANSFORMS, self.quality),
+        ]
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Count the subscribers of other processes; the buffer always listens."""
+        others = self._link.graph.entities(SUBSCRIPTION, name=self._topic.name)
+        self._topic.far_subscribers = len(others)
+        self._dismiss()
+
+    def _dismiss(self) -> None:
+        """Close the senders of nodes that have left; some authorities were never nodes."""
+        for gone in self._nodes - self._node_names():
+            self._nodes.remove(gone)
+            self._senders.pop(gone).close()
+
+    def _node_names(self) -> set[str]:
+        return {node.name for node in self._link.world.nodes}
+
+    def close(self) -> None:
+        """Neither send nor listen any more."""
+        self._topic.relay = None
+        self._topic.far_subscribers = 0
+        for stop in self._stops:
+            stop()
+        for sender in self._senders.values():
+            sender.close()
+
+    def _publish(self, message: TransformMessage) -> None:
+        if message is self._inbound or self._link.options.read_only:
+            return
+        sender = self._senders.get(message.authority)
+        if sender is None:
+            sender = self._senders[message.authority] = self._link.middleware.publisher(
+                message.authority, self._topic.name, TRANSFORMS, self.quality
+            )
+            if message.authority in self._node_names():
+                self._nodes.add(message.authority)
+        if not sender.is_wanted:
+            return
+        try:
+            sender.put(encode_transforms(message.transforms), self._link.now())
+        except MalformedMessage as refusal:
+            self._link.refuse(self._topic.name, refusal)
+
+    def _arrived(self, message: Arrived) -> None:
+        link = self._link
+        authority = link.authority(message.sender, self._topic.name)
+        try:
+            if self._takes_paths(message.payload, authority):
+                link.received += 1
+                return
+            transforms = decode_transforms(message.payload)
+        except MalformedMessage as refusal:
+            link.refuse(self._topic.name, refusal)
+            return
+        link.received += 1
+        accepted = self._store(transforms, authority)
+        if accepted:
+            self._inbound = TransformMessage(accepted, authority)
+            try:
+                self._topic.publish(self._inbound)
+            finally:
+                self._inbound = None
+
+    def _takes_paths(self, payload: bytes, authority: str) -> bool:
+        """Take in long paths of few links at once; False where that would not be faster.
+
+        Raises:
+            MalformedMessage: If the bytes are no transforms.
+        """
+        # A subscriber of the topic gets every single one, so they are made anyway.
+        listened_to = self._topic.near_subscribers > 0
+        if self.quality.is_latched or len(payload) < LARGE or listened_to:
+            return False
+        columns = decode_columns(payload)
+        paths: dict[tuple[str, str], list[int]] = {}
+        for row, link in enumerate(zip(columns.parents, columns.children, strict=True)):
+            paths.setdefault(link, []).append(row)
+        moves = len({child for _, child in paths}) < len(paths)
+        if moves or len(columns) < LONG * len(paths):
+            return False
+        self._compare_clocks(int(columns.stamps[0]), authority)
+        for (parent, child), rows in paths.items():
+            self._link.world.buffer.set_transforms(
+                parent,
+                child,
+                columns.stamps[rows],
+                columns.translations[rows],
+                columns.rotations[rows],
+                authority,
+            )
+        self._link.world.memory.note(len(columns))
+        return True
+
+    def _store(
+        self, transforms: tuple[TransformStamped, ...], authority: str
+    ) -> tuple[TransformStamped, ...]:
+        if transforms:
+            self._compare_clocks(transforms[0].stamp, authority)
+        store = self._link.world.buffer.set_transform
+        self._link.world.memory.note(len(transforms))
+        return tuple(one for one in transforms if store(one, authority))
+
+    def _compare_clocks(self, stamp: Stamp, authority: str) -> None:
+        clock, graph = self._link.world.clock, self._link.graph
+        if isinstance(clock, FollowedClock) and not clock.is_told and is_clock_shown(graph):
+            return  # what time it is will be told in a moment
+        ahead = stamp - clock.now()
+        if -YEAR < ahead < AHEAD:
+            return
+        if 0 < ahead < YEAR:
+            self._link.say_once(
+                "clock ahead",
+                f"'{authority}' stamps its transforms {as_seconds(ahead):.1f} s after this "
+                "machine's clock, which is slow then, or that one is fast (demo --rate): ages, and "
+                "answers about the present or some seconds ago, are off by as much.",
+            )
+            return
+        self._link.say_once(
+            f"clock {authority}",
+            f"'{authority}' stamps its transforms {as_seconds(abs(ahead)) / as_seconds(YEAR):.1f} "
+            f"years {'after' if ahead > 0 else 'before'} this machine's clock: ages and waits "
+            "mean little until both clocks agree (or one of them is simulated).",
+        )
+
+
+class StaticBridge(TransformBridge):
+    """`tf_static`: a late subscriber gets all statics of every process that is there."""
+
+    quality = TF_STATIC
+
+    def _dismiss(self) -> None:
+        """Close none: what a node said for all time is sent to late listeners when it has left."""
+
+    def _arrived(self, message: Arrived) -> None:
+        super()._arrived(message)
+        self._link.heard_statics.add(message.sender)
+
+    def _store(
+        self, transforms: tuple[TransformStamped, ...], authority: str
+    ) -> tuple[TransformStamped, ...]:
+        return self._link.world.receive_static(transforms, authority)
+
+
+CLOCK_TOPIC: Final = "clock"
+CLOCK_TYPE: Final = "rosgraph_msgs/msg/Clock"
+
+
+def is_clock_shown(graph: Graph) -> bool:
+    """Whether another process publishes `/clock`."""
+    return any(one.ros_type == CLOCK_TYPE for one in graph.entities(PUBLISHER, name=CLOCK_TOPIC))
+
+
+class ClockFollower:
+    """Sets a world's clock by what others publish on `/clock`, for as long as one does."""
+
+    def __init__(self, world: World, clock: FollowedClock) -> None:
+        """Begin to follow, as soon as there is something to follow.
+
+        Args:
+            world: Whose topics tell.
+            clock: Its clock.
+        """
+        self._world = world
+        self._clock = clock
+        self._stop_listening: Callable[[], None] | None = None
+        self._is_looking = False
+        self._stops = [
+            clock.fell_back.add(self._fell_back, NAME),
+            world.watch(self._look, NAME),
+        ]
+        self._look()
+
+    def close(self) -> None:
+        """Follow no more."""
+        for stop in self._stops:
+            stop()
+        if self._stop_listening is not None:
+            self._stop_listening()
+
+    def _look(self) -> None:
+        # To subscribe changes the world, which is told here in turn.
+        if self._is_looking:
+            return
+        self._is_looking = True
+        try:
+            publishers = self._world.endpoints.of(CLOCK_TOPIC, PUBLISHER)
+            is_published = any(one.is_remote and one.interface == CLOCK_TYPE for one in publishers)
+            if is_published and self._stop_listening is None:
+                kind = INTERFACES.message(CLOCK_TYPE)
+                topic = self._world.topic(CLOCK_TOPIC, kind)
+                self._stop_listening = topic.subscribe(self._take, NAME)
+            elif not is_published and self._stop_listening is not None:
+                self._stop_listening()
+                self._stop_listening = None
+                self._clock.run_on()
+        finally:
+            self._is_looking = False
+
+    def _take(self, message: Any) -> None:
+        time = message.clock
+        self._clock.tell(time.sec * NANOSECONDS + time.nanosec)
+
+    def _fell_back(self, by: Duration) -> None:
+        if must_clear(-by):
+            self._world.log.warn(NAME, FELL_BACK)
+            self._world.buffer.clear()
