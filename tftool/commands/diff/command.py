@@ -16,7 +16,7 @@ from tftool.commands.shared.printer import line_width
 from tftool.drawing import difference_view as view
 from tftool.frames.diff import side_of
 from tftool.frames.differences import Allowance, Side, compare
-from tftool.opener import NOTHING_RUNS
+from tftool.world.link.heard_frames import NOTHING_RUNS
 
 SESSION = "session"
 """The word that names the session that runs."""

@@ -14,8 +14,9 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.on_screen import screen_lacks
+from tftool.frames.frame_files import load_described
 from tftool.frames.notes import beyond_limits
-from tftool.opener import kind_in_words, load_described, named
+from tftool.opener import kind_in_words, named
 from tftool.recordings.find import Kind
 from tftool.robots.robot_model import Robot
 from tftool.screens.terminal.robot_app import RobotApp

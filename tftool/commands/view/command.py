@@ -23,9 +23,10 @@ from tftool.commands.shared.notices import notice, tell_news
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.reading_bar import Bar
 from tftool.frames.export.trajectory_files import whole_file
+from tftool.frames.frame_files import load_described
 from tftool.frames.frames import Frames
 from tftool.frames.notes import beyond_limits
-from tftool.opener import load_described, named
+from tftool.opener import named
 from tftool.recordings.find import Found, Kind
 from tftool.recordings.target import refuse_existing
 from tftool.robots.robot_model import Robot

@@ -1,0 +1,98 @@
+"""Files to frames: recordings, robot descriptions, files of static transforms."""
+
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible
+from tftool.frames.frames import Frames
+from tftool.frames.notes import beyond_limits, joints_at_rest
+from tftool.frames.source_options import RecordingOptions, RobotOptions
+from tftool.recordings.cache_heads import default_folder
+from tftool.recordings.column_cache import ColumnCache
+from tftool.recordings.contract import Progress
+from tftool.recordings.find import Found, Kind
+from tftool.recordings.recording import open_recording
+from tftool.robots.robot_model import Robot, load_urdf
+
+
+def read_frames(
+    found: Found, robot: RobotOptions, recording: RecordingOptions, progress: Progress | None
+) -> Frames:
+    """Read a recording, a robot description or a file of static transforms."""
+    if found.kind.is_recording:
+        return _read_recording(found, robot, recording, progress)
+    recording.refuse(f"'{found.name}' is a {found.kind.value}")
+    return _read_statics(found, robot) if found.kind is Kind.STATICS else _described(found, robot)
+
+
+def _read_recording(
+    found: Found, options: RobotOptions, reading: RecordingOptions, progress: Progress | None
+) -> Frames:
+    robot = _robot_beside(options)
+    folder = None if reading.no_cache else default_folder()
+    recording = open_recording(
+        found.name,
+        progress=progress,
+        robot=robot,
+        cache=None if folder is None else ColumnCache(folder),
+        with_odometry=reading.with_odometry,
+    )
+    try:
+        _ = recording.transforms
+    except BaseException:
+        recording.close()
+        raise
+    notes = () if robot is None else robot.notes
+    return Frames("recording", recording.name, recording=recording, found=found, notes=notes)
+
+
+def _robot_beside(options: RobotOptions) -> Robot | None:
+    """Read the description that goes with a recording."""
+    if options.joints:
+        options.refuse("In a recording joints are where they were")
+    if options.urdf is None and not options.arguments:
+        return None
+    if options.urdf is None:
+        options.refuse("Only a description takes arguments: give it with --urdf FILE")
+
+    assert options.urdf is not None
+    return load_urdf(options.urdf, options.arguments)
+
+
+def _described(found: Found, options: RobotOptions) -> Frames:
+    robot = load_described(found, options)
+    buffer = robot.buffer(options.joints)
+    notes = (
+        *robot.notes,
+        *beyond_limits(robot, options.joints),
+        *joints_at_rest(robot, options.joints, found.name),
+    )
+    return Frames(
+        "robot description", found.name, buffer=buffer, robot=robot, found=found, notes=notes
+    )
+
+
+def load_described(found: Found, options: RobotOptions) -> Robot:
+    """Read the description that FROM names.
+
+    Raises:
+        InputError: If it cannot be read or has mistakes.
+        UsageError: If it needs an extra that is not installed, or options do not fit it.
+    """
+    if options.urdf is not None:
+        raise UsageError(
+            f"--urdf goes with a recording, and '{visible(found.name)}' is a robot description."
+        )
+    return load_urdf(found.paths[0], options.arguments)
+
+
+def _read_statics(found: Found, options: RobotOptions) -> Frames:
+    from tftool.robots.static_publishers import load_statics
+
+    options.refuse(f"'{visible(found.name)}' is a {found.kind.value}, and no robot")
+    statics = load_statics(found.paths[0], found.name)
+    return Frames(
+        "file of static transforms",
+        found.name,
+        buffer=statics.buffer,
+        found=found,
+        notes=statics.notes,
+    )
