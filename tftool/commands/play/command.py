@@ -151,7 +151,8 @@ def run(
     if not found.kind.is_recording:
         word = visible(file)
         raise UsageError(f"'{word}' is a {found.kind.value}: a recording is needed here.")
-    recording = open_from(connection, file).recording
+    # The options of sharing are for the session that plays it.
+    recording = open_from(connection, file, shares=True).recording
     assert isinstance(recording, Recording)
     timeline = Timeline(recording.source, recording.transforms)
     playing = _Playing(
