@@ -4,10 +4,12 @@ from itertools import pairwise
 
 import pytest
 from rich.cells import cell_len
+from rich.text import Text
 
 from tests.drawing.test_frame_tree import WORLD, fixed, moving, root, snapshot
 from tftool.base.stamps import seconds
 from tftool.drawing.frame_tree import TreeOrder, compact
+from tftool.drawing.table_columns import TableColumn, fit
 
 
 def lines(picture, width=80, **options):
@@ -77,6 +79,28 @@ def test_forty_levels_are_readable_in_eighty_columns():
 def test_deeper_still_a_number_says_how_deep():
     assert lines(chain(300))[-1].startswith("300…└ f300 ")
     assert lines(chain(300), ascii_only=True)[-1].startswith("300~` f300 ")
+
+
+def test_a_column_is_measured_once_and_not_for_every_row():
+    looks = 0
+
+    class Counted(tuple):
+        def __iter__(self):
+            nonlocal looks
+            looks += 1
+            return super().__iter__()
+
+    cells = Counted(("cell", "") for _ in range(50))
+    columns = fit([TableColumn("head", cells)], 80, wanted=10, longest=10)
+    before = looks
+    for place in range(50):
+        columns.row(place, Text("name"))
+
+    assert looks == before
+
+
+def test_so_many_rows_are_drawn_and_no_more():
+    assert len(compact(chain(300), 80, most=100).rows) == 100
 
 
 def test_a_long_name_keeps_its_beginning_and_its_end():

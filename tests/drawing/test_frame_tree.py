@@ -218,3 +218,22 @@ def test_one_long_name_does_not_fill_up_the_lines_of_the_others():
 
     assert "x" * 4096 in drawn
     assert all(len(line) < 300 for line in drawn.splitlines() if "frame" in line)
+
+
+def test_a_deep_chain_is_indented_so_far_and_then_numbered():
+    deep = snapshot(root("f0"), *(fixed(f"f{n}", f"f{n - 1}") for n in range(1, 3001)))
+
+    lines = frame_tree.render(deep).plain.split("\n")
+
+    by_name = {line.split("── ")[-1].split()[0]: line for line in lines if "── " in line}
+    assert by_name["f64"].startswith(" " * 4 * 63 + "└── f64 ")
+    assert by_name["f65"].startswith("65…└── f65 ")
+    assert by_name["f3000"].startswith("3000…└── f3000 ")
+    # As long as a few levels make them, not as the depth does: 3000 lines of 12 kB would be 36 MB.
+    assert max(map(len, lines)) < 500
+
+
+def test_the_first_lines_of_a_tree_come_before_the_last_ones_are_made():
+    pieces = frame_tree.pieces(snapshot(root("map"), fixed("odom", "map")))
+
+    assert next(pieces)[0].startswith("Recorded at time")

@@ -92,6 +92,10 @@ def _walk(roots: list[str], children: dict[str, list[str]]) -> list[str]:
     return order
 
 
+DEEPEST = 64
+"""Levels that are drawn by indentation; below them a number says how deep a frame hangs."""
+
+
 @dataclass(frozen=True, slots=True)
 class Guides:
     """The four pieces a tree is drawn with, all equally wide, and what stands before a name."""
@@ -102,17 +106,20 @@ class Guides:
     blank: str
     gap: str = ""
 
-    def lead(self, turns: tuple[bool, ...]) -> str:
-        """What is drawn before a name.
+    def lead(self, branch: "Branch", most: int | None = None, more: str = "…") -> str:
+        """Return what is drawn before a name: guides, or its depth as a number and one guide.
 
         Args:
-            turns: From the root's child down to the frame: whether each is the last of its
-                siblings; empty for a root.
+            branch: The frame.
+            most: Cells that guides may take; None for as many as `DEEPEST` levels take.
+            more: What stands for guides that are left out.
         """
-        if not turns:
+        if not branch.depth:
             return ""
-        above = "".join(self.blank if last else self.past for last in turns[:-1])
-        return above + (self.last if turns[-1] else self.child) + self.gap
+        own = (self.last if branch.turns[-1] else self.child) + self.gap
+        if branch.depth > DEEPEST or (most is not None and self.width(branch.depth) > most):
+            return f"{branch.depth}{more}{own}"
+        return "".join(self.blank if last else self.past for last in branch.turns[:-1]) + own
 
     def width(self, depth: int) -> int:
         """How many cells stand before the name of a frame so far below its root."""
@@ -141,23 +148,28 @@ class Branch:
 
     Attributes:
         info: The frame.
-        turns: What `Guides.lead` draws its guides by.
+        depth: How many levels it is below its root.
+        turns: Whether each frame from the root's child down to this one is the last of its
+            siblings; of a deep one, only the last `DEEPEST` of these.
         closes_loop: Whether its own link closes a loop, which is cut there.
     """
 
     info: FrameInfo
+    depth: int
     turns: tuple[bool, ...]
     closes_loop: bool
 
 
 def branches(forest: Forest) -> Iterator[Branch]:
     """Every frame, parents before children; a deep tree needs no deep stack."""
-    waiting: list[tuple[str, tuple[bool, ...]]] = [(root, ()) for root in reversed(forest.roots)]
+    waiting: list[tuple[str, int, tuple[bool, ...]]]
+    waiting = [(root, 0, ()) for root in reversed(forest.roots)]
+    loops = frozenset(forest.loops)
     while waiting:
-        frame, turns = waiting.pop()
-        yield Branch(forest.info[frame], turns, frame in forest.loops)
+        frame, depth, turns = waiting.pop()
+        yield Branch(forest.info[frame], depth, turns, frame in loops)
         for place, child in enumerate(reversed(forest.children[frame])):
-            waiting.append((child, (*turns, place == 0)))
+            waiting.append((child, depth + 1, (*turns, place == 0)[-DEEPEST:]))
 
 
 @dataclass(frozen=True, slots=True)

@@ -54,7 +54,23 @@ def render(
 ) -> Text:
     """Draw every tree with all that is known of each link, as wide as it gets.
 
-    `compact_tree.compact` draws it in a terminal's width.
+    `compact` draws it in a terminal's width. Args as `pieces`.
+
+    Returns:
+        Lines; nothing in a name acts on the terminal.
+    """
+    drawn = pieces(snapshot, ascii_only=ascii_only, moving=moving, marks=marks)
+    return Text(no_wrap=True, overflow="ellipsis").append_tokens(drawn)
+
+
+def pieces(
+    snapshot: Snapshot,
+    *,
+    ascii_only: bool = False,
+    moving: Collection[str] | None = None,
+    marks: Marks = NO_MARKS,
+) -> Iterator[tuple[str, str]]:
+    """Draw every tree piece by piece, so that the first lines of a large one show at once.
 
     Args:
         snapshot: What to draw.
@@ -62,35 +78,34 @@ def render(
         moving: Of a robot description, the frames whose joint moves; None for other frames.
         marks: What is wrong with frames: ids of the doctor's checks.
 
-    Returns:
-        Lines; nothing in a name acts on the terminal.
+    Yields:
+        Texts in a row, each with its style.
     """
-    text = Text(no_wrap=True, overflow="ellipsis")
     if moving is None:
-        text.append(f"Recorded at time: {display(snapshot.now)}")
+        yield f"Recorded at time: {display(snapshot.now)}", ""
     else:
         fixed = len(snapshot.frames) - len(moving) - 1
-        text.append(f"{len(moving)} of {len(moving) + fixed} joints move")
+        yield f"{len(moving)} of {len(moving) + fixed} joints move", ""
     if snapshot.at:
-        text.append(f"\nShown at time: {display(snapshot.at)}")
+        yield f"\nShown at time: {display(snapshot.at)}", ""
     if not snapshot.frames:
-        return text.append(f"\n{NOTHING}")
+        yield f"\n{NOTHING}", ""
+        return
     forest = grow(snapshot)
     names = distinct(forest.info)
     if len(forest.roots) > 1:
         listed = ", ".join(names[root] for root in forest.roots)
-        text.append(f"\n{len(forest.roots)} separate trees: {listed}", style="yellow")
-    text.append("\n")
+        yield f"\n{len(forest.roots)} separate trees: {listed}", "yellow"
+    yield "\n", ""
 
     for frame, ids in marks.items():
         if frame in names:
             names[frame] += f" ({', '.join(ids)})"
     guides = (ASCII if ascii_only else UNICODE)[0]
     rows = [_row(branch, names, guides, moving) for branch in branches(forest)]
-    text.append_tokens(_table(rows, HEADINGS if moving is None else ROBOT_HEADINGS))
+    yield from _table(rows, HEADINGS if moving is None else ROBOT_HEADINGS)
     if marks:
-        text.append(f"\n\nWhat is in brackets is wrong: {advice(marks)}", style="yellow")
-    return text
+        yield f"\n\nWhat is in brackets is wrong: {advice(marks)}", "yellow"
 
 
 def advice(marks: Marks) -> str:
@@ -198,7 +213,7 @@ def _row(
     if told and moving is not None:
         info = info._replace(is_static=info.frame not in moving)
         told = ("fixed" if info.is_static else "moving", visible(info.authority or NONE))
-    lead = guides.lead(branch.turns)
+    lead = guides.lead(branch, more="~" if guides in ASCII else "…")
     return _Row(lead, (lead + name, *told), _style(info))
 
 
@@ -321,6 +336,7 @@ def compact(
     marks: Mapping[str, Sequence[str]] | None = None,
     order: TreeOrder = TreeOrder.tree,
     wanted: str = "",
+    most: int | None = None,
 ) -> CompactTree:
     """Draw every tree, one line a frame.
 
@@ -332,9 +348,10 @@ def compact(
         marks: What is wrong with frames: ids of the doctor's checks.
         order: What decides the order; any but the tree's own leaves out guides.
         wanted: Only frames whose name has these letters, and in the tree what they hang from.
+        most: Rows to draw; None for all.
     """
     forest = grow(snapshot)
-    rows = _ordered(forest, order, wanted)
+    rows = _ordered(forest, order, wanted)[:most]
     if moving is not None:
         rows = [_of_robot(branch, moving) for branch in rows]
     told = _told(snapshot, moving)
@@ -506,20 +523,14 @@ class _Drawing:
         return max(
             (
                 cell_len(self.names[one.info.frame])
-                + (0 if self.is_flat else min(guides.width(len(one.turns)), self.most))
+                + (0 if self.is_flat else min(guides.width(one.depth), self.most))
                 for one in self.rows
             ),
             default=LEAST_NAME,
         )
 
     def _lead(self, branch: Branch, more: str) -> str:
-        if self.is_flat or not branch.turns:
-            return ""
-        depth = len(branch.turns)
-        if self.guides.width(depth) <= self.most:
-            return self.guides.lead(branch.turns)
-        # So deep that guides alone would fill the line: a number says where it hangs.
-        return f"{depth}{more}{self.guides.lead(branch.turns[-1:])}"
+        return "" if self.is_flat else self.guides.lead(branch, self.most, more)
 
 
 def _name_style(info: FrameInfo, marked: bool) -> str:

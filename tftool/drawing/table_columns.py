@@ -53,34 +53,36 @@ class FittedColumns:
 
     Attributes:
         columns: From left to right.
+        widths: How wide each is.
         room: Cells that are left for what stands before them.
         more: What stands for text that was left out.
     """
 
     columns: tuple[TableColumn, ...]
+    widths: tuple[int, ...]
     room: int
     more: str = "…"
 
     @property
     def width(self) -> int:
         """How many cells a line takes at most."""
-        return self.room + sum(GAP + one.width for one in self.columns)
+        return self.room + sum(GAP + width for width in self.widths)
 
     def heading(self, first: str) -> Text:
         """The line above the rows; `first` is above what stands before the columns."""
         shown = middle_cut(first, self.room, more=self.more)
         line = shown + " " * (self.room - cell_len(shown))
-        for one in self.columns:
-            line += " " * GAP + one.written(one.heading, one.width, self.more)
+        for one, width in zip(self.columns, self.widths, strict=True):
+            line += " " * GAP + one.written(one.heading, width, self.more)
         return Text(line.rstrip(), style="dim")
 
     def row(self, place: int, first: Text) -> Text:
         """One row, behind `first`, which has room."""
         line = Text(no_wrap=True, overflow="crop").append_text(first)
         line.append(" " * (self.room - first.cell_len))
-        for one in self.columns:
+        for one, width in zip(self.columns, self.widths, strict=True):
             text, style = one.cells[place]
-            line.append(" " * GAP).append(one.written(text, one.width, self.more), style=style)
+            line.append(" " * GAP).append(one.written(text, width, self.more), style=style)
         line.rstrip()
         return line
 
@@ -102,7 +104,8 @@ def fit(
         room = width - sum(one.width + GAP for one in kept)
         going = [one for one in kept if one.goes]
         if room >= wanted or not going:
-            return FittedColumns(tuple(kept), min(max(1, room), longest), more)
+            widths = tuple(one.width for one in kept)
+            return FittedColumns(tuple(kept), widths, min(max(1, room), longest), more)
         column = min(going, key=lambda one: one.goes)
         place = kept.index(column)
         tighter = tuple(cap for cap in column.caps if cap < column.width)

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 from tftool.base.counts import count
@@ -122,22 +123,22 @@ def _write(
                 raise UsageError("A PDF is nothing for a terminal: say where it goes with -o FILE.")
             sys.stdout.buffer.write(content)
         else:
-            sys.stdout.write(content)
+            sys.stdout.writelines(content)
         return
 
-    write_file(output, content)
+    write_file(output, content if isinstance(content, bytes) else "".join(content))
     notice(visible(f"Wrote {count(len(snapshot.frames), 'frame')} to {output}."))
 
 
 def _content(
     snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, *, wide: bool
-) -> str | bytes:
-
+) -> bytes | Iterable[str]:
+    """Return a PDF's bytes, or the text in pieces: a large tree begins to show at once."""
     if form is TreeFormat.json:
         told = frame_tree.as_object(snapshot, moving, marks)
-        return json.dumps(told, indent=2, allow_nan=False) + "\n"
+        return [json.dumps(told, indent=2, allow_nan=False), "\n"]
     if form is TreeFormat.yaml:
-        return frame_tree.as_yaml(snapshot)
+        return [frame_tree.as_yaml(snapshot)]
     if form is TreeFormat.tree:
         return drawn(snapshot, moving, marks, wide=wide)
     from tftool.drawing.tree_picture import draw
@@ -145,4 +146,4 @@ def _content(
     drawing = draw(snapshot, form.value, marks)
     if drawing.note:
         notice(drawing.note)
-    return drawing.content
+    return drawing.content if isinstance(drawing.content, bytes) else [drawing.content]

@@ -57,6 +57,6 @@ async def _redrawn(world: World, duration: Duration | None, console: Console) ->
         while end is None or due <= end:
             snapshot = world.buffer.snapshot(world.clock.now())
             picture = fitting(snapshot, None, marks(world.buffer, snapshot), console)
-            live.update(Group(picture, news), refresh=True)
+            live.update(Group(*picture, news), refresh=True)
             due = max(due + seconds(0.5), pace.now())
             await pace.sleep_until(due, Phase.WATCH)
