@@ -164,7 +164,7 @@ def test_other_values_are_neither_put_together_nor_repeated(value):
             compute()
 
 
-@pytest.mark.parametrize("module", ["geometry.rigid", "geometry.conversions", "frames.buffer"])
+@pytest.mark.parametrize("module", ["geometry.rigid", "geometry.conversions", "buffer.buffer"])
 def test_the_scalar_path_loads_no_numpy(module):
     code = (
         f"import sys, tftool.{module}; "

@@ -90,10 +90,9 @@ static ptrdiff_t find(const Edge *edge, int64_t time, ptrdiff_t at) {
 /* Fetch both neighbours of each moment, and how far it lies between them: NaN where the link has
    no data for it, which makes all of the pose NaN, and of what that is chained with. */
 INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
-                  double *second, double *share) {
+                  double *second, double *share, ptrdiff_t *places) {
     const Record *records = edge->records;
     const ptrdiff_t last = edge->last;
-    ptrdiff_t places[BLOCK];
     for (int i = 0; i < n; i++)
         places[i] = width > 1 ? aim(edge, times[i]) : edge->here;
     for (int i = 0; i < n; i++) {
@@ -144,8 +143,7 @@ INLINE double bend(double f, double u) {
 
 /* The poses on the way from `a` to `b`, to be written to `out`. */
 INLINE void interpolate(const double *a, const double *b, const double *share, int n, int width,
-                        double *out) {
-    double near[BLOCK], sign[BLOCK], keep[BLOCK], take[BLOCK];
+                        double *out, double *near, double *sign, double *keep, double *take) {
     int longest = 0;
     for (int i = 0; i < n; i++) {
         const double *first = a + 3 * width + i, *second = b + 3 * width + i;
@@ -235,16 +233,26 @@ INLINE void settle(double *turn, int n, int width) {
     }
 }
 
+/* Memory that a solution works in, owned by the caller: each array has room for `width` moments.
+   One moment needs some 300 bytes of stack, a block 40 KB: a single lookup must also succeed in a
+   thread with 64 KB. Separate local arrays, so that the compiler knows that none overlaps another. */
+typedef struct {
+    double *first, *second, *step, *other;      /* 7 numbers a moment. */
+    double *share, *near, *sign, *keep, *take;  /* 1 number a moment. */
+    ptrdiff_t *places;
+} Workspace;
+
 /* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
 INLINE void climb(const Edge *edges, ptrdiff_t count, const int64_t *times, int n, int width,
-                  double *pose) {
-    Rows first, second, step;
-    double share[BLOCK];
+                  double *pose, const Workspace *work) {
+    double *const step = work->step;
     for (ptrdiff_t e = 0; e < count || e == 0; e++) {
         double *out = e > 0 ? step : pose;
         if (count > 0 && edges[e].records != NULL) {
-            fetch(&edges[e], times, n, width, first, second, share);
-            interpolate(first, second, share, n, width, out);
+            fetch(&edges[e], times, n, width, work->first, work->second, work->share,
+                  work->places);
+            interpolate(work->first, work->second, work->share, n, width, out, work->near,
+                        work->sign, work->keep, work->take);
         }
         else
             for (int k = 0; k < 7; k++)
@@ -257,24 +265,30 @@ INLINE void climb(const Edge *edges, ptrdiff_t count, const int64_t *times, int 
 
 /* Ways ------------------------------------------------------------------- */
 
-/* So many links a way has at most; a longer one is left to Python. */
-#define MOST_LINKS 128
-
-/* The links from source upward, then those from target upward, made ready. */
+/* The links from source upward, then those from target upward, made ready. The caller owns the
+   edges. */
 typedef struct {
-    Edge edges[MOST_LINKS];
+    Edge *edges;
     ptrdiff_t ups, count;
 } Way;
 
 /* Poses of source in target, or NaN throughout: `Path.solve`. */
-INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose) {
-    Rows other;
-    climb(way->edges, way->ups, times, n, width, pose);
+INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose,
+                      const Workspace *work) {
+    climb(way->edges, way->ups, times, n, width, pose, work);
     if (way->count > way->ups) {
-        climb(way->edges + way->ups, way->count - way->ups, times, n, width, other);
-        between(other, pose, n, width);
+        climb(way->edges + way->ups, way->count - way->ups, times, n, width, work->other, work);
+        between(work->other, pose, n, width);
     }
     settle(pose + 3 * width, n, width);
+}
+
+/* The pose of source in target at one moment, or NaN throughout. */
+INLINE void solve_one(const Way *way, int64_t time, double *pose) {
+    double first[7], second[7], step[7], other[7], share[1], near[1], sign[1], keep[1], take[1];
+    ptrdiff_t places[1];
+    const Workspace work = {first, second, step, other, share, near, sign, keep, take, places};
+    solve_way(way, &time, 1, 1, pose, &work);
 }
 
 /* Poses of source in target for so many moments, block by block, or NaN where `valid` becomes 0.
@@ -282,10 +296,13 @@ INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, do
 WIDE static ptrdiff_t solve_rows(const Way *way, ptrdiff_t rows, const int64_t *times,
                                   double *places, double *turns, unsigned char *valid) {
     ptrdiff_t missing = 0;
-    Rows pose;
+    Rows pose, first, second, step, other;
+    double share[BLOCK], near[BLOCK], sign[BLOCK], keep[BLOCK], take[BLOCK];
+    ptrdiff_t spots[BLOCK];
+    const Workspace work = {first, second, step, other, share, near, sign, keep, take, spots};
     for (ptrdiff_t start = 0; start < rows; start += BLOCK) {
         const int n = rows - start < BLOCK ? (int)(rows - start) : BLOCK;
-        solve_way(way, times + start, n, BLOCK, pose);
+        solve_way(way, times + start, n, BLOCK, pose, &work);
         const double *w = pose + 6 * BLOCK;
         for (int i = 0; i < n; i++)
             valid[start + i] = (times[start + i] != 0) & (w[i] == w[i]);

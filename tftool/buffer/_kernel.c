@@ -84,15 +84,20 @@ static int read_stamp(PyObject *stamp, int64_t *value) {
     return !overflow;
 }
 
-/* Whether a moving link is one the kernel reads: its records in `view`, to be released. */
+/* Open the records of a moving link in `view`, which the caller releases. Returns whether the
+   kernel can read them; never sets an error. */
 static int read_records(const Link *link, int flags, Py_buffer *view) {
-    if (link->start < 0 || link->count <= link->start || link->mixed)
-        return 0;
-    if (PyObject_GetBuffer(link->records, view, flags) < 0) {
+    /* From 3.12 on this may run Python code (`__buffer__`), which may change the link and its
+       records: the reference is ours meanwhile, and every number is checked afterwards. */
+    PyObject *records = Py_NewRef(link->records);
+    const int opened = PyObject_GetBuffer(records, view, flags);
+    Py_DECREF(records);
+    if (opened < 0) {
         PyErr_Clear();
         return 0;
     }
-    if (link->count <= view->len / (Py_ssize_t)sizeof(Record)
+    if (link->records == records && link->start >= 0 && link->count > link->start && !link->mixed
+        && link->count <= view->len / (Py_ssize_t)sizeof(Record)
         && (uintptr_t)view->buf % sizeof(int64_t) == 0)
         return 1;
     PyBuffer_Release(view);
@@ -114,10 +119,19 @@ static int read_link(const Link *link, Edge *edge, Py_buffer *view) {
     return 1;
 }
 
-/* A way, and what holds the records of its links meanwhile. */
+/* So many links a way has at most; a longer one is left to Python. */
+#define MOST_LINKS 128
+
+/* So many of them lie on the stack; room for more is allocated. */
+#define FEW_LINKS 16
+
+/* A way, and the views that own the records of its links until `close_way`. */
 typedef struct {
     Way way;
-    Py_buffer views[MOST_LINKS];
+    Py_buffer *views;
+    void *more; /* Memory for edges and views, where they are many; freed by `close_way`. */
+    Edge few_edges[FEW_LINKS];
+    Py_buffer few_views[FEW_LINKS];
 } Held;
 
 /* Make the links of two tuples ready, to be closed in any case; `time` is when they are read
@@ -130,8 +144,18 @@ static int open_way(Held *held, PyTypeObject *fields, PyObject *up, PyObject *do
     PyTypeObject *known = fields;
     way->count = 0;
     way->ups = ups;
+    way->edges = held->few_edges;
+    held->views = held->few_views;
+    held->more = NULL;
     if (total > MOST_LINKS)
         return 0;
+    if (total > FEW_LINKS) {
+        held->more = PyMem_Malloc((size_t)total * (sizeof(Edge) + sizeof(Py_buffer)));
+        if (held->more == NULL)
+            return 0;
+        way->edges = held->more;
+        held->views = (Py_buffer *)(way->edges + total);
+    }
     for (Py_ssize_t i = 0; i < total; i++) {
         PyObject *link = i < ups ? PyTuple_GetItem(up, i) : PyTuple_GetItem(down, i - ups);
         if (Py_TYPE(link) != known && !PyObject_TypeCheck(link, fields))
@@ -156,6 +180,7 @@ static void close_way(Held *held) {
     for (Py_ssize_t i = 0; i < held->way.count; i++)
         if (held->way.edges[i].records != NULL)
             PyBuffer_Release(&held->views[i]);
+    PyMem_Free(held->more);
 }
 
 /* Looking up -------------------------------------------------------------- */
@@ -167,11 +192,23 @@ static int same_text(PyObject *known, PyObject *given) {
             || (PyUnicode_CheckExact(given) && PyUnicode_Compare(known, given) == 0));
 }
 
-/* What a dictionary holds under a plain string, borrowed; NULL if there is nothing, or it is no
-   dictionary, or no such string. Never sets an error, and runs no code of others. */
+/* Return what a dictionary holds under a plain string, a new reference; NULL if there is nothing,
+   or it is no dictionary, or no such string. Never sets an error.
+
+   Names in a buffer are plain strings, so that no comparison runs code. Were one another string
+   all the same, its `__eq__` could run here and drop the dictionary or the value: that is why both
+   are owned. What it raises, the plain twin raises again. */
 static PyObject *value_of(PyObject *dictionary, PyObject *name) {
-    return dictionary != NULL && PyDict_Check(dictionary) && PyUnicode_CheckExact(name)
-        ? PyDict_GetItemWithError(dictionary, name) : NULL;
+    if (dictionary == NULL || !PyDict_Check(dictionary) || !PyUnicode_CheckExact(name))
+        return NULL;
+    Py_INCREF(dictionary);
+    PyObject *value = PyDict_GetItemWithError(dictionary, name);
+    if (value != NULL)
+        Py_INCREF(value);
+    else if (PyErr_Occurred())
+        PyErr_Clear();
+    Py_DECREF(dictionary);
+    return value;
 }
 
 /* A new tuple of one of the types, to be filled; NULL with an error set on failure. The collector
@@ -223,18 +260,22 @@ static PyObject *answer(PyObject *made, const double *pose) {
    error. */
 static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
                       int64_t *time, double *pose, PyObject **made) {
-    PyObject *path = value_of(value_of(door->_paths, target), source), *up, *down;
+    PyObject *of_target = value_of(door->_paths, target), *up, *down;
+    PyObject *path = value_of(of_target, source);
     Held held;
-    if (!is_tuple(path, 3) || !PyTuple_Check(up = PyTuple_GetItem(path, 0))
-        || !PyTuple_Check(down = PyTuple_GetItem(path, 1)))
-        return 0;
-    /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
-       which lets go of the path; what the way has opened it holds. */
-    const int is_open = open_way(&held, types->fields, up, down, time)
-        && (made == NULL || (*made = prepare(types, *time, target, source)) != NULL);
-    if (is_open)
-        solve_way(&held.way, time, 1, 1, pose);
-    close_way(&held);
+    int is_open = 0;
+    if (is_tuple(path, 3) && PyTuple_Check(up = PyTuple_GetItem(path, 0))
+        && PyTuple_Check(down = PyTuple_GetItem(path, 1))) {
+        /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
+           which drops the path from the buffer: this reference to it is ours. */
+        is_open = open_way(&held, types->fields, up, down, time)
+            && (made == NULL || (*made = prepare(types, *time, target, source)) != NULL);
+        if (is_open)
+            solve_one(&held.way, *time, pose);
+        close_way(&held);
+    }
+    Py_XDECREF(path);
+    Py_XDECREF(of_target);
     return is_open && pose[6] == pose[6];
 }
 
@@ -346,9 +387,14 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     const int is_full = link->start > SLACK + link->count / SLACK_PART;
     /* That is asked first: nothing that was looked at before need be so any more. */
     if (link->records == NULL || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
-        || link->origins != Py_None || link->origin != origin || link->limit < 0
         || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
+    /* Nothing below runs Python code before the records are released: what holds here holds there. */
+    if (link->origins != Py_None || link->origin != origin || link->limit < 0
+        || is_full != (link->start > SLACK + link->count / SLACK_PART)) {
+        PyBuffer_Release(&view);
+        return 0;
+    }
     Record *records = view.buf;
     const int64_t newest = link->newest_stamp;
     const uint64_t limit = (uint64_t)link->limit;
@@ -404,21 +450,20 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     double pose[7];
     if (Py_TYPE(sample) != types->tuples[STAMPED] || PyTuple_Size(sample) != 4)
         return 0;
+    /* Ours until the end: what runs while the sample is put in may drop it from the buffer. */
     PyObject *sender = value_of(door->_senders, PyTuple_GetItem(sample, 2));
-    PyObject *transform = PyTuple_GetItem(sample, 3);
-    if (!is_tuple(sender, 4) || !same_text(PyTuple_GetItem(sender, 0), PyTuple_GetItem(sample, 1))
-        || !same_text(PyTuple_GetItem(sender, 1), authority)
-        || !read_stamp(PyTuple_GetItem(sender, 2), &origin)
-        || Py_TYPE(transform) != types->tuples[TRANSFORM] || PyTuple_Size(transform) != 2
-        || !read_stamp(PyTuple_GetItem(sample, 0), &stamp)
-        || !read_floats(PyTuple_GetItem(transform, 0), pose, 3)
-        || !read_floats(PyTuple_GetItem(transform, 1), pose + 3, 4))
-        return 0;
-    /* What runs meanwhile may let go of it. */
-    PyObject *link = Py_NewRef(PyTuple_GetItem(sender, 3));
-    const int done = PyObject_TypeCheck(link, types->fields)
+    PyObject *transform = PyTuple_GetItem(sample, 3), *link;
+    const int done = is_tuple(sender, 4)
+        && same_text(PyTuple_GetItem(sender, 0), PyTuple_GetItem(sample, 1))
+        && same_text(PyTuple_GetItem(sender, 1), authority)
+        && read_stamp(PyTuple_GetItem(sender, 2), &origin)
+        && Py_TYPE(transform) == types->tuples[TRANSFORM] && PyTuple_Size(transform) == 2
+        && read_stamp(PyTuple_GetItem(sample, 0), &stamp)
+        && read_floats(PyTuple_GetItem(transform, 0), pose, 3)
+        && read_floats(PyTuple_GetItem(transform, 1), pose + 3, 4)
+        && PyObject_TypeCheck(link = PyTuple_GetItem(sender, 3), types->fields)
         && put((Link *)link, stamp, origin, pose);
-    Py_DECREF(link);
+    Py_XDECREF(sender);
     return done;
 }
 

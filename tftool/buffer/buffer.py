@@ -171,6 +171,8 @@ class Buffer(Door):
         """
         try:
             stamp, parent, child, pose = transform
+            if not (child.__class__ is parent.__class__ is authority.__class__ is str):
+                return self._set_slowly(transform, authority, False)
             known_parent, known_authority, origin, history = self._senders[child]
             outcome = (
                 history.insert(stamp, origin, pose)
@@ -217,6 +219,8 @@ class Buffer(Door):
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
+        if isinstance(authority, str):
+            authority = tree.plain(authority)
         rotation = quaternions.canonical(quaternions.unit(pose.rotation))
         errors = refusals.objections(child, parent, stamp, pose.translation, rotation, authority)
         trees = self._tree
@@ -456,16 +460,13 @@ class Buffer(Door):
         """
         if type(time) is not int:
             time = whole(time)
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         pose: Transform | None = None
         known = True
         try:
             path = self._paths[target_frame][source_frame]
         except KeyError:
             known = False
-        except TypeError:
-            # A name that cannot be looked for: the batch says the same.
-            tree.require_text(target_frame, source_frame)
-            raise
         else:
             moment = time or path.latest()
             pose = path.solve(moment)
@@ -493,7 +494,8 @@ class Buffer(Door):
         Raises:
             TransformException: As `lookup_transform`; frames are always checked, even equal ones.
         """
-        tree.require_text(target_frame, source_frame, fixed_frame)
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
+        fixed_frame = tree.plain(fixed_frame)
         paths = self._paths
         if not (
             # Whose names were found good before.
@@ -542,6 +544,7 @@ class Buffer(Door):
         # The single lookup does without numpy.
         from tftool.buffer.batch import lookup
 
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         return lookup.lookup_transforms(
             self._tree, self._solver, target_frame, source_frame, times, missing, threads
         )
@@ -568,6 +571,8 @@ class Buffer(Door):
         """
         from tftool.buffer.batch import lookup
 
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
+        fixed_frame = tree.plain(fixed_frame)
         return lookup.lookup_transforms_full(
             self._tree,
             self._solver,
@@ -586,7 +591,7 @@ class Buffer(Door):
         Raises:
             TransformException: If a name is unknown or invalid, or nothing joins the two.
         """
-        tree.require_text(target_frame, source_frame)
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
         if path is not None:
             return path.latest()
@@ -665,11 +670,8 @@ class Buffer(Door):
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
         if type(time) is not int:
             time = whole(time)
-        try:
-            path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
-        except TypeError:
-            tree.require_text(target_frame, source_frame)
-            raise
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
+        path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
         if path is not None and path.covers(time or path.latest()):
             return True
         return self._solver.why_not(target_frame, source_frame, time) is None
@@ -689,6 +691,7 @@ class Buffer(Door):
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
         """Why `can_transform` says no, in tf2's words; empty if it says yes."""
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         reason = self._solver.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
 
@@ -701,6 +704,8 @@ class Buffer(Door):
         fixed_frame: str,
     ) -> str:
         """Why `can_transform_full` says no, in tf2's words; empty if it says yes."""
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
+        fixed_frame = tree.plain(fixed_frame)
         for frame, argument in (
             (target_frame, "target_frame"),
             (source_frame, "source_frame"),
@@ -732,6 +737,7 @@ class Buffer(Door):
             0 if it can be looked up now, NEVER if it never can again (in both cases
             `callback` is not kept), else a handle for `cancel`.
         """
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         return self._requests.add(callback, (target_frame, source_frame, whole(time)))
 
     def cancel(self, handle: int) -> None:
@@ -761,6 +767,7 @@ class Buffer(Door):
         """
         from tftool.buffer.batch import edge_columns as columns
 
+        child = tree.plain(child)
         number = self._solver.number(child, "child", "samples", child, child)
         return columns.samples(self._tree, self._tree.frames[number])
 
@@ -800,7 +807,7 @@ class Buffer(Door):
 
     def frame_exists(self, frame: str) -> bool:
         """Whether a name ever came up; tf2's own NO_PARENT always did."""
-        tree.require_text(frame)
+        frame = tree.plain(frame)
         return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
 
     def parent(self, frame: str, time: Stamp = 0) -> str | None:
@@ -810,7 +817,7 @@ class Buffer(Door):
             TypeError: If the moment is no whole number of nanoseconds, or the name no text.
         """
         time = whole(time)
-        tree.require_text(frame)
+        frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)
         if number is None:
             return None
@@ -820,7 +827,7 @@ class Buffer(Door):
 
     def parents(self, frame: str) -> set[str]:
         """Every parent that a remembered sample of a frame names; none of a root."""
-        tree.require_text(frame)
+        frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)
         above = () if number is None else self._tree.parents(number)
         return {self._tree.frames[one].name for one in above}
@@ -830,7 +837,7 @@ class Buffer(Door):
 
         One who took over from another once is no rival.
         """
-        tree.require_text(frame)
+        frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)
         link = None if number is None else self._tree.frames[number].link
         if not isinstance(link, History):
@@ -849,6 +856,7 @@ class Buffer(Door):
         Raises:
             TransformException: As `lookup_transform`.
         """
+        target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         return self._solver.chain(target_frame, source_frame, whole(time))
 
     def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:

@@ -34,13 +34,28 @@ MAX_AUTHORITIES = 65_536
 
 
 def stripped(name: str) -> str:
-    """The name as it is remembered: without the one leading slash it may have.
+    """Return a name as it is remembered: a plain `str` without one leading slash.
 
     Raises:
         TypeError: If it is not a string.
     """
-    require_text(name)
+    name = plain(name)
     return name[1:] if name.startswith("/") else name
+
+
+def plain(name: str) -> str:
+    """Return a name as exactly a `str`.
+
+    A subclass may compare and hash by code of its own: as a key it would run that code in the
+    middle of a lookup, which may then change what is being read.
+
+    Raises:
+        TypeError: If it is not a string.
+    """
+    if name.__class__ is str:
+        return name
+    require_text(name)
+    return str.__str__(name)
 
 
 def fault(name: str) -> str:
@@ -49,7 +64,7 @@ def fault(name: str) -> str:
     Raises:
         TypeError: If it is not a string.
     """
-    require_text(name)
+    name = plain(name)
     if not name:
         return EMPTY
     if name.startswith("/"):
