@@ -1,9 +1,15 @@
+import html
 import re
 import socket
 import sys
+import urllib.parse
+import urllib.request
 import webbrowser
+from pathlib import Path
 
 import pytest
+
+ADDRESS = r"http://127\.0\.0\.1:\d+/\?token=[\w-]{32}"
 
 
 @pytest.fixture
@@ -16,7 +22,8 @@ def test_view_says_where_the_page_is_and_ends_when_told(page, tftool):
 
     assert (result.status, result.err) == (0, "")
     assert re.fullmatch(
-        r"The frames of scenario 'turtles' are at http://127\.0\.0\.1:\d+/\n", result.out
+        r"The frames of scenario 'turtles' are at http://127\.0\.0\.1:\d+/\?token=[\w-]{32}\n",
+        result.out,
     )
 
 
@@ -27,7 +34,8 @@ def test_on_a_narrow_terminal_the_address_has_a_line_of_its_own(page, tftool, mo
     result = tftool("view", "turtles", "--for", "2", "--port", "0")
 
     assert re.fullmatch(
-        r"The frames of scenario 'turtles' are at\nhttp://127\.0\.0\.1:\d+/\n", result.out
+        r"The frames of scenario 'turtles' are at\nhttp://127\.0\.0\.1:\d+/\?token=[\w-]{32}\n",
+        result.out,
     )
 
 
@@ -39,22 +47,27 @@ def test_view_takes_the_next_port_when_one_is_taken_and_says_so(page, tftool):
     said = re.fullmatch(rf"Port {taken} is not free: taking (\d+)\.\n", result.err)
     assert result.status == 0
     assert int(said[1]) > taken
-    assert f"http://127.0.0.1:{said[1]}/" in result.out
+    assert f"http://127.0.0.1:{said[1]}/?token=" in result.out
 
 
 @pytest.mark.parametrize(("opens", "told"), [(True, ""), (False, "No browser could be started")])
 def test_view_opens_the_page_on_request(page, tftool, monkeypatch, opens, told):
-    asked = []
+    opened = []
 
     def browser(url):
-        asked.append(url)
+        file = Path(urllib.request.url2pathname(urllib.parse.urlsplit(url).path))
+        # Every user of the machine may read a command line, and none but us that file.
+        assert "token" not in url
+        assert file.parent.stat().st_mode & 0o077 == 0
+        opened.append(html.unescape(file.read_text()))
         return opens
 
     monkeypatch.setattr(webbrowser, "open", browser)
     result = tftool("view", "static", "--for", "1", "--port", "0", "--open")
 
     assert result.status == 0
-    assert asked[0] in result.out
+    address = re.search(r"http://\S+", result.out)[0]
+    assert f'url={address}"' in opened[0]
     assert told in result.err
 
 

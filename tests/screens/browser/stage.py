@@ -12,6 +12,7 @@ from tftool.geometry.rigid import Transform
 from tftool.screens.browser.live_messages import LiveDisplays
 from tftool.screens.browser.server import PageServer
 from tftool.world.clock import WallClock, run
+from tftool.world.link.zenoh.rendezvous import page_secret
 from tftool.world.world import World
 
 
@@ -34,6 +35,10 @@ class Stage:
     @property
     def url(self):
         return self._page.url
+
+    def address(self, path):
+        """Where a path of the page's server is, with its secret."""
+        return self._page.address(path)
 
     @property
     def port(self):
@@ -89,7 +94,7 @@ class Stage:
         self._world = world
         self._loop = asyncio.get_running_loop()
         self._over = asyncio.Event()
-        async with PageServer(world, port=self._port) as self._page:
+        async with PageServer(world, port=self._port, secret=page_secret()) as self._page:
             self._page.show_live(LiveDisplays(world))
             running = asyncio.ensure_future(self._page.run())
             self._ready.set()

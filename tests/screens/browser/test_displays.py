@@ -212,7 +212,7 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
     assert page.complaints() == []
 
     # A file that is saved of it holds the last of each.
-    with urllib.request.urlopen(f"{stage.url}standalone.html") as answer:
+    with urllib.request.urlopen(stage.address("/standalone.html")) as answer:
         (tmp_path / "saved.html").write_bytes(answer.read())
     saved = opened(chromium, tmp_path / "saved.html", "fixed=world")
     assert shown(saved, "/early", 1.0) == (1, [3.0, 1.0, 0.0])

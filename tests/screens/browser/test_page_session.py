@@ -29,7 +29,7 @@ def test_another_sites_page_gets_no_frames(chromium, stage):
         socket.onopen = () => done("opened");
         socket.onerror = () => done("refused");
         """,
-        f"ws://127.0.0.1:{stage.port}/frames",
+        stage.address("/frames").replace("http://", "ws://"),
     )
 
     assert told == "refused"

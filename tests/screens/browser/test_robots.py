@@ -7,7 +7,7 @@ import pytest
 websockets = pytest.importorskip("websockets", reason="the extra `view` is not installed")
 
 from tests.screens.browser.mesh_files import write_package  # noqa: E402
-from tests.screens.browser.test_server import Page, fetch, open_page, put, serve  # noqa: E402
+from tests.screens.browser.test_server import Page, fetch, open_page, put, serve, where  # noqa: E402
 from tests.world.nodes.harness import new_world  # noqa: E402
 from tftool.base.errors import InputError  # noqa: E402
 from tftool.robots.robot_model import Robot  # noqa: E402
@@ -94,9 +94,9 @@ def test_pages_get_the_robot_its_meshes_and_nothing_else(shown, package):
             client = Page(connection)
             put(world, 1.0, parent="base", child="hand")
             await client.until(lambda client: "robot" in client.told)
-        good = await fetch(page.port, "/mesh/0/meshes/a.stl")
+        good = await fetch(page.port, where(page, "/mesh/0/meshes/a.stl"))
         bad = [
-            await fetch(page.port, path)
+            await fetch(page.port, where(page, path))
             for path in (
                 "/mesh/0/../../etc/passwd",
                 "/mesh/0/%2e%2e/%2e%2e/etc/passwd",
@@ -120,7 +120,7 @@ def test_pages_get_the_robot_its_meshes_and_nothing_else(shown, package):
 
 def test_without_a_robot_there_are_no_meshes():
     async def test(world, page):
-        return await fetch(page.port, "/mesh/0/meshes/a.stl")
+        return await fetch(page.port, where(page, "/mesh/0/meshes/a.stl"))
 
     status, _, _ = serve(test)
     assert status == 404

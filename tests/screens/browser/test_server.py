@@ -8,7 +8,9 @@ import os
 import socket
 import struct
 from http.client import HTTPConnection
+from urllib.parse import parse_qs, quote, urlsplit
 
+import numpy as np
 import pytest
 
 websockets = pytest.importorskip("websockets", reason="the extra `view` is not installed")
@@ -19,6 +21,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
 from tests.patience import PATIENCE  # noqa: E402
 from tftool.base.errors import TftoolError  # noqa: E402
 from tftool.base.stamps import seconds  # noqa: E402
+from tftool.buffer.buffer import NO_LIMIT  # noqa: E402
 from tftool.buffer.sample import TransformStamped  # noqa: E402
 from tftool.geometry.rigid import Transform  # noqa: E402
 from tftool.screens.browser import server  # noqa: E402
@@ -49,8 +52,9 @@ def put(world, x, *, parent="world", child="turtle", stamp=None):
 
 
 def open_page(page, **more):
-    origin = more.pop("origin", page.url.rstrip("/"))
-    return connect(f"ws://127.0.0.1:{page.port}/frames", origin=origin, compression=None, **more)
+    origin = more.pop("origin", page.origin)
+    address = page.address("/frames").replace("http://", "ws://")
+    return connect(address, origin=origin, compression=None, **more)
 
 
 class Page:
@@ -94,6 +98,11 @@ class Page:
         await self.connection.send(json.dumps(message))
 
 
+def where(page, path):
+    """A path of the page's server, with its secret."""
+    return page.address(path).removeprefix(page.origin)
+
+
 def fetch(port, path="/", **headers):
     """Ask over plain HTTP from another thread, as a browser would."""
 
@@ -114,10 +123,10 @@ def fetch(port, path="/", **headers):
 
 def test_the_page_and_its_files_are_served_with_a_strict_policy():
     async def test(world, page):
-        assert page.url == f"http://127.0.0.1:{page.port}/"
+        assert page.url.startswith(f"http://127.0.0.1:{page.port}/?token=")
         for path, kind in (
-            ("/", "text/html"),
-            ("/index.html?x=1", "text/html"),
+            (where(page, "/"), "text/html"),
+            (where(page, "/index.html") + "&x=1", "text/html"),
             ("/page.js", "text/javascript"),
             ("/page.css", "text/css"),
             ("/icon.svg", "image/svg+xml"),
@@ -135,7 +144,7 @@ def test_the_page_and_its_files_are_served_with_a_strict_policy():
 def test_nothing_else_is_served():
     async def test(world, page):
         for path in ("/../server.py", "/page/main.js", "/etc/passwd", "//", "/frames/x"):
-            status, _, body = await fetch(page.port, path)
+            status, _, body = await fetch(page.port, where(page, path))
             assert (status, body) == (404, b"There is no such page here.\n")
 
     serve(test)
@@ -147,7 +156,122 @@ def test_another_host_name_is_refused(host):
     async def test(world, page):
         status, _, body = await fetch(page.port, "/", Host=host)
         assert status == 403
-        assert page.url.encode() in body
+        assert page.origin.encode() in body
+        assert secret_of(page).encode() not in body
+
+    serve(test)
+
+
+def secret_of(page):
+    return parse_qs(urlsplit(page.url).query)["token"][0]
+
+
+@pytest.mark.parametrize("path", ["/", "/index.html", "/frames", "/tracks", "/mesh/0/a.stl",
+                                  "/standalone.html"])  # fmt: skip
+@pytest.mark.parametrize("query", ["", "?token=", "?token=guessed", "?view=a", "?token=\xe9"])
+def test_other_users_of_the_machine_get_nothing_without_the_secret(path, query):
+    async def test(world, page):
+        put(world, 1.0)
+        status, _, body = await fetch(page.port, path + quote(query, safe="?=&"))
+        assert status == 403
+        assert b"lacks its secret: open the one that 'tftool view' printed" in body
+        assert b"turtle" not in body
+        assert secret_of(page).encode() not in body
+
+    serve(test)
+
+
+def test_a_socket_without_the_secret_is_refused():
+    async def test(world, page):
+        address = f"ws://127.0.0.1:{page.port}/frames"
+        with pytest.raises(InvalidStatus) as refused:
+            await connect(address, origin=page.origin).__aenter__()
+        assert refused.value.response.status_code == 403
+
+    serve(test)
+
+
+def test_every_server_has_a_secret_of_its_own():
+    secrets = []
+
+    async def test(world, page):
+        secrets.append(secret_of(page))
+
+    for _ in range(2):
+        serve(test)
+    assert len(set(secrets)) == 2
+    assert min(map(len, secrets)) >= 32
+
+
+def test_the_secret_is_in_no_log(caplog):
+    async def test(world, page):
+        with caplog.at_level(0, "tftool.view"):
+            await fetch(page.port, where(page, "/standalone.html"))
+            await fetch(page.port, where(page, "/nothing"))
+        assert secret_of(page) not in caplog.text
+
+    serve(test)
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Origin": "http://evil.example"},
+        {"Sec-Fetch-Site": "cross-site"},
+        {"Sec-Fetch-Site": "same-site"},
+        {"Origin": "null", "Sec-Fetch-Site": "same-origin"},
+    ],
+)
+def test_another_site_gets_no_file(headers):
+    async def test(world, page):
+        path = where(page, "/standalone.html")
+        status, _, body = await fetch(page.port, path, **headers)
+        assert (status, body) == (403, b"The file is for this server's own page.\n")
+
+    serve(test)
+
+
+def much(world):
+    """So many samples that a file of them takes seconds to write."""
+    count = 300_000
+    stamps = world.clock.epoch + np.arange(count) * 1_000_000
+    turns = np.tile([0.0, 0.0, 0.0, 1.0], (count, 1))
+    places = np.random.default_rng(1).normal(size=(count, 3))
+    world.buffer.cache_time = NO_LIMIT
+    for child in ("a", "b"):
+        world.buffer.set_records("world", child, records(stamps, places, turns))
+
+
+def records(stamps, places, turns):
+    return np.column_stack([stamps, np.hstack([places, turns]).view(np.int64)])
+
+
+def test_one_file_is_written_at_a_time():
+    async def test(world, page):
+        much(world)
+        path = where(page, "/standalone.html")
+        answers = await asyncio.gather(*(fetch(page.port, path) for _ in range(4)))
+        assert sorted(status for status, _, _ in answers) == [200, 503, 503, 503]
+        assert {body for status, _, body in answers if status == 503} == {
+            b"A file is being written; ask again afterwards.\n"
+        }
+        assert (await fetch(page.port, path))[0] == 200
+
+    serve(test)
+
+
+def test_a_file_is_given_up_when_its_asker_leaves():
+    async def test(world, page):
+        much(world)
+        path = where(page, "/standalone.html")
+        _, writer = await asyncio.open_connection("127.0.0.1", page.port)
+        writer.write(f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{page.port}\r\n\r\n".encode())
+        await writer.drain()
+        while (await fetch(page.port, path))[0] != 503:
+            pass
+        writer.close()
+        while (await fetch(page.port, path, **{"Sec-Fetch-Site": "none"}))[0] == 503:
+            pass
 
     serve(test)
 
@@ -169,9 +293,10 @@ def test_localhost_is_us_too():
     async def test(world, page):
         put(world, 1.0)
         url = f"localhost:{page.port}"
-        status, _, _ = await fetch(page.port, "/", Host=url)
+        query = urlsplit(page.url).query
+        status, _, _ = await fetch(page.port, f"/?{query}", Host=url)
         assert status == 200
-        async with connect(f"ws://{url}/frames", origin=f"http://{url}") as connection:
+        async with connect(f"ws://{url}/frames?{query}", origin=f"http://{url}") as connection:
             client = Page(connection)
             await client.hear()
             assert client.poses["turtle"][0] == 1.0
@@ -366,7 +491,7 @@ def test_a_hundred_megabytes_are_refused_unread():
         put(world, 1.0)
         reader, writer = await asyncio.open_connection("127.0.0.1", page.port)
         writer.write(
-            f"GET /frames HTTP/1.1\r\nHost: 127.0.0.1:{page.port}\r\n"
+            f"GET {where(page, '/frames')} HTTP/1.1\r\nHost: 127.0.0.1:{page.port}\r\n"
             f"Origin: http://127.0.0.1:{page.port}\r\n"
             "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode()

@@ -1,13 +1,16 @@
 """`tftool view`: the frames in 3-D, in a browser."""
 
 import asyncio
+import html
 import shutil
 import sys
 import webbrowser
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
@@ -41,6 +44,7 @@ from tftool.screens.first_moment import first_look, first_moment
 from tftool.world.clock import Clock, Phase
 from tftool.world.clock import run as run_on
 from tftool.world.link.session_world import Session, lasting, lived
+from tftool.world.link.zenoh.rendezvous import page_secret
 from tftool.world.nodes.joints import (
     DESCRIPTION,
     LATCHED,
@@ -221,21 +225,45 @@ async def _show(
         between = "\n" if is_long and sys.stdout.isatty() else " "
         sys.stdout.write(f"{said}{between}{url}\n")
         sys.stdout.flush()
-        if open_browser and not await _opened(url):
-            notice("No browser could be started: open that address yourself.")
-        tasks = {asyncio.ensure_future(page.run()), asyncio.ensure_future(waiting)}
-        try:
-            ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-            for task in ended:
-                task.result()
-        finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+        with _redirect_to(url) as redirect:
+            if open_browser and not await _opened(redirect):
+                notice("No browser could be started: open that address yourself.")
+            await _until_one_ends(page.run(), waiting)
+
+
+async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
+    """Run coroutines beside each other until one ends, then cancel the others."""
+    tasks = [asyncio.ensure_future(one) for one in work]
+    try:
+        ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        for task in ended:
+            task.result()
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+
+@contextmanager
+def _redirect_to(url: str) -> Iterator[str]:
+    """Give the address of a file that leads to the page, for as long as this block.
+
+    A browser's command line is there for every user of the machine to read, and the page's own
+    address holds its secret: so the browser is given a file that only this user may read.
+    """
+    with TemporaryDirectory(prefix="tftool-") as folder:
+        file = Path(folder, "view.html")
+        target = html.escape(url, quote=True)
+        file.write_text(
+            '<!doctype html><meta charset="utf-8"><meta name="referrer" content="no-referrer">'
+            f'<meta http-equiv="refresh" content="0; url={target}"><title>tftool view</title>'
+            f'<a href="{target}">tftool view</a>\n',
+            encoding="utf-8",
+        )
+        yield file.as_uri()
 
 
 async def _opened(url: str) -> bool:
-
     # Some browsers are started and waited for: not in the loop the world lives in.
     return await asyncio.get_running_loop().run_in_executor(None, webbrowser.open, url)
 
@@ -267,7 +295,7 @@ def run(
         raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
 
     found = None if place is None else named(place)
-    serve = partial(PageServer, port=port, rate=rate, tell=notice)
+    serve = partial(PageServer, port=port, rate=rate, tell=notice, secret=page_secret())
     if found is not None and (found.kind.is_recording or found.kind is Kind.STATICS):
         frames = open_from(connection, place, cache_time=cache_time)
         _show_frames(connection, frames, serve, run_for, meshes or [], open_browser)

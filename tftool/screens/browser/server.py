@@ -1,8 +1,9 @@
 """The page's server: HTTP for the page and a WebSocket for the frames, on one port.
 
-It listens on 127.0.0.1 only and lives in the same event loop as the nodes. A page of
-another site must not read a robot's frames through its visitor's browser: both the Host
-and the Origin a browser sends are compared with our own address.
+It listens on 127.0.0.1 only and lives in the same event loop as the nodes. Other users of
+this machine reach that address too: whatever tells of frames wants the secret that stands in
+the printed address alone. A page of another site must not read a robot's frames through its
+visitor's browser: the Host and the Origin a browser sends are compared with our own address.
 
 A page says when it has drawn what it got. One that is slow is simply not sent the poses
 in between: nothing is ever queued for it.
@@ -13,6 +14,8 @@ import errno
 import json
 import logging
 import math
+import secrets
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from http import HTTPStatus
@@ -99,6 +102,7 @@ class PageServer:
         rate: float = 30.0,
         tell: Callable[[str], object] = _LOGGER.warning,
         name: str = "a session",
+        secret: str | None = None,
     ) -> None:
         """Prepare to serve.
 
@@ -108,6 +112,7 @@ class PageServer:
             rate: Pictures a second.
             tell: Takes a sentence for the user.
             name: Whose frames they are, for a page that is saved.
+            secret: What everything that tells of frames wants; a new one when None.
         """
         self.source = source
         self._name = name
@@ -127,6 +132,9 @@ class PageServer:
         self._trees: dict[object, TreeMessage] = {}
         self._revision = 0
         self._ticks = 0
+        self._secret = secret or secrets.token_urlsafe(24)
+        self._writing: threading.Event | None = None
+        """Set to give up the file that is being written; None while none is."""
 
     def show_robot(self, robot: ShownRobot) -> None:
         """Show a robot from now on, in place of the one before."""
@@ -158,9 +166,18 @@ class PageServer:
             self._robot_text = ""
 
     @property
+    def origin(self) -> str:
+        """Scheme, host and port of the page, without its secret."""
+        return f"http://{HOST}:{self.port}"
+
+    @property
     def url(self) -> str:
-        """Where a browser finds the page."""
-        return f"http://{HOST}:{self.port}/"
+        """Where a browser finds the page; it holds the secret, so no log may have it."""
+        return self.address("/")
+
+    def address(self, path: str) -> str:
+        """Return where a path is served, with the secret."""
+        return f"{self.origin}{path}?token={self._secret}"
 
     async def __aenter__(self) -> "PageServer":
         """Start to listen.
@@ -200,6 +217,8 @@ class PageServer:
         trace: TracebackType | None,
     ) -> None:
         """Tell every page that this was it, and close."""
+        if self._writing is not None:
+            self._writing.set()
         if self._server is not None:
             self._server.close()
             await self._server.wait_closed()
@@ -298,8 +317,16 @@ class PageServer:
         """Answer a request for a file; None lets a WebSocket open."""
         ours = [f"{host}:{self.port}" for host in (HOST, "localhost")]
         if request.headers.get_all("Host") not in [[host] for host in ours]:
-            return _refuse(HTTPStatus.FORBIDDEN, f"This page is served as {self.url} only.")
-        path = request.path.partition("?")[0]
+            return _refuse(HTTPStatus.FORBIDDEN, f"This page is served as {self.origin}/ only.")
+        path, _, query = request.path.partition("?")
+        # Scripts and styles are the same for everybody, and tell nothing of the frames.
+        if path not in self._files or path in ("/", "/index.html"):
+            given = parse_qs(query).get("token", [""])[-1]
+            if not secrets.compare_digest(given.encode(), self._secret.encode()):
+                return _refuse(
+                    HTTPStatus.FORBIDDEN,
+                    "This address lacks its secret: open the one that 'tftool view' printed.",
+                )
         if path == "/frames":
             origins = request.headers.get_all("Origin")
             if origins not in [[f"http://{host}"] for host in ours]:
@@ -315,7 +342,15 @@ class PageServer:
         if path == "/tracks" and self._read_tracks is not None:
             return _answer(HTTPStatus.OK, "application/octet-stream", await self._packed_tracks())
         if path == "/standalone.html":
-            return await self._standalone(request.path.partition("?")[2])
+            sites = request.headers.get_all("Sec-Fetch-Site")
+            origins = request.headers.get_all("Origin")
+            # A link that a person follows has no Origin, and says "none" or "same-origin".
+            is_ours = all(site in ("same-origin", "none") for site in sites)
+            if not is_ours or any(
+                one not in [f"http://{host}" for host in ours] for one in origins
+            ):
+                return _refuse(HTTPStatus.FORBIDDEN, "The file is for this server's own page.")
+            return await self._standalone(connection, query)
         found = self._files.get(path)
         if found is None:
             return _refuse(HTTPStatus.NOT_FOUND, "There is no such page here.")
@@ -344,8 +379,16 @@ class PageServer:
             self._tracks = asyncio.get_running_loop().run_in_executor(None, packed)
         return await asyncio.shield(self._tracks)
 
-    async def _standalone(self, query: str) -> Response:
-        """All that is remembered now as a file of its own, which begins with a view."""
+    async def _standalone(self, connection: ServerConnection, query: str) -> Response:
+        """Answer with all that is remembered now as a file of its own, which begins with a view.
+
+        One is written at a time; it is given up when its asker leaves or the server stops.
+        """
+        if self._writing is not None:
+            return _refuse(
+                HTTPStatus.SERVICE_UNAVAILABLE, "A file is being written; ask again afterwards."
+            )
+        given_up = self._writing = threading.Event()
         view = parse_qs(query).get("view", [""])[0]
         clock, buffer = self.source.clock, self.source.buffer
         data = StandaloneData(self._name, buffer, clock.epoch, clock.now(), None, self._robot, view)
@@ -353,11 +396,31 @@ class PageServer:
             data = replace(data, tracks=self._live.latest(IN_A_FILE.points))
         read = self._read_tracks
 
-        def written() -> StandalonePage:
-            return standalone_page(data if read is None else replace(data, tracks=read(IN_A_FILE)))
+        def progress(done: int, whole: int) -> None:
+            if given_up.is_set():
+                raise asyncio.CancelledError
+
+        def written() -> StandalonePage | None:
+            whole = data if read is None else replace(data, tracks=read(IN_A_FILE))
+            try:
+                return standalone_page(whole, progress=progress)
+            except asyncio.CancelledError:
+                return None
 
         # Beside the loop: a recording takes seconds.
-        page = await asyncio.get_running_loop().run_in_executor(None, written)
+        writing = asyncio.get_running_loop().run_in_executor(None, written)
+        leaving = asyncio.ensure_future(connection.wait_closed())
+        try:
+            both: set[asyncio.Future[Any]] = {writing, leaving}
+            await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+            given_up.set()
+            page = await writing
+        finally:
+            given_up.set()
+            leaving.cancel()
+            self._writing = None
+        if page is None:
+            return _refuse(HTTPStatus.SERVICE_UNAVAILABLE, "The server stops.")
         answer = _answer(HTTPStatus.OK, "text/html; charset=utf-8", page.content)
         # To be kept, not looked at here, where the policy for our own page would stop it.
         answer.headers["Content-Disposition"] = "attachment"

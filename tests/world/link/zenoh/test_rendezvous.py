@@ -312,3 +312,24 @@ def test_a_lock_is_waited_for_and_a_killed_holder_does_not_keep_it(home, monkeyp
         assert is_locked(member.folder / "lock")
         member.settle()
         assert not is_locked(member.folder / "lock")
+
+
+def test_the_secret_of_a_users_pages_stays_and_is_the_users_alone(tmp_path):
+    home = tmp_path / "sessions"
+    first = rendezvous.page_secret(home)
+
+    assert rendezvous.page_secret(home) == first
+    assert rendezvous.page_secret(tmp_path / "others") != first
+    assert len(first) >= 32
+    if os.name != "nt":
+        assert (home / rendezvous.PAGE_SECRET).stat().st_mode & 0o077 == 0
+        assert home.stat().st_mode & 0o077 == 0
+
+
+def test_where_the_folder_is_open_to_others_the_secret_is_new_each_time(tmp_path):
+    home = tmp_path / "sessions"
+    home.mkdir(mode=0o777)
+    home.chmod(0o777)
+
+    assert rendezvous.page_secret(home) != rendezvous.page_secret(home)
+    assert not (home / rendezvous.PAGE_SECRET).exists()

@@ -1,9 +1,15 @@
 // @ts-check
 // Meshes and textures: from our own server, or from the file the page came in.
 import { DefaultLoadingManager } from "three";
+import { secured } from "./secret.js";
 
 /** @type {Map<string, Blob> | null} */
 let kept = null;
+
+// Textures and buffers that a mesh names are loaded by three's own loaders.
+DefaultLoadingManager.setURLModifier((address) =>
+  /^(data|blob):/.test(address) ? address : secured(address),
+);
 
 /**
  * Give out what is packed into the page from now on, and nothing else.
@@ -16,7 +22,6 @@ export function keepFiles(packed) {
       new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (packed.section(content))], { type: kind }),
     ]),
   );
-  // Textures and buffers that a mesh names are loaded by three's own loaders.
   DefaultLoadingManager.setURLModifier((address) => {
     if (/^(data|blob):/.test(address)) return address;
     const found = kept?.get(new URL(address, "http://page/").pathname);
@@ -26,7 +31,7 @@ export function keepFiles(packed) {
 
 /** @param {string} address */
 export async function fetchFile(address) {
-  if (!kept) return fetch(address);
+  if (!kept) return fetch(secured(address));
   const found = kept.get(address);
   return found ? new Response(found) : new Response("it is not in this file", { status: 404 });
 }

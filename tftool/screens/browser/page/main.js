@@ -22,6 +22,7 @@ import { Picker } from "./picker.js";
 import { Redraw } from "./redraw.js";
 import { Robot } from "./robot.js";
 import { Stage } from "./scene.js";
+import { secured } from "./secret.js";
 import { FILE, linkTo, read, showAddress, told, write } from "./share.js";
 import { Sliders, showRobot } from "./sliders.js";
 import { Standalone, packed } from "./standalone.js";
@@ -518,7 +519,7 @@ async function share() {
   } catch {
     copied = false;
   }
-  if (!inside) save(`standalone.html?view=${encodeURIComponent(hash.slice(1))}`, FILE);
+  if (!inside) save(secured(`standalone.html?view=${encodeURIComponent(hash.slice(1))}`), FILE);
   toast(told(link.reach, copied));
 }
 

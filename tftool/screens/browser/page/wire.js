@@ -1,6 +1,7 @@
 // @ts-check
 // The connection to the server: decodes what comes, connects again when it ends.
 import { inflated, isBlock, open, Packed } from "./packed.js";
+import { secured } from "./secret.js";
 
 const HEADER = 48;
 export const FIELDS = 11; // numbers of a frame
@@ -90,7 +91,7 @@ export class Wire {
   }
 
   connect() {
-    const socket = new WebSocket(`ws://${location.host}/frames`);
+    const socket = new WebSocket(`ws://${location.host}${secured("/frames")}`);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       for (const message of this.wanted.values()) socket.send(message);
@@ -122,7 +123,7 @@ export class Wire {
 
   /** Fetch the messages of a recording that are drawn. */
   async fetchTracks() {
-    const answer = await fetch("tracks");
+    const answer = await fetch(secured("tracks"));
     if (!answer.ok) return;
     const { header, bytes } = await inflated(await answer.blob());
     this.handlers.tracks(header.tracks ?? [], new Packed(header, bytes), true);

@@ -37,6 +37,9 @@ USER: Final = "tftool"
 PASSWORDS: Final = "members"
 """The file of a folder that holds the password."""
 
+PAGE_SECRET: Final = "page.secret"
+"""The file in the folder of all sessions that holds the secret of this user's pages."""
+
 FRAMES: Final = ".frames"
 """Files of a folder that list the frames a member knows, for completing command lines."""
 
@@ -280,6 +283,28 @@ def _password_in(folder: Path) -> str:
     with open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as fresh:
         fresh.write(f"{USER}:{password}\n")
     return password
+
+
+def page_secret(home: Path | None = None) -> str:
+    """Return the secret of this user's pages: the same at every start, in the sessions' folder.
+
+    An open page then finds the server that takes the place of the one it came from. Where the
+    folder cannot be used the secret is new.
+    """
+    place = folder() if home is None else home
+    file = place / PAGE_SECRET
+    fresh = secrets.token_urlsafe(24)
+    try:
+        _make_private(place)
+        with (
+            contextlib.suppress(FileExistsError),
+            open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as made,
+        ):
+            made.write(fresh)
+        known = _text_of(file).strip()
+    except (OSError, LinkError):
+        return fresh
+    return known if len(known) >= len(fresh) else fresh
 
 
 def is_stopped(pid: int) -> bool:
