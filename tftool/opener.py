@@ -73,7 +73,7 @@ def open_frames(
         session: A session that was joined already, to listen to.
         watch: Called with the world of a scenario or session before it lives.
         progress: Called with how many bytes of how many are read.
-        reach: How else to reach a session, by the names of the command line's options: `dds=True`.
+        reach: How else to reach a session, by the names of the command line's options.
 
     Raises:
         InputError: If `place` names nothing, or it cannot be read.

@@ -192,13 +192,12 @@ def _frames(before: Sequence[str]) -> list[str]:
     named = _frames_of_a_file([*_words_behind(), *before])
     if named is not None:
         return named
-    from tftool.world.link.link_options import domain_here
-    from tftool.world.link.zenoh.rendezvous import frames_known
+    from tftool.world.link.link_options import REACHES, domain_here
 
     domain = domain_here()
     if "--domain" in before[:-1]:
         domain = int(before[before.index("--domain") + 1])
-    return frames_known(domain)
+    return REACHES[0].frames_known(domain)
 
 
 def _words_behind() -> list[str]:

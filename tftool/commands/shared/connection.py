@@ -181,9 +181,7 @@ class Connection:
             return True
         if self.needs_link:
             return False
-        from tftool.world.link.zenoh.rendezvous import has_members
-
-        return not has_members(self.domain)
+        return not REACHES[0].has_members(self.domain)
 
     def keep(self, opened: "Link | Frames") -> None:
         """Close something with this connection, at the latest."""

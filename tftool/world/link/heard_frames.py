@@ -7,11 +7,10 @@ from tftool.base.stamps import Duration
 from tftool.frames.frames import Frames
 from tftool.world.clock import FollowedClock
 from tftool.world.frame_listener import heard_in, run_apart
-from tftool.world.link.link_options import Options, domain_here
+from tftool.world.link.link_options import REACHES, Options, domain_here
 from tftool.world.link.reach import Reach
 from tftool.world.link.session import Link
 from tftool.world.link.session_world import Session, joined_session, twins
-from tftool.world.link.zenoh.rendezvous import has_members
 from tftool.world.world import World
 
 NOTHING_RUNS = "No session is running here: start one with 'tftool demo'."
@@ -25,7 +24,7 @@ def join_to_listen(domain: int | None, reach: Reach) -> Session:
     """
     domain = domain_here() if domain is None else domain
     reaches_out = reach.awaits_others(hosts=False)
-    if not reaches_out and not has_members(domain):
+    if not reaches_out and not REACHES[0].has_members(domain):
         raise LinkError(NOTHING_RUNS)
     link = Link(Options("open", domain, reach, read_only=True))
     if not reaches_out and not link.graph.has_sources:

@@ -74,6 +74,16 @@ class Reach:
         """
         raise NotImplementedError
 
+    @staticmethod
+    def has_members(domain: int) -> bool:
+        """Whether a process of this machine waits to be joined; nothing is opened."""
+        return False
+
+    @staticmethod
+    def frames_known(domain: int) -> list[str]:
+        """Return the frames that this machine's processes list, sorted; nothing is opened."""
+        return []
+
     def place(self, domain: int) -> str:
         """Return where the others are, in words; "" for this machine."""
         raise NotImplementedError

@@ -11,6 +11,7 @@ from tftool.base.escaping import visible
 from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
 from tftool.world.clock import Clock, FollowedClock, Phase, pace_of, run
 from tftool.world.endpoints import PUBLISHER
+from tftool.world.link.graph import NODE, Role, hosts
 from tftool.world.supervisor import beside, live
 from tftool.world.world import World
 
@@ -159,8 +160,6 @@ def joined_session(
 
 def session_name(link: "Link", place: str) -> str:
     """Name the session that a link leads to, by the process that hosts it or a ROS node."""
-    from tftool.world.link.graph import NODE, Role, hosts
-
     processes = link.graph.processes()
     sources = [one for one in processes if one.role is not Role.GUEST]
     first = next(iter(hosts(processes) or sources), None)
@@ -197,7 +196,6 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     if link is None:
         yield
         return
-    from tftool.world.link.graph import Role
     from tftool.world.link.topic_bridges import ClockFollower
 
     follower: ClockFollower | None = None

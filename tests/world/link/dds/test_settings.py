@@ -97,7 +97,8 @@ def test_a_domain_of_the_environment_that_is_none_is_refused(monkeypatch, capsys
 
 
 def test_a_missing_package_is_said_with_every_way_out(monkeypatch, capsys):
-    for name in [one for one in sys.modules if one.partition(".")[0] == "cyclonedds"]:
+    ours = "tftool.world.link.dds."
+    for name in [one for one in sys.modules if one.startswith(("cyclonedds", ours))]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "cyclonedds", None)
 

@@ -3,6 +3,9 @@
 import re
 from typing import Any, Final, NamedTuple
 
+from cyclonedds.idl import make_idl_struct, types
+from cyclonedds.idl.annotations import final
+
 from tftool.base.errors import LinkError
 from tftool.messages.hashes import PLACEHOLDER, type_hash
 from tftool.messages.schema import FieldDefinition, Schema
@@ -70,8 +73,6 @@ class Types:
         return _MADE[key]
 
     def _made(self, full: str, beside: tuple[tuple[str, str], ...], parts: dict[str, Any]) -> Any:
-        from cyclonedds.idl import make_idl_struct
-        from cyclonedds.idl.annotations import final
 
         fields = {
             name: self._single(full, FieldDefinition(name, kind), parts) for name, kind in beside
@@ -82,7 +83,6 @@ class Types:
         return final(make_idl_struct(short, dds_type(full), fields))
 
     def _field(self, full: str, field: FieldDefinition, parts: dict[str, Any]) -> Any:
-        from cyclonedds.idl import types
 
         kind = self._single(full, field, parts)
         if field.size is not None and field.size >= 0:
@@ -92,7 +92,6 @@ class Types:
         return kind if field.size is None else types.sequence[kind]
 
     def _single(self, full: str, field: FieldDefinition, parts: dict[str, Any]) -> Any:
-        from cyclonedds.idl import types
 
         if field.type == "wstring":
             raise LinkError(f"{full}: DDS's library for Python has no wide texts ('{field.name}')")

@@ -9,6 +9,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
+from cyclonedds import builtin
+from cyclonedds.core import InstanceState
+
 from tftool.base.errors import LinkError, MalformedMessage
 from tftool.messages.classes import Interfaces, Message
 from tftool.messages.codec import Codec, codec
@@ -134,8 +137,6 @@ class Discovery:
             participant: Ours.
             domain: Number of the domain.
         """
-        from cyclonedds import builtin
-
         self._participant = participant
         self._domain = domain
         self.graph = Graph(participant.gid.hex(), domain)
@@ -409,7 +410,6 @@ def _all(reader: Any) -> list[Any]:
 
 
 def _is_alive(one: Any) -> bool:
-    from cyclonedds.core import InstanceState
 
     return bool(one.sample_info.instance_state == InstanceState.Alive)
 

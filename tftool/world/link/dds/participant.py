@@ -1,7 +1,8 @@
 """This process as a participant of DDS: its readers and writers, and the threads behind.
 
-`cyclonedds` is imported when one is made and not before. What the library calls back on
-its own threads goes through an inbox to the event loop, and writing through an outbox.
+`cyclonedds` is imported with this module, and this module when `DdsReach` joins. What the
+library calls back on its own threads goes through an inbox to the event loop; what is written
+goes through an outbox.
 """
 
 import contextlib
@@ -10,7 +11,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
-from tftool.base.errors import LinkError, UsageError
+from cyclonedds.builtin import BuiltinDataReader
+from cyclonedds.core import DDSException, Listener, Policy, Qos
+from cyclonedds.domain import Domain, DomainParticipant
+from cyclonedds.pub import DataWriter
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic
+
+from tftool.base.errors import LinkError
 from tftool.world.endpoints import Quality
 from tftool.world.link.dds.dds_types import Raw
 from tftool.world.link.dds.settings import MOST_PARTICIPANTS, Network
@@ -25,12 +33,6 @@ AT_ONCE: Final = 256
 
 PATIENCE: Final = 1_000_000_000
 """Nanoseconds a reliable writer waits for a reader that has not taken what came before."""
-
-NO_WHEEL: Final = (
-    "DDS needs the package 'cyclonedds', which is missing here ({error}): pip install "
-    "'tftool-tf2[dds]'. Where there is no wheel of it (Linux on arm64, Python 3.14), build it "
-    "from source with Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect."
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,8 +62,6 @@ class Domains:
             LinkError: If it is there with another configuration, or cannot be made.
         """
         config = network.xml()
-        from cyclonedds.core import DDSException
-        from cyclonedds.domain import Domain
 
         with self._lock:
             made, known, count = self._held.get(number, (None, config, 0))
@@ -108,14 +108,8 @@ class Participant:
             user_data: What is written beside it.
 
         Raises:
-            UsageError: If the extra `dds` is not installed.
             LinkError: If there is no way in.
         """
-        try:
-            from cyclonedds.core import DDSException, Policy, Qos
-            from cyclonedds.domain import DomainParticipant
-        except (ImportError, OSError) as error:
-            raise UsageError(NO_WHEEL.format(error=error)) from error
         self._domain = domain
         self.oversized = 0
         self.inbox = Inbox()
@@ -165,9 +159,6 @@ class Participant:
             on_sample: Called with every message.
             on_refused: Called with the number of the policy by which a writer does not fit.
         """
-        from cyclonedds.core import Listener, Policy
-        from cyclonedds.sub import DataReader
-
         inbox, participant = self.inbox, self
 
         class Taking(Listener):  # type: ignore[misc]
@@ -200,9 +191,6 @@ class Participant:
             quality: What is offered.
             user_data: What is written beside it: the hash of its type.
         """
-        from cyclonedds.core import Policy
-        from cyclonedds.pub import DataWriter
-
         kept = Policy.History.KeepLast(max(1, quality.depth))
         # What is not kept for late readers is kept until those that are there have it.
         keeps_all = quality.keeps_all or (quality.is_reliable and not quality.is_latched)
@@ -220,8 +208,6 @@ class Participant:
             topic: Which one.
             on_change: Called, on a thread of the library's, when there is something to take.
         """
-        from cyclonedds.builtin import BuiltinDataReader
-        from cyclonedds.core import Listener
 
         class Telling(Listener):  # type: ignore[misc]
             def on_data_available(self, reader: Any) -> None:
@@ -231,8 +217,6 @@ class Participant:
 
     def tell(self, user_data: bytes) -> None:
         """Change what is written beside it."""
-        from cyclonedds.core import Policy, Qos
-
         self.entity.set_qos(Qos(Policy.Userdata(user_data)))
 
     def at_close(self, close: Callable[[], None]) -> None:
@@ -240,8 +224,6 @@ class Participant:
         self._closing.append(close)
 
     def _topic(self, name: str, kind: type[Raw]) -> Any:
-        from cyclonedds.core import DDSException
-        from cyclonedds.topic import Topic
 
         key = name, kind
         if key not in self._topics:
@@ -337,7 +319,6 @@ def _end(entity: Any) -> None:
 
 
 def _policies(quality: Quality, history: Any) -> list[Any]:
-    from cyclonedds.core import Policy
 
     return [
         Policy.Reliability.Reliable(PATIENCE)
@@ -351,7 +332,6 @@ def _policies(quality: Quality, history: Any) -> list[Any]:
 
 
 def _qos(policies: list[Any]) -> Any:
-    from cyclonedds.core import Qos
 
     return Qos(*policies)
 

@@ -2,13 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
+from tftool.base.errors import UsageError
 from tftool.world.link.reach import LinkOption, Reach
 
 if TYPE_CHECKING:
     from tftool.world.link.link_options import Options
     from tftool.world.link.seam import Middleware
+
+NO_WHEEL: Final = (
+    "DDS needs the package 'cyclonedds', which is missing here ({error}): pip install "
+    "'tftool-tf2[dds]'. Where there is no wheel of it (Linux on arm64, Python 3.14), build it "
+    "from source with Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +69,14 @@ class DdsReach(Reach):
         return f"DDS domain {domain} on {', '.join(self.places) or 'the loopback'}"
 
     def join(self, options: "Options") -> "Middleware":
-        """Join a session over DDS; see `Reach.join`."""
-        from tftool.world.link.dds.middleware import DdsMiddleware
+        """Join a session over DDS; see `Reach.join`.
 
+        Raises:
+            UsageError: If the extra `dds` is not installed.
+            LinkError: If there is no way in.
+        """
+        try:
+            from tftool.world.link.dds.middleware import DdsMiddleware
+        except (ImportError, OSError) as error:
+            raise UsageError(NO_WHEEL.format(error=error)) from error
         return DdsMiddleware(options, self)

@@ -138,6 +138,21 @@ class ZenohReach(Reach):
         """Whether it goes to another machine's session."""
         return bool(self.connect)
 
+    @staticmethod
+    def has_members(domain: int) -> bool:
+        """Whether a process of this machine waits to be joined; see `Reach.has_members`."""
+        # sockets and hashes cost 10 ms, and most commands ask nothing of this.
+        from tftool.world.link.zenoh import rendezvous
+
+        return rendezvous.has_members(domain)
+
+    @staticmethod
+    def frames_known(domain: int) -> list[str]:
+        """Return the frames that members of this machine list; see `Reach.frames_known`."""
+        from tftool.world.link.zenoh import rendezvous
+
+        return rendezvous.frames_known(domain)
+
     def place(self, domain: int) -> str:
         """Return the endpoints it goes to."""
         return ", ".join(self.connect)
