@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import Coroutine, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import Any, TypeVar
 
@@ -50,6 +49,8 @@ def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
         asyncio.get_running_loop()
     except RuntimeError:
         return run(clock, work)
+    from concurrent.futures import ThreadPoolExecutor
+
     # A loop cannot run inside another one: in a notebook the caller's waits meanwhile.
     with ThreadPoolExecutor(1, "tftool.open") as pool:
         return pool.submit(run, clock, work).result()
