@@ -31,7 +31,7 @@ def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> It
         picture = frame_tree.render(
             snapshot, ascii_only=console.options.ascii_only, moving=moving, marks=marks
         )
-        lines: Sequence[Text] = picture.split("\n")
+        lines: Sequence[Text] = list(picture.split("\n"))
     else:
         lines = fitting(snapshot, moving, marks, console)
     # A few hundred at a time: the first show at once, and rich takes no longer for them.
