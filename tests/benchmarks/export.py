@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from tftool.buffer.batch.transform_array import TransformArray
-from tftool.frames.export.export import Style, write_trajectories
-from tftool.frames.export.export_formats import Format
+from tftool.frames.export.export import write_trajectories
+from tftool.frames.export.export_formats import Format, Style
 from tftool.frames.pair_samples import Trajectory
 
 POSES = 1_000_000

@@ -17,12 +17,11 @@ from tftool.commands.shared.pairs import MomentOptions, pairs_and_place, refuse_
 from tftool.commands.shared.reading_bar import Bar
 from tftool.frames.export.export import (
     Exported,
-    Style,
     refuse_input,
     write_links,
     write_trajectories,
 )
-from tftool.frames.export.export_formats import Format, format_of
+from tftool.frames.export.export_formats import Format, Style, format_of
 from tftool.frames.moment import At
 from tftool.frames.pair_samples import sample
 from tftool.recordings.target import refuse_existing

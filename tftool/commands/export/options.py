@@ -20,7 +20,7 @@ from tftool.commands.shared.options import (
     option,
     output_file,
 )
-from tftool.frames.export.export_formats import Format
+from tftool.frames.export.export_formats import Format, suffixes_of
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
@@ -40,8 +40,8 @@ def export(
     output: Annotated[
         Path | None,
         output_file(
-            "Where to write it. Of pairs .tum .kitti .csv .npz .parquet; of links .urdf "
-            ".launch.py .launch.xml .launch.yaml .sh .mcap."
+            f"Where to write it. Of pairs {suffixes_of(trajectories=True)}; of links "
+            f"{suffixes_of(trajectories=False)}."
         ),
     ] = None,
     form: Annotated[

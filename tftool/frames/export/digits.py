@@ -11,12 +11,11 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from tftool.frames.export.export_formats import DECIMALS
+
 Floats: TypeAlias = npt.NDArray[np.float64]
 Words: TypeAlias = npt.NDArray[np.uint32]
 Stamps: TypeAlias = npt.NDArray[np.int64]
-
-DECIMALS: Final = 9
-"""How many decimals the fast way writes: nanometres, nanoseconds."""
 
 FULL: Final = 17
 """From this many decimals on, a number is written as the shortest text that reads back to it."""

@@ -12,13 +12,12 @@ import numpy.typing as npt
 from tftool.base.errors import UsageError, without_frames
 from tftool.base.stamps import LATEST, Duration, Stamp
 from tftool.buffer.buffer import Buffer
-from tftool.frames.export import frame_messages, static_files, trajectory_files
-from tftool.frames.export.digits import DECIMALS
-from tftool.frames.export.export_formats import TABLES, Format, format_of
-from tftool.frames.export.trajectory_files import whole_file
+from tftool.frames.export import frame_messages, static_files
+from tftool.frames.export.export_formats import DECIMALS, Format, Style, format_of
+from tftool.frames.export.static_files import LINK_WRITERS
+from tftool.frames.export.trajectory_files import TRAJECTORY_WRITERS, whole_file
 from tftool.frames.pair_samples import Moments, Stamps, Trajectory, sample
 from tftool.recordings.contract import Progress
-from tftool.recordings.recording_writer import library_name
 
 if TYPE_CHECKING:
     from tftool.frames.frames import Frames
@@ -27,27 +26,6 @@ if TYPE_CHECKING:
 
 Framed: TypeAlias = "Buffer | Frames | Recording | Robot"
 """What frames are exported from; of a robot description with every joint at rest."""
-
-
-@dataclass(frozen=True, slots=True)
-class Style:
-    """How an export is written; each format takes what concerns it.
-
-    Attributes:
-        decimals: Of numbers in texts; 17 writes each as short as it can be read back.
-        rpy: Whether CSV and Parquet get roll, pitch and yaw, too.
-        foxglove: Whether MCAP gets foxglove.FrameTransforms in the place of tf2_msgs.
-        with_moving: Whether URDF gets links that move, too, as floating joints.
-        root: The frame a URDF or the like begins with; None for all there is.
-        time: When links that move are asked for, nanoseconds; 0 for the latest.
-    """
-
-    decimals: int = DECIMALS
-    rpy: bool = False
-    foxglove: bool = False
-    with_moving: bool = False
-    root: str | None = None
-    time: Stamp = LATEST
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -175,42 +153,13 @@ def write_trajectories(
         TransformException: If one of the pairs has no pose at any moment.
         UsageError: If the format holds one pair only, or an extra is missing.
     """
-    if len(found) > 1 and form not in TABLES:
+    if len(found) > 1 and form.holds == "pair":
         raise UsageError(
             f"{form} holds one pair, and these are {len(found)}: write .csv, .npz or .parquet."
         )
     if style.rpy and form not in (Format.csv, Format.parquet):
         raise UsageError(f"Roll, pitch and yaw are columns of CSV and Parquet, not of {form}.")
-    paths = [path]
-    match form:
-        case Format.tum:
-            trajectory_files.write_tum(
-                found[0], path, decimals=style.decimals, force=force, progress=progress
-            )
-        case Format.kitti:
-            times = trajectory_files.write_kitti(
-                found[0], path, decimals=style.decimals, force=force, progress=progress
-            )
-            paths.append(times)
-        case Format.euroc:
-            trajectory_files.write_euroc(
-                found[0], path, decimals=style.decimals, force=force, progress=progress
-            )
-        case Format.csv:
-            trajectory_files.write_csv(
-                found,
-                path,
-                decimals=style.decimals,
-                rpy=style.rpy,
-                force=force,
-                progress=progress,
-            )
-        case Format.npz:
-            trajectory_files.write_npz(found, path, force=force)
-        case _:
-            trajectory_files.write_parquet(
-                found, path, rpy=style.rpy, version=library_name(), force=force
-            )
+    paths = TRAJECTORY_WRITERS[form](found, path, style, force, progress)
     count = sum(len(one.path) - one.refused for one in found)
     return Exported(tuple(paths), form, count, tuple(found))
 
@@ -249,13 +198,7 @@ def write_links(
         moving = " --with-moving adds those that move." if form is Format.urdf else ""
         raise UsageError(f"No link{below} holds at all times: there is nothing to write.{moving}")
     name = path.name.partition(".")[0] or "robot"
-    text = {
-        Format.urdf: lambda: static_files.urdf(links, name),
-        Format.sh: lambda: static_files.shell(links),
-        Format.launch_py: lambda: static_files.launch_python(links),
-        Format.launch_xml: lambda: static_files.launch_xml(links),
-        Format.launch_yaml: lambda: static_files.launch_yaml(links),
-    }[form]()
+    text = LINK_WRITERS[form](links, name)
     with whole_file(path, force=force) as file:
         file.write(text.encode("utf-8"))
         if form is Format.sh:
@@ -264,10 +207,10 @@ def write_links(
 
 
 def _named(name: str) -> Format:
-    try:
-        return Format(name)
-    except ValueError:
-        raise UsageError(f"'{name}' is no format: there is {', '.join(Format)}.") from None
+    for form in Format:
+        if form == name:
+            return form
+    raise UsageError(f"'{name}' is no format: there is {', '.join(Format)}.")
 
 
 def refuse_input(frames: object, path: Path) -> None:

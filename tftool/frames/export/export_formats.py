@@ -1,53 +1,90 @@
-"""What can be written, and what the name of a file asks for."""
+"""What can be written, what the name of a file asks for, and how an export is written.
 
+To add a format: its line in `Format`, and its function in the table of writers in
+`trajectory_files` (pairs over time) or `static_files` (links).
+"""
+
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Final
+from typing import Final, Literal
 
 from tftool.base.errors import UsageError
+from tftool.base.stamps import LATEST, Stamp
+
+DECIMALS: Final = 9
+"""Of numbers in texts, unless said otherwise: nanometres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Style:
+    """How an export is written; each format takes what concerns it.
+
+    Attributes:
+        decimals: Of numbers in texts; 17 writes each as short as it can be read back.
+        rpy: Whether CSV and Parquet get roll, pitch and yaw, too.
+        foxglove: Whether MCAP gets foxglove.FrameTransforms in the place of tf2_msgs.
+        with_moving: Whether URDF gets links that move, too, as floating joints.
+        root: The frame a URDF or the like begins with; None for all there is.
+        time: When links that move are asked for, nanoseconds; 0 for the latest.
+    """
+
+    decimals: int = DECIMALS
+    rpy: bool = False
+    foxglove: bool = False
+    with_moving: bool = False
+    root: str | None = None
+    time: Stamp = LATEST
 
 
 class Format(StrEnum):
-    """What can be written."""
+    """What can be written.
 
-    tum = "tum"
-    kitti = "kitti"
-    euroc = "euroc"
-    csv = "csv"
-    npz = "npz"
-    parquet = "parquet"
-    urdf = "urdf"
-    launch_py = "launch-py"
-    launch_xml = "launch-xml"
-    launch_yaml = "launch-yaml"
-    sh = "sh"
-    mcap = "mcap"
+    Attributes:
+        holds: One pair of frames over time, several pairs, or the links themselves.
+        suffixes: Ends of names that ask for it.
+    """
+
+    holds: Literal["pair", "pairs", "links"]
+    suffixes: tuple[str, ...]
+
+    def __new__(
+        cls, name: str, holds: Literal["pair", "pairs", "links"], *suffixes: str
+    ) -> "Format":
+        """Make a member from its line."""
+        member = str.__new__(cls, name)
+        member._value_ = name
+        member.holds, member.suffixes = holds, suffixes
+        return member
+
+    tum = "tum", "pair", ".tum"
+    kitti = "kitti", "pair", ".kitti"
+    # Its files end in .csv, and are asked for by name.
+    euroc = "euroc", "pair"
+    csv = "csv", "pairs", ".csv"
+    npz = "npz", "pairs", ".npz"
+    parquet = "parquet", "pairs", ".parquet"
+    urdf = "urdf", "links", ".urdf"
+    launch_py = "launch-py", "links", ".launch.py"
+    launch_xml = "launch-xml", "links", ".launch.xml"
+    launch_yaml = "launch-yaml", "links", ".launch.yaml", ".launch.yml"
+    sh = "sh", "links", ".sh"
+    mcap = "mcap", "links", ".mcap"
 
     @property
     def is_trajectory(self) -> bool:
         """Whether it holds pairs of frames over time, not the links themselves."""
-        return self in _TRAJECTORIES
+        return self.holds != "links"
 
 
-_TRAJECTORIES: Final = frozenset(
-    {Format.tum, Format.kitti, Format.euroc, Format.csv, Format.npz, Format.parquet}
-)
-TABLES: Final = frozenset({Format.csv, Format.npz, Format.parquet})
-SUFFIXES: Final = {
-    ".tum": Format.tum,
-    ".kitti": Format.kitti,
-    ".csv": Format.csv,
-    ".npz": Format.npz,
-    ".parquet": Format.parquet,
-    ".urdf": Format.urdf,
-    ".launch.py": Format.launch_py,
-    ".launch.xml": Format.launch_xml,
-    ".launch.yaml": Format.launch_yaml,
-    ".launch.yml": Format.launch_yaml,
-    ".sh": Format.sh,
-    ".mcap": Format.mcap,
-}
-"""What the end of a name asks for. EuRoC's files end in .csv, and are asked for by format."""
+SUFFIXES: Final = {suffix: form for form in Format for suffix in form.suffixes}
+"""What the end of a name asks for."""
+
+
+def suffixes_of(*, trajectories: bool) -> str:
+    """List the ends of names that ask for pairs over time, or for links, in a sentence."""
+    forms = [form for form in Format if form.suffixes and form.is_trajectory == trajectories]
+    return " ".join(form.suffixes[0] for form in forms)
 
 
 def format_of(path: Path) -> Format:

@@ -3,13 +3,16 @@
 import json
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
 from xml.sax.saxutils import quoteattr
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import LATEST, Stamp
 from tftool.buffer.buffer import Buffer
+from tftool.frames.export.export_formats import Format
 from tftool.geometry.notation.text import publisher_words, urdf_origin
 from tftool.geometry.rigid import Transform
 from tftool.robots.static_publishers import PUBLISHER
@@ -217,3 +220,15 @@ def _attribute(text: str) -> str:
         raise InputError(f"The frame {text!r} has characters that cannot be written there.")
     # A tab or a line end would be read back as a blank.
     return quoteattr(text, {"\t": "&#9;", "\n": "&#10;", "\r": "&#13;"})
+
+
+LINK_WRITERS: Final[Mapping[Format, Callable[[Sequence[FixedLink], str], str]]] = MappingProxyType(
+    {
+        Format.urdf: urdf,
+        Format.sh: lambda links, _: shell(links),
+        Format.launch_py: lambda links, _: launch_python(links),
+        Format.launch_xml: lambda links, _: launch_xml(links),
+        Format.launch_yaml: lambda links, _: launch_yaml(links),
+    }
+)
+"""What makes the text of each format of fixed links, from them and the name of the file."""

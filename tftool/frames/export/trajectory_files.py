@@ -6,10 +6,11 @@ Stamps are whole nanoseconds all the way, and written as such: a float of second
 
 import csv
 import io
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import BinaryIO, Final
+from types import MappingProxyType
+from typing import BinaryIO, Final, TypeAlias
 
 import numpy as np
 
@@ -17,9 +18,11 @@ from tftool.base.errors import UsageError
 from tftool.base.stamps import SIMULATED_BELOW
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.frames.export import digits
+from tftool.frames.export.export_formats import DECIMALS, Format, Style
 from tftool.frames.pair_samples import Trajectory
 from tftool.geometry import rigid_arrays as batch
 from tftool.recordings.contract import Progress
+from tftool.recordings.recording_writer import library_name
 from tftool.recordings.target import Target, commit_together, failed
 
 CSV_COLUMNS: Final = ("stamp_ns", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw")
@@ -78,78 +81,83 @@ def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
         raise
 
 
-def write_tum(
-    found: Trajectory, path: Path, *, decimals: int, force: bool, progress: Progress | None
-) -> None:
+TrajectoryWriter: TypeAlias = Callable[
+    [Sequence[Trajectory], Path, Style, bool, Progress | None], list[Path]
+]
+"""Writes pairs (one, where its format holds one) to a path; returns the files it made.
+
+The flag says whether they may replace what stands there.
+"""
+
+
+def _write_tum(
+    found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
+) -> list[Path]:
     """`sec.nnnnnnnnn x y z qx qy qz qw`, a line a pose."""
-    rows = found.answered()
+    rows = found[0].answered()
     with whole_file(path, force=force) as file:
-        write = _writer(file, rows, decimals, progress)
+        write = _writer(file, rows, style.decimals, progress)
         for block in _blocks(rows):
             write(block.stamps, _poses(block), seconds=True, separator=" ")
+    return [path]
 
 
-def write_kitti(
-    found: Trajectory, path: Path, *, decimals: int, force: bool, progress: Progress | None
-) -> Path:
+def _write_kitti(
+    found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
+) -> list[Path]:
     """The upper three rows of the matrix, a line a pose; the stamps in a file beside it.
 
     Both come to their names together, the poses last.
-
-    Returns:
-        The file of the stamps.
     """
     times = path.with_name(f"{path.stem}_times.txt")
-    rows = found.answered()
+    rows = found[0].answered()
     with whole_files(times, path, force=force) as (beside, file):
-        write = _writer(file, rows, decimals, progress)
+        write = _writer(file, rows, style.decimals, progress)
         for block in _blocks(rows):
             matrices = batch.matrices(block.translations, block.rotations)
             write(None, matrices[:, :3].reshape(-1, 12), separator=" ")
             beside.write(
                 "".join(f"{digits.stamp_text(one)}\n" for one in block.stamps.tolist()).encode()
             )
-    return times
+    return [path, times]
 
 
-def write_euroc(
-    found: Trajectory, path: Path, *, decimals: int, force: bool, progress: Progress | None
-) -> None:
+def _write_euroc(
+    found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
+) -> list[Path]:
     """EuRoC's ground truth: whole nanoseconds, w first."""
-    rows = found.answered()
+    rows = found[0].answered()
     with whole_file(path, force=force) as file:
         file.write(EUROC_HEADER.encode())
-        write = _writer(file, rows, decimals, progress)
+        write = _writer(file, rows, style.decimals, progress)
         for block in _blocks(rows):
             write(block.stamps, _poses(block)[:, [0, 1, 2, 6, 3, 4, 5]])
+    return [path]
 
 
-def write_csv(
-    found: Sequence[Trajectory],
-    path: Path,
-    *,
-    decimals: int,
-    rpy: bool,
-    force: bool,
-    progress: Progress | None,
-) -> None:
+def _write_csv(
+    found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
+) -> list[Path]:
     """A table with a header; of several pairs each row begins with its target and source."""
     with whole_file(path, force=force) as file:
-        names = (*CSV_COLUMNS, *(RPY_COLUMNS if rpy else ()))
+        names = (*CSV_COLUMNS, *(RPY_COLUMNS if style.rpy else ()))
         several = len(found) > 1
         file.write(_csv_line(("target", "source", *names) if several else names))
         for one in found:
             rows = one.answered()
             before = _csv_line((one.target, one.source))[:-1] + b"," if several else b""
-            write = _writer(file, rows, decimals, progress, before)
+            write = _writer(file, rows, style.decimals, progress, before)
             for block in _blocks(rows):
                 numbers = _poses(block)
-                if rpy:
+                if style.rpy:
                     numbers = np.hstack([numbers, batch.roll_pitch_yaw(block.rotations)])
                 write(block.stamps, numbers)
+    return [path]
 
 
-def write_npz(found: Sequence[Trajectory], path: Path, *, force: bool) -> None:
+def _write_npz(
+    found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
+) -> list[Path]:
     """NumPy's archive: stamps, translations, rotations (x y z w); no pickle in it.
 
     Of several pairs the rows lie behind each other, and `pair` says which is whose.
@@ -168,11 +176,12 @@ def write_npz(found: Sequence[Trajectory], path: Path, *, force: bool) -> None:
         columns["pair"] = np.repeat(np.arange(len(rows)), [len(one) for one in rows])
     with whole_file(path, force=force) as file:
         np.savez(file, allow_pickle=False, **columns)
+    return [path]
 
 
-def write_parquet(
-    found: Sequence[Trajectory], path: Path, *, rpy: bool, version: str, force: bool
-) -> None:
+def _write_parquet(
+    found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
+) -> list[Path]:
     """A Parquet table with the columns of the CSV; `stamp`, too, where stamps are dates.
 
     Raises:
@@ -198,18 +207,32 @@ def write_parquet(
         columns["stamp"] = pyarrow.array(stamps, pyarrow.timestamp("ns", tz="UTC"))
     columns["stamp_ns"] = stamps
     columns |= {name: numbers[:, place] for place, name in enumerate(CSV_COLUMNS[1:])}
-    if rpy:
+    if style.rpy:
         angles = batch.roll_pitch_yaw(_joined([one.rotations for one in rows]))
         columns |= {name: angles[:, place] for place, name in enumerate(RPY_COLUMNS)}
     table = pyarrow.table(columns).replace_schema_metadata(
         {
             "target": ",".join(one.target for one in found),
             "source": ",".join(one.source for one in found),
-            "tftool": version,
+            "tftool": library_name(),
         }
     )
     with whole_file(path, force=force) as file:
         parquet.write_table(table, file, compression="zstd")
+    return [path]
+
+
+TRAJECTORY_WRITERS: Final[Mapping[Format, TrajectoryWriter]] = MappingProxyType(
+    {
+        Format.tum: _write_tum,
+        Format.kitti: _write_kitti,
+        Format.euroc: _write_euroc,
+        Format.csv: _write_csv,
+        Format.npz: _write_npz,
+        Format.parquet: _write_parquet,
+    }
+)
+"""What writes each format of pairs over time."""
 
 
 def _poses(rows: TransformArray) -> batch.Floats:
@@ -243,7 +266,7 @@ def _writer(
         separator: str = ",",
     ) -> None:
         nonlocal done
-        if decimals == digits.DECIMALS and digits.fits(numbers):
+        if decimals == DECIMALS and digits.fits(numbers):
             text = digits.rows(numbers, stamps=stamps, seconds=seconds, separator=separator)
         else:
             text = digits.exact_rows(
