@@ -573,3 +573,43 @@ def test_a_message_may_say_that_it_was_sent_at_any_time(tmp_path):
     with out.open("rb") as stream:
         sent = {message.publish_time for _, _, message in SeekingReader(stream).iter_messages()}
     assert 2**64 - 1 in sent
+
+
+def test_a_schema_that_is_defined_twice_is_the_same_one_after_an_edit(tmp_path):
+    # The last definition before a channel names it counts, and none after that.
+    path = tmp_path / "twice.mcap"
+    path.write_bytes(
+        b"".join(
+            [
+                b"\x89MCAP0\r\n",
+                record(1, text("ros2") + text("")),
+                schema(1, "std_msgs/msg/String"),
+                schema(1, "tf2_msgs/msg/TFMessage"),
+                record(4, struct.pack("<HH", 1, 1) + text("/tf") + text("cdr") + bytes(4)),
+                schema(1, "std_msgs/msg/Bool"),
+                record(5, struct.pack("<HIQQ", 1, 0, SECOND, SECOND) + b"\0\1\0\0" + bytes(4)),
+                record(15, bytes(4)),
+                record(2, bytes(20)),
+                b"\x89MCAP0\r\n",
+            ]
+        )
+    )
+    edit([path], tmp_path / "edited.mcap", Edits())
+
+    kinds = []
+    for file in (path, tmp_path / "edited.mcap"):
+        with open_recording(file) as recording:
+            kinds.append([topic.type for topic in recording.topics])
+    assert kinds == [["tf2_msgs/TFMessage"]] * 2
+
+
+def record(code, body):
+    return bytes([code]) + struct.pack("<Q", len(body)) + body
+
+
+def text(value):
+    return struct.pack("<I", len(value)) + value.encode()
+
+
+def schema(number, name):
+    return record(3, struct.pack("<H", number) + text(name) + text("ros2msg") + bytes(4))

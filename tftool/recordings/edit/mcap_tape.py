@@ -50,6 +50,7 @@ class McapTape:
         self.size = self.file.size
         self.channels: dict[int, Channel] = {}
         self.schemas: dict[int, tuple[str, str, bytes]] = {}
+        self._used_schemas: set[int] = set()
         self.schema_of: dict[int, int] = {}
         self.is_indexed = False
         self.extras = Extras()
@@ -127,7 +128,9 @@ class McapTape:
             name, place = text_at(body, 2, errors=AS_IT_IS)
             encoding, place = text_at(body, place, errors=AS_IT_IS)
             (length,) = _U32.unpack_from(body, place)
-            self.schemas.setdefault(number, (name, encoding, body[place + 4 : place + 4 + length]))
+            # As in `mcap.read`: the last definition counts, until a channel names it.
+            if number not in self._used_schemas:
+                self.schemas[number] = (name, encoding, body[place + 4 : place + 4 + length])
         elif code == format.CHANNEL:
             number, schema = struct.unpack_from("<HH", body)
             if number in self.channels:
@@ -139,6 +142,7 @@ class McapTape:
                 schema = 0  # Of none: what tells of it is damaged.
             name, kind, data = self.schemas.get(schema, ("", "", b""))
             self.schema_of[number] = schema
+            self._used_schemas.add(schema)
             self.channels[number] = Channel(
                 topic, name, encoding, kind, data, tuple(metadata.items())
             )

@@ -83,6 +83,7 @@ class Mcap:
         self.damage = self._file.damage
         self.profile = ""
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
+        self._used_schemas: set[int] = set()
         self._numbers: dict[int, int] = {}  # of a channel: its stream
         self._chunks: list[IndexedChunk] = []
         self._loose = WalkedMessages()
@@ -177,7 +178,8 @@ class Mcap:
         name, place = text_at(body, 2)
         encoding, place = text_at(body, place)
         (length,) = U32.unpack_from(body, place)
-        if len(self._schemas) < MOST_STREAMS:
+        # Some writers repeat a schema: the last definition counts, until a channel names it.
+        if len(self._schemas) < MOST_STREAMS and number not in self._used_schemas:
             self._schemas[number] = (name, encoding, body[place + 4 : place + 4 + length])
 
     def _take_channel(self, body: bytes) -> None:
@@ -188,6 +190,7 @@ class Mcap:
         encoding, place = text_at(body, place)
         metadata = strings_at(body, place)
         name, kind, data = self._schemas.get(schema, ("", "", b""))
+        self._used_schemas.add(schema)
         definition = ""
         if kind in ("ros2msg", "ros2idl", "ros1msg", "jsonschema"):
             definition = data.decode("utf-8", "backslashreplace")
@@ -216,6 +219,7 @@ class Mcap:
         """Find out what is in a file without an index, up to its end or its damage."""
         self._forget()
         self._schemas.clear()
+        self._used_schemas.clear()
         position, ended = self._find_records()
         self._count_found()
         found = sum(self.counts)
