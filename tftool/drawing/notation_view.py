@@ -4,21 +4,21 @@ import math
 from collections.abc import Sequence
 from typing import Final
 
-from tftool.geometry.conversions import (
-    AXES,
-    axis_angle_from_quaternion,
-    euler_from_quaternion,
-    matrix_from_quaternion,
-    precise_rpy_from_quaternion,
-    wxyz_from_xyzw,
+from tftool.geometry.conversions import matrix_from_quaternion
+from tftool.geometry.notation.notations import (
+    EULER,
+    NAMED_FORMS,
+    NOTATIONS,
+    Notation,
+    notation_of,
 )
 from tftool.geometry.notation.text import exact, publisher_words, urdf_origin
 from tftool.geometry.rigid import Transform
 
-TARGETS: Final = (
-    "xyzw", "wxyz", "rpy", "ypr", "axis-angle", "rotvec", "matrix", "matrix4", "urdf", "static",
-    *AXES,
-)  # fmt: skip
+POSE_FORMS: Final = ("matrix4", "urdf", "static")
+"""What says where, too."""
+
+TARGETS: Final = (*NAMED_FORMS, *POSE_FORMS, *EULER)
 """What a rotation can be printed as alone."""
 
 _WIDTH: Final = 18
@@ -28,21 +28,13 @@ _POLE: Final = 1.0 - 1e-9
 def as_object(transform: Transform) -> dict[str, object]:
     """Everything, for programs: angles in radians, and in degrees under names that say so."""
     turn = transform.rotation
-    axis, angle = axis_angle_from_quaternion(turn)
-    rpy = precise_rpy_from_quaternion(turn)
-    return {
-        "translation": list(transform.translation),
-        "quaternion_xyzw": list(turn),
-        "quaternion_wxyz": list(wxyz_from_xyzw(turn)),
-        "rpy_rad": list(rpy),
-        "rpy_deg": [math.degrees(one) for one in rpy],
-        "axis": list(axis),
-        "angle_rad": angle,
-        "angle_deg": math.degrees(angle),
-        "rotation_vector": [angle * one for one in axis],
+    found: dict[str, object] = {"translation": list(transform.translation)}
+    for notation in NOTATIONS.values():
+        found |= notation.as_object(notation.write(turn))
+    return found | {
         "matrix": [list(row) for row in matrix_from_quaternion(turn)],
         "matrix4": [list(row) for row in _matrix4(transform)],
-        "euler_rad": {axes: list(euler_from_quaternion(turn, axes)) for axes in AXES},
+        "euler_rad": {axes: list(one.write(turn)) for axes, one in EULER.items()},
     }
 
 
@@ -63,27 +55,9 @@ def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
         return urdf_origin(transform)
     if form == "static":
         return " ".join(publisher_words(transform))
-    axis, angle = axis_angle_from_quaternion(turn)
-    unit = math.degrees if degrees else float
-    numbers: Sequence[float]
-    if form == "xyzw":
-        numbers = turn
-    elif form == "wxyz":
-        numbers = wxyz_from_xyzw(turn)
-    elif form == "axis-angle":
-        numbers = (*axis, unit(angle))
-    elif form == "rotvec":
-        numbers = [one * unit(angle) for one in axis]
-    else:
-        angles = (
-            precise_rpy_from_quaternion(turn)
-            if form == "rpy"
-            else precise_rpy_from_quaternion(turn)[::-1]
-            if form == "ypr"
-            else euler_from_quaternion(turn, form)
-        )
-        numbers = [unit(one) for one in angles]
-    return " ".join(map(exact, numbers))
+    notation = notation_of(form)
+    numbers = notation.write(turn)
+    return " ".join(map(exact, notation.scaled(numbers, math.degrees) if degrees else numbers))
 
 
 def lines(
@@ -98,8 +72,6 @@ def lines(
         all_orders: Whether to add the 24 orders of Euler angles.
     """
     turn = transform.rotation
-    axis, angle = axis_angle_from_quaternion(turn)
-    rpy = precise_rpy_from_quaternion(turn)
 
     def shown(numbers: Sequence[float]) -> str:
         return " ".join(rounded(one, precision) for one in numbers)
@@ -108,24 +80,25 @@ def lines(
         degrees = [math.degrees(one) for one in numbers]
         return f"{shown(numbers)} rad · {shown(degrees)} deg"
 
+    def row_of(notation: Notation) -> tuple[str, str]:
+        numbers = notation.write(turn)
+        plain, turned = numbers[: notation.plain], numbers[notation.plain :]
+        parts = [shown(plain)] if plain else []
+        return notation.title, ", ".join([*parts, *([angles(turned)] if turned else [])])
+
     matrix = _matrix4(transform) if with_translation else matrix_from_quaternion(turn)
     texts = [[rounded(one, precision) for one in row] for row in matrix]
     wide = max(len(one) for row in texts for one in row)
     rows = [" ".join(one.rjust(wide) for one in row) for row in texts]
     table = [
         *([("translation", shown(transform.translation))] if with_translation else []),
-        ("quaternion x y z w", shown(turn)),
-        ("quaternion w x y z", shown(wxyz_from_xyzw(turn))),
-        ("roll pitch yaw", angles(rpy)),
-        ("yaw pitch roll", angles(rpy[::-1])),
-        ("axis, angle", f"{shown(axis)}, {angles([angle])}"),
-        ("rotation vector", angles([angle * one for one in axis])),
+        *map(row_of, NOTATIONS.values()),
         *(("matrix" if number == 0 else "", row) for number, row in enumerate(rows)),
         ("URDF", urdf_origin(transform)),
         ("static publisher", " ".join(publisher_words(transform))),
     ]
     if all_orders:
-        table += [(f"Euler {axes}", angles(euler_from_quaternion(turn, axes))) for axes in AXES]
+        table += map(row_of, EULER.values())
     return "".join(f"{name:<{_WIDTH}}  {text}\n" for name, text in table)
 
 

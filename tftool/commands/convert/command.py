@@ -8,6 +8,7 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.notices import notice
 from tftool.drawing import notation_view as view
+from tftool.geometry.notation.notations import NAMED_FORMS
 from tftool.geometry.notation.rotations import LONGEST, read
 
 
@@ -36,9 +37,9 @@ def run(
 ) -> ExitStatus:
     """Run `tftool convert`; the parameters are its options."""
     if target is not None and target not in view.TARGETS:
+        known = ", ".join((*NAMED_FORMS, *view.POSE_FORMS))
         raise UsageError(
-            f"--into {visible(target)}: there is {', '.join(view.TARGETS[:10])}, and orders "
-            "of axes such as sxyz."
+            f"--into {visible(target)}: there is {known}, and orders of axes such as sxyz."
         )
     if target is not None and (for_programs or all_orders):
         raise UsageError("--into prints one form alone: leave out --json and --all.")

@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from tftool.commands.shared.options import OUTPUT, Json, option
+from tftool.geometry.notation.notations import NAMED_FORMS
 
 
 def convert(
@@ -19,7 +20,7 @@ def convert(
     form: Annotated[
         str | None,
         option(
-            "What bare numbers are: xyzw, wxyz, rpy, ypr, axis-angle, rotvec, matrix, or an "
+            f"What bare numbers are: {', '.join(NAMED_FORMS)}, or an "
             "order of axes: s (fixed) or r (rotating) and three axes, as in sxyz or rzyx.",
             "--as",
             metavar="FORM",

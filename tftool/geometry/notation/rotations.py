@@ -13,19 +13,13 @@ from typing import Final
 from tftool.base.errors import UsageError
 from tftool.geometry import quaternions
 from tftool.geometry.conversions import (
-    AXES,
     nearest_rotation,
-    quaternion_from_axis_angle,
-    quaternion_from_euler,
     quaternion_from_matrix,
     quaternion_from_rpy,
-    xyzw_from_wxyz,
 )
 from tftool.geometry.notation import static_arguments
+from tftool.geometry.notation.notations import FORMS, NAMED_FORMS, NOTATIONS, notation_of
 from tftool.geometry.rigid import Quaternion, Transform
-
-FORMS: Final = ("xyzw", "wxyz", "rpy", "ypr", "axis-angle", "rotvec", "matrix", *AXES)
-"""What bare numbers can be named as."""
 
 LONGEST: Final = 1 << 20
 """Characters of a text that is read."""
@@ -63,15 +57,8 @@ _FILLER = frozenset(
     }
 )
 _NAMED: Final = {
-    "xyzw": "xyzw",
-    "wxyz": "wxyz",
-    "rpy": "rpy",
-    "ypr": "ypr",
-    "axis-angle": "axis-angle",
-    "axisangle": "axis-angle",
-    "axis": "axis-angle",
-    "rotvec": "rotvec",
-    **{axes: axes for axes in AXES},
+    **{form: form for form in FORMS if form != "matrix"},
+    **{word: form for form, one in NOTATIONS.items() for word in one.aliases},
 }
 _PUNCTUATION = frozenset("[](){}<>,;:=|$\"'°*-")
 
@@ -117,7 +104,7 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
 
 
 def _listed() -> str:
-    return f"{', '.join(FORMS[:7])}, or an order of axes such as sxyz or rzyx"
+    return f"{', '.join(NAMED_FORMS)}, or an order of axes such as sxyz or rzyx"
 
 
 # What says itself what it is
@@ -243,7 +230,7 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
         return _matrix(numbers)
     if form is None:
         raise _ambiguous(count)
-    wanted = {"xyzw": 4, "wxyz": 4, "axis-angle": 4, "matrix": 9}.get(form, 3)
+    wanted = 9 if form == "matrix" else notation_of(form).count
     if count != wanted:
         raise UsageError(f"{form} takes {wanted} numbers, and there are {count}.")
     return _of_form(form, numbers, degrees)
@@ -283,38 +270,18 @@ def _of_pi(match: "re.Match[str]") -> float:
 
 
 def _of_form(form: str, numbers: Sequence[float], degrees: bool) -> Written:
-    if form in ("xyzw", "wxyz"):
-        turn = numbers if form == "xyzw" else xyzw_from_wxyz(numbers)
-        return _quaternion(turn, f"quaternion {' '.join(form)}")
-    unit = "degrees" if degrees else "radians"
-    if form == "axis-angle":
-        angle = math.radians(numbers[3]) if degrees else numbers[3]
-        return _turned(_about(numbers[:3], angle), f"axis and angle, {unit}")
-    x, y, z = numbers
-    if form == "rotvec":
-        vector = _angles(numbers, degrees)
-        length = math.hypot(*vector)
-        turn = _about(vector, length) if length else Quaternion(0.0, 0.0, 0.0, 1.0)
-        return _turned(turn, f"rotation vector, {unit}")
-    if form == "rpy":
-        turn = quaternion_from_rpy(*_angles((x, y, z), degrees))
-        return _turned(turn, f"roll pitch yaw, {unit}", _beyond(numbers, degrees))
-    if form == "ypr":
-        turn = quaternion_from_rpy(*_angles((z, y, x), degrees))
-        return _turned(turn, f"yaw pitch roll, {unit}", _beyond(numbers, degrees))
-    turn = quaternion_from_euler(_angles(numbers, degrees), form)
-    return _turned(turn, f"Euler angles {form}, {unit}", _beyond(numbers, degrees))
-
-
-def _about(axis: Sequence[float], angle: float) -> Quaternion:
+    notation = notation_of(form)
+    name = notation.read_as or notation.title
+    if notation.is_quaternion:
+        return _quaternion(notation.read(numbers), name)
+    in_radians = notation.scaled(numbers, math.radians) if degrees else numbers
     try:
-        return quaternion_from_axis_angle(axis, angle)
+        turn = Quaternion(*notation.read(in_radians))
     except ValueError as error:
         raise UsageError(f"{error}.") from None
-
-
-def _turned(turn: Quaternion, form: str, notes: tuple[str, ...] = ()) -> Written:
-    return Written(Transform(rotation=turn), False, form, notes)
+    notes = _beyond(numbers, degrees) if notation.wraps else ()
+    unit = "degrees" if degrees else "radians"
+    return Written(Transform(rotation=turn), False, f"{name}, {unit}", notes)
 
 
 def _beyond(numbers: Sequence[float], degrees: bool) -> tuple[str, ...]:

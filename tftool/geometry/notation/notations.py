@@ -1,0 +1,171 @@
+"""Every notation of one rotation in numbers: how it is read and how it is written.
+
+To add one: its line in `NOTATIONS`. `convert` reads it with `--as`, writes it with `--into`
+and shows it in its table and its JSON.
+"""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final, TypeAlias
+
+from tftool.geometry.conversions import (
+    AXES,
+    axis_angle_from_quaternion,
+    euler_from_quaternion,
+    precise_rpy_from_quaternion,
+    quaternion_from_axis_angle,
+    quaternion_from_euler,
+    quaternion_from_rpy,
+    wxyz_from_xyzw,
+    xyzw_from_wxyz,
+)
+from tftool.geometry.rigid import Quaternion
+
+Numbers: TypeAlias = Sequence[float]
+
+
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """One notation; its angles are radians here.
+
+    Attributes:
+        title: What it is called beside its numbers.
+        count: How many numbers it has.
+        plain: How many of them, from the first on, are no angles.
+        read: Makes a quaternion of its numbers, in xyzw order.
+        write: Makes its numbers of a unit quaternion.
+        as_object: Its entries in JSON; empty where another notation says the same.
+        read_as: What it is called when it was read; its title if empty.
+        aliases: Other words that name it in a text.
+        wraps: Whether an angle beyond a full turn is likely a mistake.
+    """
+
+    title: str
+    count: int
+    plain: int
+    read: Callable[[Numbers], Numbers]
+    write: Callable[[Quaternion], Numbers]
+    as_object: Callable[[Numbers], dict[str, object]]
+    read_as: str = ""
+    aliases: tuple[str, ...] = ()
+    wraps: bool = False
+
+    @property
+    def is_quaternion(self) -> bool:
+        """Whether it has no angles."""
+        return self.plain == self.count
+
+    def scaled(self, numbers: Numbers, scale: Callable[[float], float]) -> list[float]:
+        """Return the numbers with `scale` applied to the angles."""
+        return [*numbers[: self.plain], *map(scale, numbers[self.plain :])]
+
+
+def _axis_angle(turn: Quaternion) -> Numbers:
+    axis, angle = axis_angle_from_quaternion(turn)
+    return (*axis, angle)
+
+
+def _rotation_vector(turn: Quaternion) -> Numbers:
+    axis, angle = axis_angle_from_quaternion(turn)
+    return [angle * one for one in axis]
+
+
+def _of_rotation_vector(vector: Numbers) -> Numbers:
+    length = math.hypot(*vector)
+    return quaternion_from_axis_angle(vector, length) if length else (0.0, 0.0, 0.0, 1.0)
+
+
+def _degrees(numbers: Numbers) -> list[float]:
+    return [math.degrees(one) for one in numbers]
+
+
+def _euler(axes: str) -> Notation:
+    return Notation(
+        f"Euler {axes}",
+        3,
+        0,
+        lambda angles: quaternion_from_euler((angles[0], angles[1], angles[2]), axes),
+        lambda turn: euler_from_quaternion(turn, axes),
+        lambda _: {},
+        read_as=f"Euler angles {axes}",
+        wraps=True,
+    )
+
+
+NOTATIONS: Final[Mapping[str, Notation]] = MappingProxyType(
+    {
+        "xyzw": Notation(
+            "quaternion x y z w",
+            4,
+            4,
+            lambda numbers: numbers,
+            lambda turn: turn,
+            lambda numbers: {"quaternion_xyzw": list(numbers)},
+        ),
+        "wxyz": Notation(
+            "quaternion w x y z",
+            4,
+            4,
+            xyzw_from_wxyz,
+            wxyz_from_xyzw,
+            lambda numbers: {"quaternion_wxyz": list(numbers)},
+        ),
+        "rpy": Notation(
+            "roll pitch yaw",
+            3,
+            0,
+            lambda angles: quaternion_from_rpy(*angles),
+            precise_rpy_from_quaternion,
+            lambda angles: {"rpy_rad": list(angles), "rpy_deg": _degrees(angles)},
+            wraps=True,
+        ),
+        "ypr": Notation(
+            "yaw pitch roll",
+            3,
+            0,
+            lambda angles: quaternion_from_rpy(*angles[::-1]),
+            lambda turn: precise_rpy_from_quaternion(turn)[::-1],
+            lambda _: {},
+            wraps=True,
+        ),
+        "axis-angle": Notation(
+            "axis, angle",
+            4,
+            3,
+            lambda numbers: quaternion_from_axis_angle(numbers[:3], numbers[3]),
+            _axis_angle,
+            lambda numbers: {
+                "axis": list(numbers[:3]),
+                "angle_rad": numbers[3],
+                "angle_deg": math.degrees(numbers[3]),
+            },
+            read_as="axis and angle",
+            aliases=("axisangle", "axis"),
+        ),
+        "rotvec": Notation(
+            "rotation vector",
+            3,
+            0,
+            _of_rotation_vector,
+            _rotation_vector,
+            lambda vector: {"rotation_vector": list(vector)},
+        ),
+    }
+)
+"""By the word for `--as` and `--into`."""
+
+EULER: Final[Mapping[str, Notation]] = MappingProxyType({axes: _euler(axes) for axes in AXES})
+"""The 24 orders of Euler angles, by their axes."""
+
+FORMS: Final = (*NOTATIONS, "matrix", *EULER)
+"""What bare numbers can be named as."""
+
+NAMED_FORMS: Final = (*NOTATIONS, "matrix")
+"""Those that are listed for a person: not each order of axes."""
+
+
+def notation_of(form: str) -> Notation:
+    """Return the notation of a form that is no matrix."""
+    return NOTATIONS.get(form) or EULER[form]
