@@ -164,6 +164,41 @@ def _duplicated(field: MessageField, value: Any) -> Any:
     return value.copy() if hasattr(value, "dtype") else value[:]
 
 
+def interface_name(kind: Any) -> str:
+    """Return the ROS name of a class of messages, services or actions; "" for other classes."""
+    return str(getattr(kind, "interface__", ""))
+
+
+def recast(message: Any, kind: type[Message]) -> Any:
+    """Copy a message into a class of the same fields: that of another release, for example."""
+    copy = duplicate(message)
+    if type(copy) is kind:
+        return copy
+    same = object.__new__(kind)
+    for field in kind.fields__:
+        setattr(same, f"_{field.name}", getattr(copy, f"_{field.name}"))
+    return same
+
+
+def is_part(asked: Any, part: str, kind: Any) -> bool:
+    """Whether a message is the request, or the goal, of a service's or action's class.
+
+    Args:
+        asked: The message.
+        part: "Request" or "Goal".
+        kind: The class.
+    """
+    return isinstance(asked, Message) and plain_name(asked.interface__) == plain_name(
+        f"{kind.interface__}_{part}"
+    )
+
+
+def plain_name(ros_type: str) -> str:
+    """Return a type's name, the same for turtlesim's types of every release."""
+    # Newer ROS 2 releases moved turtlesim's interfaces to a package of their own.
+    return ros_type.replace("turtlesim_msgs/", "turtlesim/")
+
+
 # Making them
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.geometry.motion.twist import Twist2D
-from tftool.messages.classes import INTERFACES, Message, build, duplicate
+from tftool.messages.classes import INTERFACES, build
 
 Pose: Final[Any] = INTERFACES.message("turtlesim/msg/Pose")
 ColorMessage: Final[Any] = INTERFACES.message("turtlesim/msg/Color")
@@ -65,38 +65,3 @@ def point_stamped(stamp: Stamp, frame_id: str, x: float, y: float, z: float) -> 
     """Return the PointStamped of a point, in metres in its frame, at a moment."""
     header = build(_Header, build(_Time, *divmod(stamp, NANOSECONDS)), frame_id)
     return build(PointStamped, header, build(_Point, x, y, z))
-
-
-def interface_name(kind: Any) -> str:
-    """Return the ROS name of a class of messages, services or actions; "" for other classes."""
-    return str(getattr(kind, "interface__", ""))
-
-
-def recast(message: Any, kind: type[Message]) -> Any:
-    """Copy a message into a class of the same fields: that of another release, for example."""
-    copy = duplicate(message)
-    if type(copy) is kind:
-        return copy
-    same = object.__new__(kind)
-    for field in kind.fields__:
-        setattr(same, f"_{field.name}", getattr(copy, f"_{field.name}"))
-    return same
-
-
-def is_part(asked: Any, part: str, kind: Any) -> bool:
-    """Whether a message is the request, or the goal, of a service's or action's class.
-
-    Args:
-        asked: The message.
-        part: "Request" or "Goal".
-        kind: The class.
-    """
-    return isinstance(asked, Message) and plain_name(asked.interface__) == plain_name(
-        f"{kind.interface__}_{part}"
-    )
-
-
-def plain_name(ros_type: str) -> str:
-    """Return a type's name, the same for turtlesim's types of every release."""
-    # Newer ROS 2 releases moved turtlesim's interfaces to a package of their own.
-    return ros_type.replace("turtlesim_msgs/", "turtlesim/")

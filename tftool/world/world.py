@@ -12,7 +12,7 @@ from tftool.base.listeners import Listeners, listener_text
 from tftool.base.stamps import CACHE_TIME, Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.messages.turtle_messages import interface_name, is_part
+from tftool.messages.classes import interface_name, is_part
 from tftool.world import transform_wait as waiting
 from tftool.world.clock import Clock
 from tftool.world.endpoints import (

@@ -9,8 +9,7 @@ from typing import Any
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import transform
-from tftool.messages.classes import INTERFACES, Message
-from tftool.messages.turtle_messages import plain_name, recast
+from tftool.messages.classes import INTERFACES, Message, plain_name, recast
 from tftool.world.world import TransformMessage
 
 TF_TOPICS = ("tf", "tf_static")

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
-from tftool.messages.turtle_messages import interface_name
+from tftool.messages.classes import interface_name
 from tftool.ros.host.program import Program
 from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.endpoints import TopicEndpointInfo, endpoint_info
