@@ -5,6 +5,7 @@ matplotlib is an extra, and is imported when something is drawn.
 
 from collections.abc import Sequence
 from functools import partial
+from importlib import import_module
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
@@ -154,8 +155,6 @@ def write(
 
 
 def _needed(module: str) -> Any:
-    from importlib import import_module
-
     try:
         return import_module(module)
     except ImportError as missing:

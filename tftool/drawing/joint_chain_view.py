@@ -1,22 +1,19 @@
 """The way between two links of a robot description: for a terminal, for a program."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from rich.console import Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
 
 from tftool.base.escaping import visible
 from tftool.doctor.joint_chain import ChainExplanation, ChainLink
 from tftool.drawing.explanation_view import SCHEMA
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
 
-
-def render(found: ChainExplanation) -> "RenderableType":
+def render(found: ChainExplanation) -> RenderableType:
     """What was asked, what tf2 says, each joint, why, and what helps."""
-    from rich.console import Group
-    from rich.padding import Padding
-    from rich.table import Table
-    from rich.text import Text
-
     headline = Text(visible(f"{found.source} in {found.target}: "))
     if found.available:
         headline.append("answers", "green")

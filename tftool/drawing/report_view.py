@@ -1,23 +1,21 @@
 """What was found: as a table, as rows for programs, as a JUnit report."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from xml.etree import ElementTree
+
+from rich import box
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
 
 from tftool.base.counts import count
 from tftool.base.escaping import visible
 from tftool.base.report import Judgement, Report
 
-if TYPE_CHECKING:
-    from rich.table import Table
 
-
-def render(reports: Sequence[Report]) -> "Table":
+def render(reports: Sequence[Report]) -> Table:
     """A line for each report, and below it, in full, what is not as it should be."""
-    from rich.padding import Padding
-    from rich.table import Table
-    from rich.text import Text
-
     table = Table.grid(padding=(0, 2), pad_edge=False)
     for _ in range(3):
         table.add_column(overflow="fold")
@@ -45,12 +43,8 @@ def _told(report: Report) -> str:
     return "nothing is expected"
 
 
-def render_all(reports: Sequence[Report]) -> "Table":
+def render_all(reports: Sequence[Report]) -> Table:
     """Every judgement in a table, grouped by report; what is not as it should be stands out."""
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
-
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("scenario", overflow="fold")
     table.add_column("expected", overflow="fold", ratio=3)

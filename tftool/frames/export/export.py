@@ -123,8 +123,23 @@ def export(
         raise UsageError("A pair is two frames: name the target and the source.")
     if target_frame is not None and source_frame is not None:
         asked.insert(0, (target_frame, source_frame))
-    style = Style(decimals, rpy, foxglove, with_moving, root, time)
     refuse_input(frames, place)
+    moments = Moments(start, end, period, None if stamps is None else _stamps(stamps))
+    style = Style(decimals, rpy, foxglove, with_moving, root, time)
+    return _written(frames, place, form, asked, moments, style, force, progress)
+
+
+def _written(
+    frames: Framed,
+    place: Path,
+    form: Format,
+    asked: Sequence[tuple[str, str]],
+    moments: Moments,
+    style: Style,
+    force: bool,
+    progress: Progress | None,
+) -> Exported:
+    """Write pairs or links, whichever the format holds."""
     buffer = buffer_of(frames)
     if not form.is_trajectory:
         if asked:
@@ -132,7 +147,6 @@ def export(
         return write_links(buffer, place, form, style, force=force, progress=progress)
     if not asked:
         raise UsageError(f"{form} holds pairs of frames over time: name a target and a source.")
-    moments = Moments(start, end, period, None if stamps is None else _stamps(stamps))
     found = [sample(buffer, target, source, moments) for target, source in asked]
     return write_trajectories(found, place, form, style, force=force, progress=progress)
 

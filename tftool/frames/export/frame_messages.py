@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Iterator
+from importlib.util import find_spec
 
 import numpy as np
 
@@ -69,8 +70,6 @@ def write_frames(
 
 
 def _compression() -> str:
-    from importlib.util import find_spec
-
     return "zstd" if find_spec("zstandard") else "none"
 
 
