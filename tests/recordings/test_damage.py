@@ -25,7 +25,7 @@ from tests.recordings.writers import (
     write_rosbag2,
     write_split,
 )
-from tftool import InputError, UsageError, open_recording
+from tftool import InputError, Recording, UsageError, open_recording
 from tftool.recordings import decompression as compressed
 from tftool.recordings.compression import compressor
 from tftool.recordings.edit.changes import Edits
@@ -330,3 +330,39 @@ def test_of_a_piece_that_becomes_much_more_than_it_says_no_more_is_made(pack):
 def test_what_is_no_record_ends_a_chunk(records_in, told):
     with pytest.raises(InputError, match=told):
         list(records_in(bytes(100)))
+
+
+def test_a_compressed_file_of_four_bytes_breaks_off_and_is_not_called_empty(tmp_path):
+    cut = tmp_path / "run.mcap.zst"
+    cut.write_bytes(b"\x28\xb5\x2f\xfd")
+
+    with pytest.raises(InputError, match=r"run\.mcap\.zst' breaks off after 4 bytes") as refused:
+        open_recording(cut)
+    assert str(tmp_path) in str(refused.value)
+    assert "empty" not in str(refused.value)
+
+
+@pytest.mark.parametrize("write", [write_mcap, write_rosbag1])
+def test_a_file_that_is_written_over_while_it_is_read_is_said_to_have_changed(
+    tmp_path, monkeypatch, write
+):
+    path = write(tmp_path / "run", content(200))
+    read = Recording.__init__
+
+    def overwritten(self, *words, **named):
+        path.write_bytes(path.read_bytes()[:-100] + bytes(7))
+        read(self, *words, **named)
+        # What numpy and struct say of numbers that are none any more.
+        raise OverflowError("int too large to convert")
+
+    monkeypatch.setattr(Recording, "__init__", overwritten)
+    with pytest.raises(InputError, match="changed while it was read: ask again when it is whole"):
+        open_recording(path)
+
+
+def test_a_recording_that_a_killed_recorder_left_is_named_with_its_repair(tmp_path):
+    path = write_mcap(tmp_path / "run.mcap", content(20))
+    path.rename(tmp_path / "run.mcap.active")
+
+    with pytest.raises(InputError, match=r"'tftool edit \S+run\.mcap\.active -o \S+run\.mcap'"):
+        open_recording(path)

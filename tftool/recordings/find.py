@@ -12,6 +12,7 @@ import stat
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
+from typing import Final
 
 from tftool.base.errors import InputError
 from tftool.base.named_files import open_regular
@@ -22,6 +23,9 @@ SQLITE_MAGIC = b"SQLite format 3\x00"
 ROS1_MAGIC = b"#ROSBAG V2.0\n"
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 METADATA = "metadata.yaml"
+
+ACTIVE: Final = ".active"
+"""What the name of a file ends in until its recorder has finished it, as in ROS 1."""
 """What rosbag2 calls the description beside its files."""
 
 MOST_FILES = 10_000
@@ -143,6 +147,12 @@ def find(word: str) -> Found:
                 raise InputError(
                     f"'{word}' is a URL, of which 'tftool info' and 'tftool doctor' read "
                     "recordings: fetch it to a file for what else is asked of it."
+                )
+            active = Path(f"{word}{ACTIVE}")
+            if active.exists():
+                raise InputError(
+                    f"There is no '{word}' but '{active}': a recorder still writes it, or was "
+                    f"killed. 'tftool edit {active} -o {word}' makes it whole."
                 )
             raise InputError(f"There is no file or folder '{word}'.{_meant(path)}")
         if path.is_dir():

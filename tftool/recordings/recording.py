@@ -44,7 +44,7 @@ from tftool.recordings.description_frames import (
     prefix_of,
     read_description,
 )
-from tftool.recordings.find import find
+from tftool.recordings.find import Found, find
 from tftool.recordings.joint_state_reader import (
     RecordedJoints,
     joint_state_topics,
@@ -505,9 +505,32 @@ def open_recording(
         UsageError: If it is compressed, and the extra `recordings` is not installed.
     """
     name = os.fspath(path)
+    before: list[tuple[int, int]] | None = None
     try:
         found = find(name)
+        before = _facts(found)
         kept = None if cache is None else KeptColumns(cache, found)
         return Recording(Recorded(name, open_found(found)), progress, robot, kept, with_odometry)
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error
+    except (InputError, ValueError, ArithmeticError, LookupError) as error:
+        # Sizes that were checked need not hold for bytes that were written since.
+        if before is None or before == _facts(found):
+            raise
+        raise InputError(
+            f"'{name}' changed while it was read: ask again when it is whole."
+        ) from error
+
+
+def _facts(found: Found) -> list[tuple[int, int]]:
+    """Return size and time of change of every file that is read; -1 where one is gone."""
+    facts = []
+    for path in found.paths:
+        for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+            try:
+                told = file.stat()
+            except OSError:
+                facts.append((-1, -1))
+            else:
+                facts.append((told.st_size, told.st_mtime_ns))
+    return facts

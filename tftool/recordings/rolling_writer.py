@@ -15,13 +15,11 @@ from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.messages.layouts import CDR
 from tftool.messages.splice import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
+from tftool.recordings.find import ACTIVE
 from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.recording_writer import library_name
 from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
 from tftool.recordings.target import failed, refuse_existing, synced
-
-ACTIVE: Final = ".active"
-"""What is added to a name while the file is open."""
 
 CHUNK_SIZE: Final = 256 * 1024
 """Bytes of messages in a chunk: what is in one that is not full is lost with a kill."""

@@ -222,6 +222,11 @@ def unpack_file(path: Path, target: Path) -> str:
                     raise InputError(f"'{path}' is damaged zstd data ({error}).") from error
                 return f"Its zstd data is damaged behind byte {done} ({error})."
             if not piece:
+                if not done:
+                    raise InputError(
+                        f"'{path}' breaks off after {path.stat().st_size} bytes, before the first "
+                        "one it holds: it was cut, or never finished."
+                    )
                 return ""
             done += len(piece)
             if done > plausible:
