@@ -352,6 +352,7 @@ def test_a_file_that_is_written_over_while_it_is_read_is_said_to_have_changed(
     def overwritten(self, *words, **named):
         path.write_bytes(path.read_bytes()[:-100] + bytes(7))
         read(self, *words, **named)
+        self.close()
         # What numpy and struct say of numbers that are none any more.
         raise OverflowError("int too large to convert")
 
