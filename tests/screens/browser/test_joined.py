@@ -26,17 +26,19 @@ def session_dir(monkeypatch):
 
 
 def address_of(view):
-    """Where a `tftool view` says it serves, as host:port."""
+    """Where a `tftool view` says it serves: host:port, and the query with its secret."""
     line = view.lines[view.says("are at http://") - 1]
-    return line.partition("http://")[2].rstrip("/")
+    place, _, query = line.partition("http://")[2].strip().partition("/")
+    return place, query
 
 
 def told_by(address, *, holds):
     """Listen as a page does until a message of words is what `holds` wants; give that message."""
 
     async def listen():
-        origin = f"http://{address}"
-        async with connect(f"ws://{address}/frames", origin=origin, compression=None) as page:
+        place, query = address
+        url = f"ws://{place}/frames{query}"
+        async with connect(url, origin=f"http://{place}", compression=None) as page:
             await page.send(json.dumps({"type": "pair", "target": "turtle2", "source": "turtle1"}))
             async for message in page:
                 if isinstance(message, bytes):

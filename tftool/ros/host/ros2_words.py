@@ -2,9 +2,9 @@
 
 import argparse
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeAlias
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.near_names import did_you_mean
@@ -39,103 +39,107 @@ def verbs() -> dict[str, list[str]]:
 
 
 def _parser() -> tuple[_Parser, dict[str, list[str]]]:
-    listed_verbs: list[Any] = []
     parser = _Parser(prog="ros2", add_help=False)
     nouns = parser.add_subparsers(dest="noun", required=True, metavar="COMMAND")
+    listed: dict[str, list[str]] = {}
+    for noun, verbs in _arguments().items():
+        below = nouns.add_parser(noun).add_subparsers(dest="verb", required=True, metavar="VERB")
+        for verb, arguments in verbs.items():
+            one = below.add_parser(verb)
+            for names, how in arguments:
+                one.add_argument(*names, **how)
+        listed[noun] = list(verbs)
+        below.help = ", ".join(verbs)
+    nouns.help = ", ".join(listed)
+    return parser, listed
 
-    def noun(name: str) -> Any:
-        verbs = nouns.add_parser(name).add_subparsers(dest="verb", required=True, metavar="VERB")
-        listed_verbs.append(verbs)
-        return verbs
 
-    def verb(of: Any, name: str, *arguments: str) -> Any:
-        parser = of.add_parser(name)
-        for argument in arguments:
-            parser.add_argument(argument)
-        return parser
+_Argument: TypeAlias = tuple[tuple[str, ...], dict[str, Any]]
 
-    def flag(of: Any, *names: str) -> None:
-        of.add_argument(*names, action="store_true")
 
-    def quality(of: Any) -> None:
-        of.add_argument("--qos-profile", choices=PROFILES)
-        of.add_argument("--qos-depth", type=_count)
-        of.add_argument("--qos-history", choices=("keep_last", "keep_all"))
-        of.add_argument("--qos-reliability", choices=("reliable", "best_effort"))
-        of.add_argument("--qos-durability", choices=("volatile", "transient_local"))
+def _arguments() -> dict[str, dict[str, list[_Argument]]]:
+    """Return what each verb of each command takes, as argparse's `add_argument` does."""
 
-    topic = noun("topic")
-    listed = verb(topic, "list")
-    flag(listed, "-t", "--show-types")
-    flag(listed, "--include-hidden-topics")
-    echo = verb(topic, "echo", "topic")
-    echo.add_argument("type", nargs="?")
-    flag(echo, "--once")
-    echo.add_argument("--field")
-    quality(echo)
-    verb(topic, "find", "type")
-    for name in ("hz", "bw", "delay"):
-        measured = verb(topic, name, "topic")
-        measured.add_argument("-w", "--window", type=_count, default=10_000)
-    flag(verb(topic, "info", "topic"), "-v", "--verbose")
-    verb(topic, "type", "topic")
-    pub = verb(topic, "pub", "topic", "type")
-    pub.add_argument("values", nargs="?", default="{}")
-    pub.add_argument("-r", "--rate", type=_rate, default=1.0)
-    pub.add_argument("-t", "--times", type=int, default=0)
-    pub.add_argument("-w", "--wait-matching-subscriptions", type=int)
-    flag(pub, "-1", "--once")
-    quality(pub)
+    def flag(*names: str) -> _Argument:
+        return names, {"action": "store_true"}
 
-    service = noun("service")
-    listed = verb(service, "list")
-    flag(listed, "-t", "--show-types")
-    flag(listed, "--include-hidden-services")
-    verb(service, "type", "service")
-    verb(service, "info", "service")
-    verb(service, "find", "type")
-    call = verb(service, "call", "service", "type")
-    call.add_argument("values", nargs="?", default="{}")
+    def word(name: str, **how: Any) -> _Argument:
+        return (name,), how
 
-    param = noun("param")
-    verb(param, "list").add_argument("node", nargs="?")
-    verb(param, "get", "node", "name")
-    verb(param, "set", "node", "name", "value")
-    verb(param, "dump", "node")
-    verb(param, "describe", "node").add_argument("names", nargs="+")
-    flag(verb(param, "load", "node", "file"), "--no-use-wildcard")
+    types, values = flag("-t", "--show-types"), word("values", nargs="?", default="{}")
+    topic, service, node, kind = word("topic"), word("service"), word("node"), word("type")
+    measured = [topic, (("-w", "--window"), {"type": _count, "default": 10_000})]
+    quality = [
+        word("--qos-profile", choices=PROFILES),
+        word("--qos-depth", type=_count),
+        word("--qos-history", choices=("keep_last", "keep_all")),
+        word("--qos-reliability", choices=("reliable", "best_effort")),
+        word("--qos-durability", choices=("volatile", "transient_local")),
+    ]
+    return {
+        "topic": {
+            "list": [types, flag("--include-hidden-topics")],
+            "echo": [topic, word("type", nargs="?"), flag("--once"), word("--field"), *quality],
+            "find": [kind],
+            "hz": measured,
+            "bw": measured,
+            "delay": measured,
+            "info": [topic, flag("-v", "--verbose")],
+            "type": [topic],
+            "pub": [*_publishing(topic, kind, values), *quality],
+        },
+        "service": {
+            "list": [types, flag("--include-hidden-services")],
+            "type": [service],
+            "info": [service],
+            "find": [kind],
+            "call": [service, kind, values],
+        },
+        "param": {
+            "list": [word("node", nargs="?")],
+            "get": [node, word("name")],
+            "set": [node, word("name"), word("value")],
+            "dump": [node],
+            "describe": [node, word("names", nargs="+")],
+            "load": [node, word("file"), flag("--no-use-wildcard")],
+        },
+        "node": {"list": [flag("-a", "--all")], "info": [node, flag("--include-hidden")]},
+        "action": {
+            "list": [types],
+            "type": [word("action")],
+            "info": [word("action"), types],
+            "send_goal": [word("action"), kind, word("values"), flag("-f", "--feedback")],
+        },
+        "interface": _of_interfaces(flag, kind),
+        "pkg": {
+            "list": [],
+            "executables": [word("package", nargs="?"), flag("--full-path")],
+            "prefix": [word("package")],
+        },
+    }
 
-    node = noun("node")
-    flag(verb(node, "list"), "-a", "--all")
-    flag(verb(node, "info", "node"), "--include-hidden")
 
-    action = noun("action")
-    flag(verb(action, "list"), "-t", "--show-types")
-    verb(action, "type", "action")
-    flag(verb(action, "info", "action"), "-t", "--show-types")
-    goal = verb(action, "send_goal", "action", "type", "values")
-    flag(goal, "-f", "--feedback")
+def _publishing(*words: _Argument) -> list[_Argument]:
+    return [
+        *words,
+        (("-r", "--rate"), {"type": _rate, "default": 1.0}),
+        (("-t", "--times"), {"type": int, "default": 0}),
+        (("-w", "--wait-matching-subscriptions"), {"type": int}),
+        (("-1", "--once"), {"action": "store_true"}),
+    ]
 
-    interface = noun("interface")
-    verb(interface, "show", "type")
-    listed = verb(interface, "list")
-    flag(listed, "-m", "--only-msgs")
-    flag(listed, "-s", "--only-srvs")
-    flag(listed, "-a", "--only-actions")
-    verb(interface, "package", "package")
-    verb(interface, "packages")
-    flag(verb(interface, "proto", "type"), "--no-quotes")
 
-    pkg = noun("pkg")
-    verb(pkg, "list")
-    executables = verb(pkg, "executables")
-    executables.add_argument("package", nargs="?")
-    flag(executables, "--full-path")
-    verb(pkg, "prefix", "package")
-    for of in (nouns, *listed_verbs):
-        of.help = ", ".join(of.choices)
-    return parser, {
-        name: list(of.choices) for name, of in zip(nouns.choices, listed_verbs, strict=True)
+def _of_interfaces(flag: Callable[..., _Argument], kind: _Argument) -> dict[str, list[_Argument]]:
+    return {
+        "show": [kind],
+        "list": [
+            flag("-m", "--only-msgs"),
+            flag("-s", "--only-srvs"),
+            flag("-a", "--only-actions"),
+        ],
+        "package": [(("package",), {})],
+        "packages": [],
+        "proto": [kind, flag("--no-quotes")],
     }
 
 
