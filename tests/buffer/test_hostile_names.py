@@ -150,3 +150,29 @@ print([one.transform.translation.x for one in found])
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
 
     assert (done.returncode, done.stdout, done.stderr) == (0, f"[{links}.0, {links}.0]\n", "")
+
+
+def test_many_moments_are_looked_up_in_a_thread_with_a_small_stack():
+    code = """
+import threading
+import numpy as np
+from tftool.buffer.buffer import Buffer
+
+buffer = Buffer()
+stamps = 10**9 + np.arange(100) * 10**7
+turns = np.tile([0.0, 0.0, 0.0, 1.0], (100, 1))
+for link in range(120):
+    buffer.set_transforms(f"f{link}", f"f{link + 1}", stamps, np.ones((100, 3)), turns)
+buffer.lookup_transforms("f0", "f120", stamps)
+found = []
+def ask():
+    found.append(buffer.lookup_transforms("f0", "f120", stamps))
+threading.stack_size(48 * 1024)
+thread = threading.Thread(target=ask)
+thread.start()
+thread.join()
+print(float(found[0].translations[50, 0]))
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+
+    assert (done.returncode, done.stdout, done.stderr) == (0, "120.0\n", "")

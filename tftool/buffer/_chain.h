@@ -27,9 +27,9 @@
 #define WIDE
 #endif
 
-/* So many moments are worked on together, number by number: what they take stays in the
-   processor's nearest cache, and the compiler turns each loop into vector operations. */
-#define BLOCK 128
+/* Moments solved together, number by number: their work memory stays in the processor's nearest
+   cache and within a small thread's stack, and the compiler vectorises each loop. */
+#define BLOCK 64
 
 /* Poses lie as rows, `width` numbers each: first every x, then y z qx qy qz qw. The functions
    of one moment and of many are the same: for one, the width is 1. */
@@ -234,7 +234,7 @@ INLINE void settle(double *turn, int n, int width) {
 }
 
 /* Memory that a solution works in, owned by the caller: each array has room for `width` moments.
-   One moment needs some 300 bytes of stack, a block 40 KB: a single lookup must also succeed in a
+   One moment needs some 300 bytes of stack, a block 21 KB: lookups must also succeed in a
    thread with 64 KB. Separate local arrays, so that the compiler knows that none overlaps another. */
 typedef struct {
     double *first, *second, *step, *other;      /* 7 numbers a moment. */
