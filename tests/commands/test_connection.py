@@ -8,7 +8,7 @@ import pytest
 from tests.certificates import certificates, needs_openssl
 from tests.command_line import Simulated
 from tftool.commands.shared.connection import Connection, Mode, Providers
-from tftool.commands.shared.connection_options import with_connection
+from tftool.commands.shared.declaration import Declaration
 
 
 @pytest.fixture
@@ -18,7 +18,7 @@ def told():
     def command(connection):
         return connection
 
-    return with_connection(command)
+    return Declaration(command).with_options()
 
 
 def test_without_options_whatever_fits_is_done(told, monkeypatch):

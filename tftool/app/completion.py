@@ -182,7 +182,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
         yield from ((one.id, one.summary) for one in CHECKS.values())
     elif bare == "STEP":
-        from tftool.commands.new.options import EXAMPLES
+        from tftool.commands.new import EXAMPLES
 
         yield from ((step, "") for step in EXAMPLES)
 

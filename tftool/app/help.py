@@ -6,10 +6,12 @@ import typer
 
 from tftool.app.main import main
 from tftool.base.exit_status import ExitStatus
+from tftool.commands.shared.declaration import declare
 
 
+@declare(shares=False)
 def help(
-    command: Annotated[
+    name: Annotated[
         str | None, typer.Argument(metavar="[COMMAND]", help="What to explain.")
     ] = None,
 ) -> ExitStatus:
@@ -18,4 +20,4 @@ def help(
     tftool help
     tftool help echo
     """
-    return ExitStatus(main(["--help"] if command is None else [command, "--help"]))
+    return ExitStatus(main(["--help"] if name is None else [name, "--help"]))

@@ -10,7 +10,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
-from tftool.app.index import COMMANDS, GROUPS, SETTINGS, load
+from tftool.app.index import COMMANDS, GROUPS, load
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Providers
@@ -44,11 +44,11 @@ class Commands(TyperGroup):
 
 def made(name: str, providers: "Providers | None" = None) -> Any:
     """Make one of the commands, with all its options."""
-    command = load(name, providers)
+    declaration = load(name)
+    command = declaration.with_options(providers)
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
-    app.command(name, cls=Command, help=_laid_out(command), context_settings=SETTINGS.get(name))(
-        command
-    )
+    settings = dict(declaration.settings)
+    app.command(name, cls=Command, help=_laid_out(command), context_settings=settings)(command)
     return get_command(app)
 
 
@@ -117,7 +117,7 @@ def _is_of_session(param: Any) -> bool:
     if param.name in ("help", _SESSION):
         return False
     # The list of commands, none of which is described there, does without it.
-    from tftool.commands.shared.connection_options import SESSION_OPTIONS
+    from tftool.commands.shared.declaration import SESSION_OPTIONS
 
     return param.name in SESSION_OPTIONS
 

@@ -1,15 +1,13 @@
-"""Every command: what the help says of it, which options it has, and where it is."""
+"""The table of commands: the groups of the help, a line about each, and its declaration."""
 
-from collections.abc import Callable
-from functools import wraps
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Providers
+    from tftool.commands.shared.declaration import Declaration
 
-# As the help shows them, with what it says of each: reading that from the commands themselves
-# would import them all. Each is a function of its own name in a module of that name.
+# In the order of the help, with the line it has for each: reading that from the commands
+# themselves would import them all. Each is declared in a module of its own name.
 GROUPS = {
     "Learn": {
         "demo": "Show turtle2 following turtle1.",
@@ -52,70 +50,17 @@ GROUPS = {
         "help": "Show the list of commands, or the help of one (man).",
     },
 }
-"""What the help says of each command, by what one wants."""
+"""A line of the help for each command, by purpose."""
 
 COMMANDS = {name: summary for group in GROUPS.values() for name, summary in group.items()}
 
-# What differs from click's reading of a command line.
-SETTINGS = {
-    # A frame may lie at a negative place: -1 is a number there, not an option.
-    "static": {"ignore_unknown_options": True},
-    # Nor is it one in a rotation; static_transform_publisher's own options may be pasted, too.
-    "convert": {"ignore_unknown_options": True},
-    # What follows a node's file is the node's own.
-    "run": {"allow_interspersed_args": False},
-    # And what follows these words are ROS 2's own options.
-    "ros2": {"allow_interspersed_args": False},
-}
 
-ALONE = ("check", "convert", "edit", "help", "new")
-"""Commands that share no session."""
+def load(name: str) -> "Declaration":
+    """Import the declaration of a command.
 
-
-DESCRIBING = ("echo", "tree", "view", "info", "robot", "export", "diff", "explain")
-"""Commands whose FROM may be a robot description."""
-
-
-RECORDED_ROBOTS = ("echo", "tree", "view", "info", "doctor", "export", "diff")
-"""Commands whose FROM may be a recording without the description of its robot."""
-
-
-RECORDED = ("demo", "echo", "explain", "export", "info", "monitor", "play", "plot", "tree", "view")
-"""Commands whose FROM may be a recording."""
-
-
-def _running(name: str, declared: Callable[..., Any]) -> Callable[..., Any]:
-    """Return what a declaration of options stands for: its command's `run`, imported when called.
-
-    Help and completion need the options alone, and pay for no more.
+    Help and completion name every command, and import none that they do not describe.
     """
-
-    @wraps(declared)
-    def run(*args: Any, **options: Any) -> Any:
-        return import_module(f"tftool.commands.{name}.command").run(*args, **options)
-
-    return run
-
-
-def load(name: str, providers: "Providers | None") -> Callable[..., Any]:
-    """Import a command, and give it all its options."""
-    from tftool.commands.shared.connection_options import (
-        RECORDING_OPTIONS,
-        ROBOT_OPTIONS,
-        URDF_OPTION,
-        with_connection,
-    )
-
     # Only `help` asks for other commands.
-    home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}.options"
-    command: Callable[..., Any] = getattr(import_module(home), name)
-    if name != "help":
-        command = _running(name, command)
-    if name in ALONE:
-        return command
-    options = {
-        **(ROBOT_OPTIONS if name in DESCRIBING else {}),
-        **(URDF_OPTION if name in RECORDED_ROBOTS else {}),
-        **(RECORDING_OPTIONS if name in RECORDED else {}),
-    }
-    return with_connection(command, providers, options)
+    home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}"
+    declaration: Declaration = getattr(import_module(home), name)
+    return declaration

@@ -1,0 +1,70 @@
+"""`tftool check`: play scenarios on simulated time and judge their expectations."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.options import Json, Junit, option
+
+
+@declare(shares=False)
+def check(
+    scenarios: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="SCENARIO...",
+            help="Built-in scenarios by name, or scenario files: paths, globs, folders.",
+        ),
+    ],
+    programs: Annotated[
+        list[str] | None,
+        option(
+            "What follows 'tftool run': a program of yours in place of that node, or beside "
+            "all of them.",
+            "--run",
+            metavar="[NODE=]WORDS",
+        ),
+    ] = None,
+    launched: Annotated[
+        str | None,
+        option(
+            "What follows 'tftool launch': a launch file in place of all nodes.",
+            "--launch",
+            metavar="WORDS",
+        ),
+    ] = None,
+    force: Annotated[
+        bool, option("Run them also where a real ROS 2 is sourced.", "--ros-free")
+    ] = False,
+    junit: Junit = None,
+    recordings: Annotated[
+        Path | None,
+        option(
+            "Keep a recording of each scenario in which something did not hold: NAME.mcap.",
+            "--record",
+            metavar="FOLDER",
+        ),
+    ] = None,
+    verbose: Annotated[
+        bool,
+        option(
+            "Show what held, every line of the nodes' logs, and which folders are skipped.",
+            "--verbose",
+            "-v",
+        ),
+    ] = False,
+    for_programs: Json = False,
+) -> None:
+    """Play scenarios on simulated time and judge what they expect.
+
+    One line for each, and below it whatever did not hold. The exit status is 0 when
+    everything held, 1 when something did not, 3 when a file could not be read.
+    With --run and --launch, nodes written for ROS 2 are judged in the scenario, without ROS.
+
+    tftool check turtles
+    tftool check scenarios/*.yaml --junit report.xml
+    tftool check turtles --run follower=turtle_following.py
+    tftool check turtles --launch "pkg_tf turtle_following.launch.py"
+    """

@@ -1,0 +1,105 @@
+"""`tftool doctor`: what is wrong with the frames, why, and what to do about it."""
+
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.options import (
+    CacheTime,
+    Jobs,
+    Json,
+    Junit,
+    Resume,
+    Rows,
+    RunFor,
+    Scheduler,
+    moment,
+    option,
+)
+from tftool.frames.moment import At
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.connection import Connection
+
+
+class FailOn(StrEnum):
+    """From which severity on the exit status is 1."""
+
+    error = "error"
+    warning = "warning"
+    note = "note"
+    never = "never"
+
+
+@declare(looks_only=True, urdf=True)
+def doctor(
+    connection: "Connection",
+    places: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[FROM]...",
+            help="Whose frames: recordings (file, folder, glob) and scenarios; if not said, the "
+            "session that runs, else the turtles.",
+            show_default=False,
+        ),
+    ] = None,
+    select: Annotated[
+        list[str] | None, option("Run only these checks or areas.", metavar="ID,...")
+    ] = None,
+    ignore: Annotated[
+        list[str] | None, option("Leave these checks or areas out.", metavar="ID,...")
+    ] = None,
+    fail_on: Annotated[FailOn, option("From what on the exit status is 1.")] = FailOn.warning,
+    limits: Annotated[
+        list[str] | None,
+        option("Another threshold: gap.seconds=2.", "--limit", metavar="ID.NAME=VALUE"),
+    ] = None,
+    cache_time: CacheTime = None,
+    fixed_frame: Annotated[
+        str, option("Where sensors are to be placed; odom, else map.", metavar="FRAME")
+    ] = "",
+    tf_topic: Annotated[
+        list[str] | None, option("Look at these transforms alone: /robot1/tf.", metavar="TOPIC")
+    ] = None,
+    begin: Annotated[
+        At | None,
+        typer.Option(
+            "--from", metavar="MOMENT", parser=moment, help="Look at a recording from there on."
+        ),
+    ] = None,
+    end: Annotated[
+        At | None,
+        typer.Option("--to", metavar="MOMENT", parser=moment, help="Look at it up to there."),
+    ] = None,
+    lasting: RunFor = None,
+    statistics: Annotated[
+        bool, option("Print rate, latency and gaps of everything, too.", "--statistics")
+    ] = False,
+    verbose: Annotated[
+        bool, option("Print all evidence, and what was skipped.", "--verbose", "-v")
+    ] = False,
+    for_programs: Json = False,
+    markdown: Annotated[bool, option("Print it for an issue on the web.", "--markdown")] = False,
+    junit: Junit = None,
+    output: Rows = None,
+    processes: Jobs = 1,
+    resume: Resume = False,
+    scheduler: Scheduler = "",
+    explain: Annotated[
+        str, option("Tell all about one check, and stop.", "--explain", metavar="ID")
+    ] = "",
+    listed: Annotated[bool, option("List all checks, and stop.", "--list")] = False,
+) -> None:
+    """Say what is wrong with the frames, and what mends it: cause, evidence, consequence, fix.
+
+    A recording is read whole, a scenario played on simulated time, a session that runs
+    listened to for 5 s, or --for. The exit status is 0 when nothing is found from a
+    warning on (--fail-on), 1 when something is, 3 when a source cannot be read.
+
+    tftool doctor run.mcap
+    tftool doctor bags/*.mcap --junit report.xml
+    tftool doctor 'runs/**/*.mcap' -j 8 -o findings.parquet --resume
+    tftool doctor --explain split-tree
+    """

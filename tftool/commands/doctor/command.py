@@ -10,7 +10,7 @@ from typing import TypeAlias
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
-from tftool.commands.doctor.options import FailOn
+from tftool.commands.doctor import FailOn
 from tftool.commands.fleet.fleet import expanded
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.commands.new.options import EXAMPLES
+from tftool.commands.new import EXAMPLES
 from tftool.messages.classes import INTERFACES
 from tftool.scenario.builtin import shipped
 

@@ -1,0 +1,56 @@
+"""`tftool robot`: a robot description alive, its joints moved by keys."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.options import Ascii, Light, RunFor, option, within
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.connection import Connection
+
+
+@declare(descriptions=True)
+def robot(
+    connection: "Connection",
+    place: Annotated[
+        str, typer.Argument(metavar="FILE", help="A robot description: URDF or xacro.")
+    ],
+    link: Annotated[
+        str | None,
+        option("Link whose pose is shown; the farthest if not said.", "--link", metavar="LINK"),
+    ] = None,
+    follow: Annotated[
+        bool, option("Move no joint; follow the /joint_states of others.", "--follow")
+    ] = False,
+    no_screen: Annotated[
+        bool, option("Publish until stopped, without sliders.", "--no-screen")
+    ] = False,
+    rate: Annotated[
+        float,
+        typer.Option(
+            "--rate",
+            "-r",
+            metavar="HZ",
+            callback=within(0.1, 1000),
+            help="How often frames are broadcast, and joint states published.",
+        ),
+    ] = 20.0,
+    frame_prefix: Annotated[
+        str, option("What to put before every link: left/.", metavar="PREFIX")
+    ] = "",
+    run_for: RunFor = None,
+    ascii_only: Ascii = False,
+    light: Light = False,
+) -> None:
+    """Bring a robot description alive (robot_state_publisher).
+
+    Fixed joints go to /tf_static, the others to /tf, the description to /robot_description.
+    Arrow keys slide a joint between its limits; digits type a position; z, c and r put all at
+    zero, in the middle, anywhere. Another terminal sees it: tftool tree, tftool view.
+
+    tftool robot arm.urdf
+    tftool robot arm.urdf.xacro size:=large --joint elbow=30deg
+    tftool robot arm.urdf --follow --no-screen
+    """

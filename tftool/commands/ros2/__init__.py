@@ -1,0 +1,39 @@
+"""`tftool ros2`: the words of ROS 2's own command line, over our sessions."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.options import RunFor, option
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.connection import Connection
+
+
+@declare(
+    # What follows these words are ROS 2's own options.
+    settings={"allow_interspersed_args": False},
+)
+def ros2(
+    connection: "Connection",
+    words: Annotated[
+        list[str],
+        typer.Argument(metavar="COMMAND VERB …", help="What stands behind ros2 with ROS."),
+    ],
+    place: Annotated[
+        str | None, option("World to host: a scenario's name or file.", "--in", metavar="SCENARIO")
+    ] = None,
+    run_for: RunFor = None,
+) -> None:
+    """Ask a session in the words of ROS 2's command line, without ROS.
+
+    topic list, echo, find, hz, bw, delay, info, type, pub; service list, type, info, find, call;
+    param list, get, set, dump, load, describe; node list, info; action list, type, info, send_goal;
+    interface show, list, package, packages, proto; pkg list, executables, prefix. The options of
+    each are those of ROS 2. Options of this command go before COMMAND.
+
+    tftool ros2 topic list
+    tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2, theta: 0.2, name: ''}"
+    tftool ros2 topic pub /turtle1/cmd_vel geometry_msgs/msg/Twist "{linear: {x: 2.0}}"
+    """

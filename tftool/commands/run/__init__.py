@@ -1,0 +1,50 @@
+"""`tftool run`: a node of the user's own, without ROS."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.options import RosFree, RunFor, Simulated, SkippedFolders, option
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.connection import Connection
+
+
+@declare(
+    # What follows a node's file is the node's own.
+    settings={"allow_interspersed_args": False},
+)
+def run(
+    connection: "Connection",
+    context: typer.Context,
+    target: Annotated[
+        str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")
+    ],
+    rest: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
+            help="A package's executable; the node's own arguments; ROS 2's after --ros-args.",
+        ),
+    ] = None,
+    place: Annotated[
+        str | None,
+        option("World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"),
+    ] = None,
+    force: RosFree = False,
+    run_for: RunFor = None,
+    simulated: Simulated = False,
+    verbose: SkippedFolders = False,
+) -> None:
+    """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
+
+    The file's own imports of rclpy, tf2_ros, geometry_msgs and so on are answered by tftool.
+    A package is looked for below this folder, or in the src it belongs to; nothing is built.
+    Options of this command go before FILE. Whether the node does what it should a scenario
+    judges: tftool check SCENARIO --run FILE.
+
+    tftool run turtle_tf_broadcaster.py --ros-args -p turtlename:=turtle1
+    tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1
+    tftool run --in robot --simulated --for 20 my_listener.py
+    """

@@ -1,0 +1,36 @@
+"""`tftool session`: who is there, what they publish, how often, since when."""
+
+from typing import Annotated
+
+from tftool.base.stamps import Duration, seconds
+from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.options import Json, option, seconds_option
+
+
+@declare(looks_only=True)
+def session(
+    connection: Connection,
+    listen_for: Annotated[
+        Duration,
+        seconds_option(
+            "How long to listen for rates; 1 if not said.",
+            "--for",
+            panel=None,
+        ),
+    ] = seconds(1),
+    verbose: Annotated[
+        bool, option("List the services of parameters and actions, too.", "--verbose", "-v")
+    ] = False,
+    for_programs: Json = False,
+) -> None:
+    """Show who shares the session that runs here (ros2 node list, ros2 topic list and hz).
+
+    Every process of tftool, its command and since when it is there; every node; every
+    topic and how often something comes in on it; every service. Services that each node has
+    for its parameters, and those that make up actions, are counted, and listed by --verbose;
+    --json has all of them.
+
+    tftool session
+    tftool session --connect tcp/localhost:7447
+    """

@@ -1,7 +1,7 @@
 """The connection of a command: whether it joins or hosts, and how far it reaches.
 
 Every command that may share a session takes a `Connection` as its first parameter;
-`with_connection` in `connection_options` gives it one, and closes what it opened.
+its declaration gives it one (`declaration.py`), and closes what it opened.
 """
 
 import math
@@ -27,14 +27,6 @@ if TYPE_CHECKING:
 
 HOME = "turtles"
 """The scenario that stands in for the session, where none runs and none was named."""
-
-LOOKING = frozenset(
-    ["doctor", "echo", "explain", "export", "monitor", "plot", "record", "session", "tree", "view"]
-)
-"""Commands that write to no topic of a robot."""
-
-HOSTING = frozenset(["demo", "teleop"])
-"""Commands that host turtles where a robot is looked for and none is there; others wait for it."""
 
 
 class Mode(Enum):
@@ -103,7 +95,9 @@ class Connection:
 
     Attributes:
         command: The command's name.
-        mode: Join, host, or what fits.
+        looks_only: Whether the command writes to no topic of a robot.
+        hosts_turtles: Whether it hosts turtles where it looks for a robot and finds none.
+        mode: Join, host, or whichever fits.
         domain: Number of the ROS domain.
         reach: By which middleware, and how far beyond this machine's own processes.
         read_only: Whether to look only.
@@ -113,6 +107,8 @@ class Connection:
     """
 
     command: str = "tftool"
+    looks_only: bool = False
+    hosts_turtles: bool = False
     mode: Mode = Mode.AUTO
     domain: int = 0
     reach: Reach = field(default_factory=REACHES[0])
@@ -137,7 +133,7 @@ class Connection:
     @property
     def looks(self) -> bool:
         """Whether it is for what others bring, and its own world has no place among that."""
-        return self.reach.awaits_others(hosts=self.command in HOSTING)
+        return self.reach.awaits_others(hosts=self.hosts_turtles)
 
     @property
     def place(self) -> str:
@@ -147,7 +143,7 @@ class Connection:
     def options(self) -> Options:
         """The same as the link takes it."""
         # Among a robot's nodes, what only looks has nothing to write.
-        read_only = self.read_only or (self.reach.is_robots and self.command in LOOKING)
+        read_only = self.read_only or (self.reach.is_robots and self.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
@@ -233,6 +229,8 @@ def read(
     command: str,
     providers: Providers,
     *,
+    looks_only: bool = False,
+    hosts_turtles: bool = False,
     join: bool = False,
     host: bool = False,
     domain: int | None = None,
@@ -256,6 +254,8 @@ def read(
         raise UsageError("--read-only looks at a session, so it cannot --host one.")
     return Connection(
         command,
+        looks_only,
+        hosts_turtles,
         Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
         domain_here() if domain is None else domain,
         read_reach(reach),

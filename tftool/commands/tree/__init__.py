@@ -1,0 +1,72 @@
+"""`tftool tree`: which frame hangs from which, as text, data or a picture."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.options import (
+    OUTPUT,
+    AtOption,
+    CacheTime,
+    From,
+    Json,
+    RunFor,
+    option,
+    output_file,
+)
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.connection import Connection
+
+
+class TreeFormat(StrEnum):
+    """What a tree can be written as."""
+
+    tree = "tree"
+    json = "json"
+    yaml = "yaml"
+    dot = "dot"
+    mermaid = "mermaid"
+    svg = "svg"
+    html = "html"
+    pdf = "pdf"
+
+
+@declare(looks_only=True, recordings=True, descriptions=True, urdf=True)
+def tree(
+    connection: "Connection",
+    place: From = None,
+    form: Annotated[
+        TreeFormat | None,
+        option("What to write; if not said, what -o ends in.", "--format", "-f", panel=OUTPUT),
+    ] = None,
+    output: Annotated[Path | None, output_file("Where to write it; - is stdout.")] = None,
+    as_json: Json = False,
+    wide: Annotated[
+        bool,
+        option(
+            "All columns and whole names on a terminal too, however long the lines.",
+            "--wide",
+            panel=OUTPUT,
+        ),
+    ] = False,
+    at: AtOption = None,
+    watch: Annotated[
+        bool, option("Show it as it changes; keys scroll, sort and filter.", "--watch", "-w")
+    ] = False,
+    run_for: RunFor = None,
+    cache_time: CacheTime = None,
+) -> None:
+    """Show which frame hangs from which (rqt_tf_tree, view_frames).
+
+    Every tree there is, and for every link: whether it is static, who broadcasts it, how
+    often, how long a past the buffer holds of it, and how old its newest data is. Beside
+    a frame with two parents by turns, that is sent no more, or has another clock than the
+    others, stands the id of the doctor's check.
+    A scenario is shown 5 s after its start, a recording at its end, if --at does not say.
+
+    tftool tree                   the tree of what runs here
+    tftool tree robot -o robot.svg --at 12.5
+    tftool tree --watch
+    """

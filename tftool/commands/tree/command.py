@@ -16,7 +16,7 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.printer import write_file
 from tftool.commands.shared.rival_publishers import rivalries
-from tftool.commands.tree.options import TreeFormat
+from tftool.commands.tree import TreeFormat
 from tftool.commands.tree.tree_text import Moving, drawn
 from tftool.doctor.frame_marks import marks as doctor_marks
 from tftool.drawing import frame_tree

@@ -1,0 +1,75 @@
+"""`tftool view`: the frames in 3-D, in a browser."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.commands.shared.declaration import ROBOT, declare
+from tftool.commands.shared.options import (
+    CacheTime,
+    Force,
+    From,
+    RunFor,
+    option,
+    output_file,
+    within,
+)
+
+if TYPE_CHECKING:
+    from tftool.commands.shared.connection import Connection
+
+
+@declare(looks_only=True, recordings=True, descriptions=True, urdf=True)
+def view(
+    connection: "Connection",
+    place: From = None,
+    port: Annotated[
+        int,
+        typer.Option(
+            metavar="PORT",
+            min=0,
+            max=65535,
+            help="Where to serve the page; the next free one if it is taken.",
+        ),
+    ] = 8765,
+    open_browser: Annotated[bool, option("Open the page in your browser.", "--open")] = False,
+    run_for: RunFor = None,
+    rate: Annotated[
+        float,
+        typer.Option(
+            "--rate", "-r", metavar="HZ", callback=within(0.1, 120), help="Pictures a second."
+        ),
+    ] = 30.0,
+    cache_time: CacheTime = None,
+    meshes: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--meshes",
+            metavar="FOLDER",
+            rich_help_panel=ROBOT,
+            file_okay=False,
+            exists=True,
+            help="Where packages with meshes lie; again for more. Nothing outside is shown.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        output_file("Write the page with all of its data into one .html file, and serve nothing."),
+    ] = None,
+    force: Force = False,
+) -> None:
+    """Show the frames in 3-D, in a browser (rviz2 with its TF display).
+
+    The page is served on this machine alone, and asks no other for anything. It shows axes,
+    names and arrows in any fixed frame, scrubs back through the buffer, and tells the transform
+    of a pair you pick. A robot is drawn by its description: FROM itself, the one in a
+    recording, or what is published on /robot_description; sliders move the joints of FROM.
+    With -o the page becomes one file that opens anywhere, without tftool: a recording or a
+    scenario as a whole, a session for so long as --for says.
+
+    tftool view --open
+    tftool view robot --port 8800
+    tftool view arm.urdf --meshes ~/ws/src --open
+    tftool view run.mcap -o run.html
+    """
