@@ -104,3 +104,30 @@ def test_what_a_description_has_not_is_refused(tftool, arm):
     result = tftool("explain", "turtle1", "turtle2", "turtles", "--joint", "turn=1")
     assert result.status == 2
     assert "leave out --joint turn=1" in result.err
+
+
+def test_a_chain_deeper_than_a_screen_is_counted_in_its_middle(tftool, tmp_path):
+    links = tuple((SECOND, f"f{link}", f"f{link + 1}", numbers(1)) for link in range(1500))
+    deep = write_mcap(tmp_path / "deep.mcap", [Sent(SECOND, "/tf_static", links)])
+
+    told = tftool("explain", "f0", "f1500", deep).out
+
+    assert "f1500 in f1499" in told
+    assert "f1 in f0" in told
+    assert "f800 in f799" not in told
+    assert re.search(r"… 1,100 links more …", told)
+    assert re.search(r"… 1,\d\d\d lines more …", told), (
+        "tf2 names each frame of what it calls a loop"
+    )
+
+
+def test_the_sentence_of_a_deep_chain_is_counted_in_its_middle(tftool, tmp_path):
+    links = tuple((SECOND, f"f{link}", f"f{link + 1}", numbers(1)) for link in range(1500))
+    deep = write_mcap(tmp_path / "deep.mcap", [Sent(SECOND, "/tf_static", links)])
+
+    result = tftool("echo", "f0", "f1500", deep)
+
+    assert result.status == 4
+    assert "contains a loop" in result.err
+    assert "lines more" in result.err
+    assert len(result.err.splitlines()) < 450

@@ -24,8 +24,19 @@ def visible(name: str) -> str:
 
 
 def visible_lines(text: str) -> str:
-    """Write a text of several lines so that every character can be seen; its lines stay."""
-    return "\n".join(map(visible, text.split("\n")))
+    """Write a text of several lines so that every character can be seen; its lines stay.
+
+    Beyond 400 lines the middle is counted: tf2's sentence about a loop names every frame.
+    """
+    lines = text.split("\n")
+    if len(lines) > MOST_LINES:
+        half = MOST_LINES // 2
+        lines[half:-half] = [f"… {len(lines) - 2 * half:,} lines more …"]
+    return "\n".join(map(visible, lines))
+
+
+MOST_LINES = 400
+"""Lines of one sentence, or links of one chain, that are printed whole."""
 
 
 def _shown(char: str) -> str:

@@ -141,6 +141,14 @@ class Model:
         return self.laps[0].log if self.laps else min(self.evidence.end, 2**61)
 
     @cached_property
+    def edges_above(self) -> dict[str, list[Track]]:
+        """Every edge above each child, in the order of `tracks`."""
+        edges: dict[str, list[Track]] = {}
+        for track in self.tracks:
+            edges.setdefault(track.child, []).append(track)
+        return edges
+
+    @cached_property
     def parents(self) -> dict[str, Track]:
         """The latest edge above each child."""
         latest: dict[str, tuple[int, Track]] = {}

@@ -17,6 +17,7 @@ from tftool.doctor.model import Model, Settings
 from tftool.doctor.stamp_stream import Heard, Track
 from tftool.geometry.rigid import Transform
 from tftool.recordings.contract import Stamps
+from tftool.recordings.recording import MOST_FRAMES
 
 MOST_SET = 200_000
 """Samples of one link that the imagined buffer is given: the newest ones."""
@@ -194,7 +195,7 @@ class LookupTrace:
 
     def _parent(self, frame: str) -> Track | None:
         """The edge above a frame at the moment asked about; of several, the nearest in time."""
-        tracks = [t for t in self.model.tracks if t.child == frame and len(t.by_stamp)]
+        tracks = [t for t in self.model.edges_above.get(frame, ()) if len(t.by_stamp)]
         if len(tracks) < 2:
             return tracks[0] if tracks else None
         if self.stamp == LATEST or any(track.static for track in tracks):
@@ -241,7 +242,8 @@ class LookupTrace:
 
     def buffer(self) -> Buffer:
         """A buffer that holds what had arrived."""
-        buffer = Buffer(self.cache, log=_silent)
+        # As many as the recording may have: where a frame is missing must be the robot's fault.
+        buffer = Buffer(self.cache, log=_silent, max_frames=MOST_FRAMES)
         tracks = sorted(self.model.tracks, key=lambda track: track.static)
         for track in tracks:
             places = self.arrived(track)[-MOST_SET:]

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from tftool.base.escaping import visible
+from tftool.base.escaping import MOST_LINES, visible, visible_lines
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp
 from tftool.doctor.explanation import Explanation
 from tftool.doctor.trace import LinkVerdict, TracedLink
@@ -35,7 +35,7 @@ def render(found: Explanation) -> "RenderableType":
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
     if found.text:
-        facts.add_row("tf2", Text(visible(found.text)))
+        facts.add_row("tf2", Text(visible_lines(found.text)))
     after = f" ({span(found.after)} after it)" if found.after else ""
     facts.add_row(
         "asked",
@@ -114,7 +114,13 @@ class _Links:
         at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"
         held = "held, s since the start" if base else "held"
         rows = [tuple(Text(word, "dim") for word in ("link", "kind", held, at))]
-        for link in found.links:
+        left_out = range(MOST_LINES // 2, len(found.links) - MOST_LINES // 2)
+        for number, link in enumerate(found.links):
+            if number in left_out and link.edge != found.refusing:
+                if number == left_out[0]:
+                    more = Text(f"… {len(left_out):,} links more …", "dim")
+                    rows.append((more, Text(), Text(), Text()))
+                continue
             style = "bold" if link.edge == found.refusing else ""
             says = Text("answers", "green")
             if link.verdict is not LinkVerdict.ANSWERS:
