@@ -12,10 +12,10 @@ from tftool.commands.echo.echo_printer import Printer
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.pair_wait import PairWait
 from tftool.commands.shared.pairs import IDENTITY, FramePair
 from tftool.commands.shared.redraw import Redrawing, can_redraw
 from tftool.commands.shared.rival_publishers import rivalries
-from tftool.commands.shared.waiter import Waiter
 from tftool.drawing import echo_view as view
 from tftool.world.clock import Phase, pace_of
 from tftool.world.link.session_world import twins
@@ -127,7 +127,7 @@ class Echo:
         self.period = period
         self.count = count
         self.departures = departures
-        self.waiter = Waiter(world, pair, patience=patience)
+        self.waiter = PairWait(world, pair, patience=patience)
 
     async def run(self) -> None:
         """Print answers until there are enough.
@@ -170,9 +170,11 @@ class Echo:
             TransformException: If it does not come in time, or never will.
         """
         clock, pace = self.world.clock, pace_of(self.world.clock)
-        waiting = asyncio.ensure_future(self.waiter.wait(stale=self.pair.newest(self.world.buffer)))
+        newest = self.pair.newest(self.world.buffer)
+        waiting = asyncio.ensure_future(self.waiter.wait(newest))
         try:
-            while not waiting.done():
+            # A clock that jumped back has cleared the buffer: what comes then is new, and older.
+            while not waiting.done() and self.pair.newest(self.world.buffer) in (0, newest):
                 timer = pace.timer(pace.now() + self.period)
                 try:
                     await asyncio.wait((waiting, timer), return_when=asyncio.FIRST_COMPLETED)
@@ -180,7 +182,8 @@ class Echo:
                     timer.cancel()
                 if not waiting.done():
                     self.printer.aged(clock.now())
-            await waiting
+            if waiting.done():
+                await waiting
         finally:
             waiting.cancel()
 

@@ -10,9 +10,9 @@ from tftool.base.stamps import Duration, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.buffer.traffic import NetDelay, Traffic
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.pair_wait import PairWait
 from tftool.commands.shared.pairs import FramePair
 from tftool.commands.shared.redraw import Redrawing
-from tftool.commands.shared.waiter import Waiter
 from tftool.drawing import traffic_view as view
 from tftool.drawing.echo_view import in_words
 from tftool.world.clock import Clock, Phase, pace_of
@@ -124,7 +124,7 @@ class Monitor:
         """Wait until the two frames are connected, as tf2_monitor does."""
         advice = "--for SECONDS ends the wait."
         pair = FramePair(target, source)
-        waiter = Waiter(self.world, pair, patience=patience, tells=self.tells, advice=advice)
+        waiter = PairWait(self.world, pair, patience=patience, tells=self.tells, advice=advice)
         await waiter.wait()
         frames = tuple(self.world.buffer.chain(target, source)) or (target,)
 

@@ -1,0 +1,188 @@
+"""Waiting until a pair of frames can be looked up, with the reason on stderr meanwhile."""
+
+import asyncio
+import re
+
+from tftool.base.errors import (
+    BackwardExtrapolationException,
+    ExtrapolationException,
+    TimeoutException,
+    TransformException,
+)
+from tftool.base.escaping import visible_lines
+from tftool.base.stamps import LATEST, Duration, Stamp, as_seconds, seconds
+from tftool.buffer.buffer import Buffer
+from tftool.commands.shared.notices import name_frames, notice
+from tftool.commands.shared.pairs import FramePair
+from tftool.drawing import echo_view as view
+from tftool.world.clock import Clock, Phase, pace_of
+from tftool.world.supervisor import beside
+from tftool.world.world import World
+
+EXPLAINED = ("CLOCK_MIXTURE", "NAME", "SINGLE", "SPLIT", "STOPPED")
+"""Causes of a wait that fit in a line; a missing frame has a hint of its own."""
+
+SETTLED = seconds(0.75)
+"""How long frames have to arrive before the reason is printed, and between two looks at it."""
+
+NOTHING_NEW = "nothing new has come since its sender left"
+
+
+class PairWait:
+    """A wait for a pair of frames, on the buffer's own requests."""
+
+    def __init__(
+        self,
+        world: World,
+        pair: FramePair,
+        *,
+        patience: Duration | None = None,
+        tells: bool = True,
+        advice: str = "--timeout SECONDS ends the wait.",
+    ) -> None:
+        """Prepare to wait.
+
+        Args:
+            world: The world whose buffer is asked.
+            pair: The lookup.
+            patience: How long to wait, in nanoseconds; None for ever.
+            tells: Whether to print the reason; on simulated time there is no need to.
+            advice: What ends a wait for a frame that never comes, when patience does not.
+        """
+        self.world = world
+        self.pair = pair
+        self.patience = patience
+        self.tells = tells
+        self.advice = advice
+        self._hinted = False
+
+    async def wait(self, newer_than: Stamp = LATEST) -> None:
+        """Wait until the pair can be looked up.
+
+        Args:
+            newer_than: The newest moment of a sender that has left: that is no answer.
+
+        Raises:
+            TransformException: If the answer does not come in time, or never will.
+        """
+        pace = pace_of(self.world.clock)
+        answered = self._answered(newer_than)
+        if self.tells:
+            answered = beside(answered, self._tell_reasons(pace))
+        task = asyncio.ensure_future(answered)
+        try:
+            if self.patience is None:
+                await task
+                return
+            timer = pace.timer(pace.now() + self.patience)
+            try:
+                await asyncio.wait((task, timer), return_when=asyncio.FIRST_COMPLETED)
+            finally:
+                timer.cancel()
+            if not task.done():
+                self.pair.ask(self.world.buffer, self.world.clock.now())
+                raise TimeoutException(NOTHING_NEW)
+            await task
+        except TransformException:
+            self._hint()
+            raise
+        finally:
+            task.cancel()
+
+    async def _answered(self, newer_than: Stamp) -> None:
+        pair, clock = self.pair, self.world.clock
+        if pair.target == pair.source:
+            await _existing(self.world.buffer, pair.target)
+        if newer_than:
+            target = pair.fixed_frame or pair.target
+            await self.world.wait_for_transform(target, pair.source, newer_than + 1)
+            return
+        while True:
+            await self._available(LATEST)
+            now = clock.now()
+            try:
+                pair.ask(self.world.buffer, now)
+            except ExtrapolationException as refusal:
+                if refusal.requested > refusal.available:
+                    await self._available(pair.moment(now))
+                elif pair.offset:
+                    # The moment moves on with the clock, until it reaches what is remembered.
+                    await clock.sleep_until(refusal.available - pair.offset, Phase.WATCH)
+                elif isinstance(refusal, BackwardExtrapolationException):
+                    raise
+                else:
+                    # Of a single sample tf2 does not say that the moment is before it.
+                    await self._available(refusal.available + 1)
+            else:
+                return
+
+    async def _available(self, then: Stamp) -> None:
+        """Wait until the pair can be looked up at one moment."""
+        pair = self.pair
+        if pair.fixed_frame is None:
+            await self.world.wait_for_transform(pair.target, pair.source, then)
+        else:
+            await self.world.wait_for_transform_full(
+                pair.target, LATEST, pair.source, then, pair.fixed_frame
+            )
+
+    async def _tell_reasons(self, pace: Clock) -> None:
+        """Print the reason of the wait, and again when it becomes another one."""
+        told = ""
+        while True:
+            await pace.sleep(SETTLED, Phase.WATCH)
+            buffer, now = self.world.buffer, self.world.clock.now()
+            reason = self.pair.why_not(buffer, now) or NOTHING_NEW
+            # The times in it change with every sample; the reason does not.
+            kind = re.sub(r"-?\d+\.\d{6}", "<time>", reason)
+            if kind != told:
+                told = kind
+                words = view.in_words(self.pair.target, self.pair.source)
+                because = visible_lines(self._because())
+                notice(f"Waiting for {words}: {visible_lines(reason.rstrip())}{because}")
+                self._tell_short_cache(buffer.cache_time)
+            self._hint()
+
+    def _tell_short_cache(self, cache_time: Duration) -> None:
+        back = -self.pair.offset
+        if back >= cache_time:
+            notice(
+                f"--offset goes back {as_seconds(back):g} s, and the buffer remembers "
+                f"{as_seconds(cache_time):g} s: --cache-time {as_seconds(back) + 5:g} makes that "
+                "enough."
+            )
+
+    def _because(self) -> str:
+        """Return the cause and the cure, where `explain` has more to say than the reason."""
+        # Heavy imports wait until there is something to say.
+        from tftool.doctor.explanation import explain
+
+        buffer, now = self.world.buffer, self.world.clock.now()
+        if self.pair.fixed_frame is not None or not buffer.frames():
+            return ""
+        found = explain(buffer, self.pair.target, self.pair.source, self.pair.moment(now))
+        if found.available or found.cause.name not in EXPLAINED:
+            return ""
+        cures = [remedy for remedy in found.remedies if remedy.possible]
+        cure = f" Cure: {cures[0].text} {cures[0].command}".rstrip() if cures else ""
+        return f" Cause: {found.why[0]}.{cure}"
+
+    def _hint(self) -> None:
+        """Name the frames there are, when one of those asked for is not among them."""
+        if self._hinted:
+            return
+        asked = (self.pair.target, self.pair.source, self.pair.fixed_frame)
+        advice = self.advice if self.patience is None else ""
+        self._hinted = name_frames(self.world.buffer.frames(), asked, "so far", advice)
+
+
+async def _existing(buffer: Buffer, frame: str) -> None:
+    """Wait until a frame exists: tf2 has an answer for a frame in itself even before."""
+    news = asyncio.Event()
+    stop = buffer.listen(lambda *_: news.set())
+    try:
+        while not buffer.frame_exists(frame):
+            news.clear()
+            await news.wait()
+    finally:
+        stop()
