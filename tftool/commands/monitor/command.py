@@ -1,22 +1,15 @@
-"""Watch a session, or a recording that is played again at once."""
+"""Watch a session, or the messages of a recording."""
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import CACHE_TIME, Duration, Stamp, seconds
-from tftool.commands.monitor.traffic_monitor import Monitor, ReportStyle
+from tftool.base.stamps import Duration, seconds
+from tftool.commands.monitor.recording_monitor import report_recording
+from tftool.commands.monitor.traffic_monitor import ReportStyle, TrafficReport, watch_session
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
-from tftool.commands.shared.notices import tell_news
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.redraw import can_redraw
-from tftool.frames.frames import Frames
 from tftool.opener import named
-from tftool.recordings.timeline import Timeline
-from tftool.world.clock import SimClock
-from tftool.world.link.session_world import Session
-from tftool.world.nodes.player import Player
-from tftool.world.supervisor import live
-from tftool.world.world import World
 
 
 def run(
@@ -46,37 +39,15 @@ def run(
         style = ReportStyle.TF2
     else:
         style = ReportStyle.TABLE if can_redraw() else ReportStyle.LINES
+    report = TrafficReport(frames, style)
     if is_recording:
-        session = _played(open_from(connection, place), cache_time)
-        # What was recorded is over at once: one report says all of it.
-        duration = session.duration or 0
-        run_for = min(run_for or duration, duration) or 1
-        every = every or run_for
-    else:
-        session = open_session(connection, place, cache_time=cache_time)
-    if every is None:
-        every = seconds(1) if style is ReportStyle.TABLE else seconds(10)
-    # What has not come yet of a recording comes at once: no wait is worth a line.
-    watching = Monitor(session.world, frames, style, period=every, tells=not is_recording)
-    session.run(watching.run(run_for))
+        recording = open_from(connection, place)
+        report_recording(recording, report, period=every, lasting=run_for, cache_time=cache_time)
+        return ExitStatus.DONE
+    session = open_session(connection, place, cache_time=cache_time)
+    period = every or seconds(1 if style is ReportStyle.TABLE else 10)
+    session.run(watch_session(session.world, report, period=period, lasting=run_for))
     return ExitStatus.DONE
-
-
-def _played(frames: Frames, cache_time: Duration | None) -> Session:
-    """Return a world in which a recording's messages arrive, as fast as they can be simulated."""
-    recording = frames.recording
-    assert recording is not None
-    timeline = Timeline(recording.source, recording.transforms)
-    clock = SimClock(max(timeline.start, 1))
-    world = World(clock, cache_time=cache_time or CACHE_TIME)
-    Player(world, "player", timeline=timeline, pace=clock, is_silent=True, names_topics=True)
-
-    async def alive(until: Stamp | None) -> None:
-        await live(world, until=until)
-
-    return Session(
-        world, True, frames.title, alive, 0, timeline.end - timeline.start, None, tell_news
-    )
 
 
 def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:

@@ -37,7 +37,6 @@ class PairWait:
         pair: FramePair,
         *,
         patience: Duration | None = None,
-        tells: bool = True,
         advice: str = "--timeout SECONDS ends the wait.",
     ) -> None:
         """Prepare to wait.
@@ -46,13 +45,11 @@ class PairWait:
             world: The world whose buffer is asked.
             pair: The lookup.
             patience: How long to wait, in nanoseconds; None for ever.
-            tells: Whether to print the reason; on simulated time there is no need to.
             advice: What ends a wait for a frame that never comes, when patience does not.
         """
         self.world = world
         self.pair = pair
         self.patience = patience
-        self.tells = tells
         self.advice = advice
         self._hinted = False
 
@@ -66,9 +63,7 @@ class PairWait:
             TransformException: If the answer does not come in time, or never will.
         """
         pace = pace_of(self.world.clock)
-        answered = self._answered(newer_than)
-        if self.tells:
-            answered = beside(answered, self._tell_reasons(pace))
+        answered = beside(self._answered(newer_than), self._tell_reasons(pace))
         task = asyncio.ensure_future(answered)
         try:
             if self.patience is None:
