@@ -29,6 +29,32 @@ def test_a_file_is_run_beside_a_simulator(capsys):
     assert 'Could not transform turtle2 to turtle1: "turtle2" passed to lookupTransform' in told
 
 
+@pytest.mark.parametrize(
+    ("code", "hosts"),
+    [
+        ("", False),
+        ("from geometry_msgs.msg import Twist\nnode.create_timer(0.1, print)\n", False),
+        ("from turtlesim.msg import Pose\n", True),
+        ("def late():\n    import turtlesim.srv\nnode.create_timer(1.0, late)\n", True),
+        (
+            "from geometry_msgs.msg import Twist\n"
+            "node.create_publisher(Twist, '/turtle1/cmd_vel', 10)\n",
+            True,
+        ),
+    ],
+)
+def test_only_a_program_that_means_turtles_gets_a_turtlesim(tmp_path, capsys, code, hosts):
+    file = tmp_path / "mine.py"
+    file.write_text(
+        f"import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n{code}rclpy.spin(node)\n"
+    )
+
+    assert main(["run", *SIMULATED, str(file)]) == 0
+    told = capsys.readouterr().err
+    assert told.count("[turtlesim]: Starting turtlesim with node name /turtlesim") == hosts
+    assert "failed" not in told
+
+
 def test_a_program_reads_its_own_arguments(tmp_path, capsys):
     file = tmp_path / "asks.py"
     file.write_text(

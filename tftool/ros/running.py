@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tftool.base.errors import InputError, NodeFailed, UsageError
 from tftool.base.stamps import Duration
-from tftool.ros.host import executables, importing, names, user_code
+from tftool.ros.host import executables, importing, names, program, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import StuckError
 from tftool.ros.host.importing import ros_free
@@ -22,6 +22,12 @@ from tftool.world.world import World
 
 KEYBOARD_NODE = "teleop_turtle"
 """What turtlesim calls the node that reads keys."""
+
+TURTLE_PACKAGES = ("turtlesim", "turtlesim_msgs", *executables.TURTLE_TF_PACKAGES)
+"""Packages whose nodes and interfaces need a turtlesim."""
+
+TURTLE_TOPICS = frozenset(("turtle1/cmd_vel", "turtle1/pose", "turtle1/color_sensor"))
+"""Topics by which a program that imports nothing of turtlesim still means its first turtle."""
 
 FILES = (".py", ".xml", ".yaml", ".yml")
 
@@ -196,6 +202,35 @@ def show_arguments(path: Path, workspace: Workspace) -> str:
     context = LaunchContext(workspace, load_file)
     context.enter_file(path)
     return shown_arguments(declared(load_file(path), context))
+
+
+class TurtlesOnDemand:
+    """Hosts a turtlesim in a world once a program shows that it means turtles."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._is_asked = False
+
+    def host_from_program(self) -> None:
+        """Host it for the program that runs, unless somebody simulates turtles already."""
+        program.current().ask(self.host)
+
+    def host_for_topics(self) -> None:
+        """Host it when somebody publishes or subscribes on a topic of the first turtle."""
+        if not self._is_asked and TURTLE_TOPICS & self._world.topics().keys():
+            # Not at once: the world is entering the topic at this moment.
+            asyncio.get_running_loop().call_soon(self.host)
+
+    def host(self) -> None:
+        """Host it, unless somebody simulates turtles already (on the loop's thread)."""
+        if self._is_asked:
+            return
+        self._is_asked = True
+        if not self._world.has_service("spawn"):
+            # Programs without turtles do not load the simulator.
+            from tftool.world.nodes.turtlesim import Turtlesim
+
+            Turtlesim(self._world)
 
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:

@@ -8,7 +8,12 @@ from typer.models import Context
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import open_empty_session, open_session, tell_where_to_look
+from tftool.commands.shared.hosting import (
+    open_empty_session,
+    open_own_session,
+    open_session,
+    tell_where_to_look,
+)
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import NO_SESSION
 from tftool.commands.shared.options import refuse_long_simulation
@@ -59,13 +64,10 @@ def _opened(connection: Connection, place: str | None, *, alone: bool, simulated
     """The session a node runs in; `alone` brings all there is to see."""
     if alone:
         return open_empty_session(connection, simulated=simulated)
-    return open_session(
-        connection,
-        place,
-        simulated=simulated,
-        head_start=0,
-        without=None if place else lambda node: node.kind != "turtlesim",
-        because=SIMULATED if simulated else NO_SESSION,
+    if place is not None:
+        return open_session(connection, place, simulated=simulated, head_start=0)
+    return open_own_session(
+        connection, simulated=simulated, because=SIMULATED if simulated else NO_SESSION
     )
 
 
@@ -102,7 +104,7 @@ def run(
     # These bring all there is to see; turtles have no place beside them.
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (target in ROBOTS and place is None)
-    with ros_free(force=force):
+    with ros_free(force=force) as finder:
         packages.use(workspace)
         running.check_program(workspace, target, words)
         session = _opened(connection, place, alone=alone, simulated=simulated)
@@ -110,10 +112,18 @@ def run(
         tell_where_to_look(connection, session)
         world = session.world
         tell_log(world)
+        turtles = running.TurtlesOnDemand(world)
+        on_demand = place is None and not alone and not connection.looks
+        if on_demand:
+            finder.on_import |= dict.fromkeys(running.TURTLE_PACKAGES, turtles.host_from_program)
+            if session.is_hosted:
+                world.watch(turtles.host_for_topics)
         ending: list[running.Ending] = []
 
         async def work() -> None:
             ending.append(running.Ending(world))
+            if on_demand and target in running.TURTLE_PACKAGES:
+                turtles.host()
             running.start_program(world, workspace, target, words, on_exit=ending[0])
             await running.until(world, ending[0].over, run_for)
 

@@ -191,10 +191,7 @@ def _scenario_to_host(
         kept = tuple(node for node in scenario.nodes if not without(node))
         scenario = replace(scenario, nodes=kept)
     if word is None:
-        # For a program of the user's, nothing of the scenario moves.
-        alone = [node.kind for node in scenario.nodes] == ["turtlesim"]
-        hosted = "a turtlesim alone" if alone else f"scenario '{HOME}'"
-        notice(f"{because}: hosting {hosted}.")
+        notice(f"{because}: hosting scenario '{HOME}'.")
     return replace(scenario, expect=())
 
 
@@ -229,6 +226,34 @@ def join_session(
     if joined.link is not None:
         joined.link.close()
     return joined.session
+
+
+def open_own_session(connection: Connection, *, simulated: bool, because: str) -> Session:
+    """Join the session that runs here; host an empty world for a user's program otherwise.
+
+    Args:
+        connection: What the command's options say.
+        simulated: Whether a hosted world lives on simulated time.
+        because: Why a world is hosted, for people.
+
+    Raises:
+        LinkError: If a session was asked for and there is none.
+        UsageError: If sharing was asked for where time is simulated.
+    """
+    refuse_options_of_files(connection.robot, connection.recording, None)
+    link = None
+    if simulated:
+        connection.refuse_to_share(None)
+        world = World(SimClock())
+    else:
+        joined = join_or_host(connection, None)
+        if joined.session is not None:
+            return joined.session
+        link = joined.link
+        world = World(connection.providers.wall_clock())
+    notice(f"{because}: hosting a world of its own.")
+    alive = lived(world, link, "source")
+    return Session(world, True, "a world of its own", alive, link=link, tell=tell_news)
 
 
 def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:

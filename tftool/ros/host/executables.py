@@ -224,7 +224,8 @@ def _joint_state_publisher(asked: Asked) -> Node:
     )
 
 
-_TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
+TURTLE_TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
+"""ROS's packages of the tf2 tutorials with turtles."""
 
 # package, executable: the node's name unless told, and what makes it.
 _OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
@@ -241,7 +242,7 @@ _OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
     ),
     ("tf2_ros", "static_transform_publisher"): ("static_transform_publisher", _static_publisher),
 }
-for _package in _TF_PACKAGES:
+for _package in TURTLE_TF_PACKAGES:
     _OURS |= {
         (_package, "turtle_tf2_broadcaster"): ("turtle_tf2_frame_publisher", _broadcaster),
         (_package, "turtle_tf2_listener"): (

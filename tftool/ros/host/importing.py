@@ -8,7 +8,7 @@ import importlib.machinery
 import os
 import sys
 from collections import UserList
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib.abc import Loader, MetaPathFinder
 from pathlib import Path
@@ -123,11 +123,15 @@ class _Finder(MetaPathFinder):
         self.roots: list[Path] = []
         self.tested: Path | None = None
         """The folder of tests, and of what they test; others load what is in it."""
+        self.on_import: dict[str, Callable[[], object]] = {}
+        """Called when a program first imports a package of that name."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
     ) -> importlib.machinery.ModuleSpec | None:
         package, _, rest = fullname.partition(".")
+        if not rest and (imported := self.on_import.pop(package, None)) is not None:
+            imported()
         if package in INTERFACES.packages():
             own = "." in rest and bool(_names_in(package, rest))
             if rest and not own and rest not in _kinds(package):
