@@ -196,7 +196,7 @@ def test_a_report_that_cannot_be_written_is_told(tftool, scenarios):
     assert result.status == 3
     assert "1 of 1 expectation held" in result.out
     assert result.err == (
-        "tftool: 'no/such/folder.xml' cannot be written: No such file or directory.\n"
+        "tftool: 'no/such/folder.xml' cannot be written: there is no folder 'no/such'.\n"
     )
 
 

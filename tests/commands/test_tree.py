@@ -103,7 +103,11 @@ def test_a_pdf_goes_down_a_pipe_as_bytes():
     [
         (["-o", "frames.png"], 2, "'frames.png' does not say what to write"),
         (["-o", "/"], 2, "'/' is a folder: name a file in it."),
-        (["-o", "/nowhere/frames.svg"], 3, "'/nowhere/frames.svg' cannot be written: No such"),
+        (
+            ["-o", "/nowhere/frames.svg"],
+            3,
+            "'/nowhere/frames.svg' cannot be written: there is no folder '/nowhere'",
+        ),
         (["--watch"], 2, "--watch needs a terminal"),
         (["--watch", "--format", "json"], 2, "leave out --format"),
         (["--json", "--format", "dot"], 2, "--json and --format dot exclude each other"),
@@ -226,3 +230,24 @@ def test_what_is_wrong_stands_beside_the_frame(tftool, tmp_path):
 def test_nothing_stands_beside_frames_that_are_as_they_should_be(tftool):
     for name in ("turtles", "robot", "square"):
         assert "doctor" not in tftool("tree", name).out
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of a process are POSIX")
+@pytest.mark.parametrize(
+    "words",
+    [["tree", "robot", "--at", "1", "-o"], ["check", "turtles", "--junit"]],
+)
+def test_a_file_that_cannot_be_completed_leaves_the_one_before(tmp_path, words):
+    kept = tmp_path / "kept.txt"
+    kept.write_text("before")
+    code = (
+        "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (20, 20));"
+        "from tftool.app.main import main; sys.exit(main())"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, *words, kept], capture_output=True, text=True, cwd=ROOT
+    )
+
+    assert done.returncode == 3, done.stderr
+    assert "cannot be written: File too large" in done.stderr
+    assert [(one.name, one.read_text()) for one in tmp_path.iterdir()] == [("kept.txt", "before")]

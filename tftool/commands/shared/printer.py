@@ -1,11 +1,12 @@
 """Results on stdout, as wide as the terminal or a line each where there is none; and in files."""
 
+import os
 import shutil
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tftool.base.errors import InputError
 from tftool.base.named_files import reader_there
 
 if TYPE_CHECKING:
@@ -42,17 +43,31 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
 
 
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a file as a whole, a text in UTF-8.
+    """Write a file as a whole, a text in UTF-8; a pipe or a device is written as it is.
+
+    What had the name stays until the new file is complete: a full disk loses nothing.
 
     Raises:
         InputError: If that fails.
         UsageError: If the name is `-`.
     """
-    from tftool.recordings.target import refuse_stdout
+    from tftool.recordings.target import PART, failed, refuse_stdout, remove
 
     refuse_stdout(path)
+    data = content if isinstance(content, bytes) else content.encode()
+    # A link stays a link: what it names is replaced.
+    there = path.resolve()
+    whole = there.is_file() or not there.exists()
+    part = there.with_name(there.name + PART) if whole else there
     try:
-        with open(path, "wb", opener=reader_there) as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
+        with open(part, "wb", opener=reader_there) as file:
+            file.write(data)
+        if whole:
+            if there.exists():
+                shutil.copymode(there, part)
+            os.replace(part, there)
     except OSError as error:
-        raise InputError(f"'{path}' cannot be written: {error.strerror or error}.") from error
+        if whole:
+            with suppress(OSError):
+                remove(part)
+        raise failed(path, error) from error
