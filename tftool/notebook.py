@@ -167,7 +167,7 @@ def view(
     from tftool.screens.browser.protocol import reach
     from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.standalone import StandaloneData, standalone_page
-    from tftool.screens.first_moment import first_moment
+    from tftool.screens.still_frames import first_moment
 
     if isinstance(shown, Frames):
         name, buffer, robot = shown.title, shown.buffer, robot or shown.robot

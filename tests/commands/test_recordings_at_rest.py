@@ -14,9 +14,10 @@ from tests.recordings.writers import SECOND, content, write_mcap, write_rosbag1
 from tests.terminals import Terminal
 from tests.world.link.processes import Process
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import resting_session
+from tftool.commands.shared.on_screen import at_rest
 from tftool.opener import open_frames
-from tftool.screens.first_moment import first_look
+from tftool.screens.still_frames import first_look
+from tftool.world.clock import pace_of, run
 
 
 @pytest.fixture
@@ -24,19 +25,19 @@ def file(tmp_path):
     return write_mcap(tmp_path / "run.mcap", content(500))
 
 
-def test_a_recordings_world_stands_still_at_its_end(file):
-    with Connection() as connection, open_frames(file) as frames:
-        session = resting_session(connection, frames)
-    clock = session.world.clock
+def test_the_clock_of_a_recording_stands_still_at_its_end(file):
+    with open_frames(file) as frames:
+        clock = at_rest(Connection(), frames).clock
+        start, end = frames.start, frames.end
 
     async def work():
         before = clock.now()
-        await session.lasting(SECOND // 100)
+        await pace_of(clock).sleep(SECOND // 100)
         return clock.now() - before
 
-    assert session.run(work()) == 0
-    assert session.duration == pytest.approx(499 * SECOND / 50, abs=1000)
-    assert clock.now() - clock.epoch == session.duration
+    assert run(clock, work()) == 0
+    assert end - start == pytest.approx(499 * SECOND / 50, abs=1000)
+    assert (clock.epoch, clock.now()) == (start, end)
 
 
 def test_the_first_look_is_at_a_moment_when_all_frames_are_there(file):

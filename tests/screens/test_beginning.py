@@ -5,7 +5,7 @@ import pytest
 from tftool import Buffer, Transform, TransformStamped, seconds
 from tftool.opener import scenario_named
 from tftool.scenario.play import build
-from tftool.screens.first_moment import first_moment
+from tftool.screens.still_frames import first_moment
 from tftool.world.clock import SimClock, run
 
 BEGIN, END = seconds(100), seconds(160)

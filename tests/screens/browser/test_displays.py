@@ -313,18 +313,19 @@ def test_a_server_shows_them_where_they_were(chromium, run):
     pytest.importorskip("websockets", reason="the extra `view` is not installed")
     from tests.screens.browser.driving import Page
     from tftool.commands.shared.connection import Connection
-    from tftool.commands.shared.hosting import resting_session
+    from tftool.commands.shared.on_screen import at_rest
     from tftool.opener import open_frames
     from tftool.screens.browser.recorded_messages import tracks_named
     from tftool.screens.browser.server import PageServer
+    from tftool.world.clock import run as run_on
 
     with open_frames(run) as frames:
-        session = resting_session(Connection(), frames)
+        shown = at_rest(Connection(), frames)
     found = SimpleNamespace()
     ready = threading.Event()
 
     async def serve():
-        async with PageServer(session.world, port=0) as page:
+        async with PageServer(shown, port=0) as page:
             page.show_tracks(lambda limits: tracks_named(str(run), limits))
             found.url, found.over = page.url, asyncio.Event()
             found.loop = asyncio.get_running_loop()
@@ -333,7 +334,7 @@ def test_a_server_shows_them_where_they_were(chromium, run):
             await found.over.wait()
             running.cancel()
 
-    thread = threading.Thread(target=lambda: session.run(serve()))
+    thread = threading.Thread(target=lambda: run_on(shown.clock, serve()))
     thread.start()
     assert ready.wait(PATIENCE)
     try:

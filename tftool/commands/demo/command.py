@@ -1,5 +1,6 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
+import asyncio
 import json
 import sys
 from contextlib import nullcontext
@@ -16,9 +17,16 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, Stamp
 from tftool.commands.shared.connection import HOME, Connection
-from tftool.commands.shared.hosting import JoinDecision, join_or_host, resting_session
+from tftool.commands.shared.hosting import JoinDecision, join_or_host
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.on_screen import driver_of, run_app, screen_lacks, simulator_of
+from tftool.commands.shared.on_screen import (
+    at_rest,
+    driver_of,
+    run_app,
+    scene_of,
+    screen_lacks,
+    simulator_of,
+)
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.printer import write
@@ -28,8 +36,10 @@ from tftool.scenario import builtin
 from tftool.scenario.play import Watch, build, left_to_a_person
 from tftool.scenario.scenario import Scenario
 from tftool.scenario.summary import as_json, play_through, written
-from tftool.screens.first_moment import first_look
+from tftool.screens.still_frames import first_look
+from tftool.screens.terminal.scene import Scene
 from tftool.screens.terminal.screen_options import Setting
+from tftool.world.clock import Phase
 from tftool.world.link.session_world import Session, shared
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 from tftool.world.world import World
@@ -78,7 +88,7 @@ class _Showing:
         driver = None if self.connection.read_only else driver_of(world, "turtle1")
         title = f"tftool demo, in {session.name}"
         setting = Setting(ascii_only=self.ascii_only, light=self.light, title=title)
-        return run_app(world, life(), driver, setting)
+        return run_app(scene_of(world), life(), driver, setting)
 
     def _hosted(self, chosen: Scenario, found: JoinDecision) -> str | None:
         """Show a scenario in a world of its own, which others can join."""
@@ -109,7 +119,7 @@ class _Showing:
             pair=("turtle2", dict(chosen.arguments).get("source_frame", "turtle1")),
             scenarios=None if recording is not None else builtin.abouts,
         )
-        return run_app(world, life(), driver, setting, idle)
+        return run_app(scene_of(world), life(), driver, setting, idle)
 
 
 def _list(*, for_programs: bool) -> None:
@@ -133,14 +143,15 @@ def _show_recording(connection: Connection, word: str, *, ascii_only: bool, ligh
             f"prints its frames, 'tftool view {visible(word)}' shows them in a browser."
         )
     frames = open_from(connection, word)
-    session = resting_session(connection, frames)
+    shown = at_rest(connection, frames)
 
     async def life() -> None:
-        await session.live(None)
+        await shown.clock.sleep_until(frames.span[1], Phase.WATCH)
+        await asyncio.get_running_loop().create_future()
 
     title = f"tftool demo {visible(Path(word).name)}"
     setting = Setting(title=title, ascii_only=ascii_only, light=light, at=first_look(frames))
-    run_app(session.world, life(), None, setting)
+    run_app(Scene(shown), life(), None, setting)
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:

@@ -13,7 +13,6 @@ A command that works in a world while it lives (``echo``, ``monitor``, ``view``)
 `open_from` is for commands that answer once, and for files.
 """
 
-import asyncio
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -25,7 +24,6 @@ from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.commands.shared.connection import HOME, Connection, Mode
 from tftool.commands.shared.notices import notice, tell_news
 from tftool.commands.shared.open_from import NO_SESSION
-from tftool.frames.frames import Frames
 from tftool.opener import kind_in_words, named, refuse_options_of_files, scenario_named
 from tftool.recordings.find import Kind
 from tftool.world.clock import Clock, SimClock
@@ -290,23 +288,6 @@ def _hosted(
 
     name = f"scenario '{visible(scenario.name)}'"
     return Session(play.world, True, name, alive, head_start, scenario.duration, link, tell_news)
-
-
-def resting_session(connection: Connection, frames: Frames) -> Session:
-    """Return a world in which all frames of a recording are known, at its end.
-
-    For screens, which show worlds; nothing arrives in it.
-    """
-    start, end = frames.span
-    # Where nothing was recorded both are 0, at which no clock can begin.
-    start, lasting = max(start, 1), end - start
-    clock = connection.providers.still_clock(start, start + lasting)
-    world = World(clock, frames.buffer)
-
-    async def alive(until: Stamp | None) -> None:
-        await asyncio.get_running_loop().create_future()
-
-    return Session(world, True, frames.title, alive, lasting, lasting, tell=tell_news)
 
 
 def _open_link(connection: Connection) -> tuple["Link | None", str]:

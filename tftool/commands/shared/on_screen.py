@@ -1,4 +1,4 @@
-"""What `demo` and `teleop` share: is there a terminal, and the app on it."""
+"""Worlds and frames on a terminal's screen: whether there is one, and the app on it."""
 
 import os
 import sys
@@ -7,6 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import UsageError
 from tftool.base.stamps import seconds
+from tftool.commands.shared.connection import Connection
+from tftool.frames.frames import Frames
+from tftool.screens.still_frames import StillFrames
+from tftool.world.log import Log
 
 if TYPE_CHECKING:
     from tftool.screens.terminal.scene import Scene
@@ -28,6 +32,14 @@ def screen_lacks() -> str:
     streams = {"stdin": sys.stdin, "stdout": sys.stdout, "stderr": sys.stderr}
     lacking = [name for name, one in streams.items() if one is None or not one.isatty()]
     return f"{lacking[0]} is none" if lacking else ""
+
+
+def at_rest(connection: Connection, frames: Frames) -> StillFrames:
+    """Return frames that were read as screens show them, with a clock at their end."""
+    start, end = frames.span
+    # Where nothing was recorded both are 0, at which no clock can begin.
+    clock = connection.providers.still_clock(max(start, 1), max(end, 1))
+    return StillFrames(clock, frames.buffer, Log(clock.now))
 
 
 def simulator_of(world: "World") -> "Turtlesim | None":
@@ -53,17 +65,25 @@ def driver_of(world: "World", turtle: str) -> "Teleop":
     return Teleop(world, name, turtle=turtle)
 
 
+def scene_of(world: "World") -> "Scene":
+    """Return the scene of a world, with the turtles of its simulator or of another process."""
+    from tftool.screens.terminal.scene import Scene
+    from tftool.world.nodes.remote_turtles import FarTurtles
+
+    return Scene(world, simulator_of(world) or FarTurtles(world))
+
+
 def run_app(
-    world: "World",
+    scene: "Scene",
     life: Coroutine[Any, Any, None],
     driver: "Teleop | None",
     setting: "Setting",
     idle: "IdleDrawing | None" = None,
 ) -> str | None:
-    """Show a world on the terminal while it lives.
+    """Show a scene on the terminal while its world lives.
 
     Args:
-        world: What to show.
+        scene: The scene to show.
         life: Lives the world through; it is cancelled when the user quits.
         driver: Who takes the keys.
         setting: How to show it.
@@ -76,17 +96,14 @@ def run_app(
         NodeFailed: If a node raised.
         KeyboardInterrupt: If a signal or Ctrl-C ended it.
     """
-    from tftool.screens.terminal.scene import Scene
     from tftool.screens.terminal.screen_options import setting_from
     from tftool.screens.terminal.turtle_app import TurtleApp
     from tftool.screens.terminal.world_app import show
     from tftool.world.clock import run
-    from tftool.world.nodes.remote_turtles import FarTurtles
 
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
-    scene = Scene(world, simulator_of(world) or FarTurtles(world))
     app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting, idle)
-    run(world.clock, show(app, life))
+    run(scene.world.clock, show(app, life))
     return app.chosen
 
 

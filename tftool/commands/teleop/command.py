@@ -12,7 +12,13 @@ from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import join_session, open_session
-from tftool.commands.shared.on_screen import driver_of, run_app, screen_lacks, simulator_of
+from tftool.commands.shared.on_screen import (
+    driver_of,
+    run_app,
+    scene_of,
+    screen_lacks,
+    simulator_of,
+)
 from tftool.messages.turtle_messages import Pose
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.nodes.turtle_teleop import BANNER, KEYS
@@ -153,7 +159,7 @@ def run(
         await session.live(None)
 
     run_app(
-        session.world,
+        scene_of(session.world),
         live(),
         driver,
         Setting(

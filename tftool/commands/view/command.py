@@ -7,7 +7,6 @@ import sys
 import webbrowser
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,11 +17,11 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import short_size
 from tftool.base.stamps import Duration, as_seconds
-from tftool.buffer.buffer import Buffer
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import notice, tell_news
+from tftool.commands.shared.on_screen import at_rest
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.reading_bar import Bar
 from tftool.frames.export.trajectory_files import whole_file
@@ -40,8 +39,8 @@ from tftool.screens.browser.recorded_messages import IN_A_FILE, recorded_tracks,
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.server import PageServer
 from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
-from tftool.screens.first_moment import first_look, first_moment
-from tftool.world.clock import Clock, Phase
+from tftool.screens.still_frames import first_look, first_moment
+from tftool.world.clock import Phase
 from tftool.world.clock import run as run_on
 from tftool.world.link.session_world import Session, lasting, lived
 from tftool.world.link.zenoh.rendezvous import page_secret
@@ -55,19 +54,6 @@ from tftool.world.nodes.joints import (
 from tftool.world.world import World
 
 _MOST_TOLD = 5
-
-
-@dataclass(frozen=True, slots=True)
-class StillFrames:
-    """Frames that are all there, as a page shows them.
-
-    Attributes:
-        clock: Stands at their end.
-        buffer: The frames.
-    """
-
-    clock: Clock
-    buffer: Buffer
 
 
 def _write(
@@ -325,11 +311,9 @@ def _show_frames(
     open_browser: bool,
 ) -> None:
     """Show what is all there, from its beginning on; it stands still."""
-    start, end = frames.span
-    # Where nothing was recorded both are 0, at which no clock can begin.
-    start, end = max(start, 1), max(end, 1)
-    clock = connection.providers.still_clock(start, end)
-    page = serve(StillFrames(clock, frames.buffer), name=frames.title)
+    shown_frames = at_rest(connection, frames)
+    clock, start = shown_frames.clock, max(frames.span[0], 1)
+    page = serve(shown_frames, name=frames.title)
     if frames.recording is not None:
         page.show_tracks(partial(tracks_named, frames.recording.name))
     if (shown := _robot_of(connection, frames, meshes)) is not None:
@@ -339,7 +323,7 @@ def _show_frames(
     anchor = "" if begin is None else f"#at={as_seconds(begin - start):.9f}"
 
     async def show() -> None:
-        await clock.sleep_until(end, Phase.WATCH)
+        await clock.sleep_until(max(frames.span[1], 1), Phase.WATCH)
         waiting = lasting(clock, run_for)
         await _show(page, frames.title, waiting, anchor, open_browser)
 

@@ -15,6 +15,7 @@ from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
 from tftool.geometry.motion.unicycle import FIELD
 from tftool.geometry.planar import heading, transform_from_pose
 from tftool.geometry.rigid import Transform
+from tftool.screens.still_frames import ShownFrames
 from tftool.screens.terminal.frames_picture import (
     FrameTrails,
     Lookup,
@@ -24,7 +25,6 @@ from tftool.screens.terminal.frames_picture import (
     pictured,
 )
 from tftool.world.nodes.trail import Trail
-from tftool.world.world import World
 
 FLASH = seconds(0.4)
 """How long a wall stays lit after it was run into."""
@@ -126,7 +126,7 @@ class Scene:
         start: The moment from which seconds are counted on the screen.
     """
 
-    def __init__(self, world: World, simulator: Simulator | None = None) -> None:
+    def __init__(self, world: ShownFrames, simulator: Simulator | None = None) -> None:
         self.world = world
         self.simulator = simulator
         self.start: Stamp = world.clock.epoch

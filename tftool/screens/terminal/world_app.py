@@ -20,10 +20,10 @@ from textual.widget import Widget
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Stamp
 from tftool.drawing import theme
+from tftool.screens.still_frames import ShownFrames
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.text_style import Look
 from tftool.world.stopper import leave_screen
-from tftool.world.world import World
 
 
 def input_events(sent: str) -> Iterable[Message]:
@@ -145,7 +145,7 @@ class WorldApp(App[None]):
     ]
 
     def __init__(
-        self, world: World, setting: Setting | None, *, terminal_colors: bool = False
+        self, world: ShownFrames, setting: Setting | None, *, terminal_colors: bool = False
     ) -> None:
         """Make the screen.
 
@@ -208,7 +208,7 @@ class PanelApp(WorldApp):
         Binding("question_mark,h", "keys", show=False),
     ]
 
-    def __init__(self, world: World, setting: Setting | None) -> None:
+    def __init__(self, world: ShownFrames, setting: Setting | None) -> None:
         """Make the screen; see `WorldApp`."""
         super().__init__(world, setting)
         self.title = self.setting.title

@@ -1,13 +1,47 @@
-"""Where to begin to look at frames that are all there."""
+"""Frames that are all there, as screens show them, and the moment to show first."""
 
-from typing import Final
+from dataclasses import dataclass
+from typing import Final, Protocol
 
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.frames.frames import Frames
+from tftool.world.clock import Clock
+from tftool.world.log import Log
 
 SETTLING: Final[Duration] = seconds(3)
 """How long after the beginning all frames are expected to have come; a scenario's turtles have."""
+
+
+class ShownFrames(Protocol):
+    """Frames on a screen. Every `World` is one, and so are `StillFrames`."""
+
+    @property
+    def clock(self) -> Clock:
+        """The clock of the frames."""
+
+    @property
+    def buffer(self) -> Buffer:
+        """The frames."""
+
+    @property
+    def log(self) -> Log:
+        """Lines for people who look on."""
+
+
+@dataclass(frozen=True, slots=True)
+class StillFrames:
+    """Frames that are all there.
+
+    Attributes:
+        clock: Stands still at their end.
+        buffer: The frames.
+        log: Lines of the screen itself.
+    """
+
+    clock: Clock
+    buffer: Buffer
+    log: Log
 
 
 def first_look(frames: Frames) -> Stamp | None:
