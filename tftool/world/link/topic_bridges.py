@@ -15,6 +15,7 @@ from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, TF, TF_STATIC, USUAL
 from tftool.world.link.graph import Graph
 from tftool.world.link.link_context import NAME, LinkContext
 from tftool.world.link.seam import Arrived, WirePublisher
+from tftool.world.log import Repeats
 from tftool.world.topics import Topic
 from tftool.world.world import TransformMessage, World
 
@@ -370,6 +371,7 @@ class ClockFollower:
         self._world = world
         self._clock = clock
         self._stop_listening: Callable[[], None] | None = None
+        self._falls = Repeats()
         self._is_looking = False
         self._stops = [
             clock.fell_back.add(self._fell_back, NAME),
@@ -409,5 +411,7 @@ class ClockFollower:
 
     def _fell_back(self, by: Duration) -> None:
         if must_clear(-by):
-            self._world.log.warn(NAME, FELL_BACK)
+            # A recording played in a loop falls back at each round.
+            if text := self._falls.said("", FELL_BACK):
+                self._world.log.warn(NAME, text)
             self._world.buffer.clear()

@@ -2,7 +2,9 @@
 
 import asyncio
 import socket
-from contextlib import ExitStack
+import subprocess
+import sys
+from contextlib import ExitStack, suppress
 
 import pytest
 
@@ -160,3 +162,30 @@ def test_nodes_of_releases_before_iron_are_named_too(domain):
                 robot.close()
 
     assert asyncio.run(scene()) == {"arm/driver"}
+
+
+def test_garbage_on_the_network_is_one_line_and_counted(domain, tmp_path, monkeypatch):
+    monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path))
+    words = ["monitor", "--dds", "--domain", str(domain), "--json", "--for", "6"]
+    garbage = b"RTPS\2\3\1\x10" + bytes(12) + b"\xe0\xff\x10\x00" + bytes(range(200))
+    with (
+        subprocess.Popen(
+            [sys.executable, "-m", "tftool", *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        ) as command,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
+    ):
+        while command.poll() is None:
+            for offset in range(10, 30):
+                sender.sendto(garbage, ("127.0.0.1", 7400 + 250 * domain + offset))
+            with suppress(subprocess.TimeoutExpired):
+                command.wait(0.01)
+        told = command.stderr.read()
+
+    assert command.returncode == 0, told
+    lines = [line for line in told.splitlines() if "malformed" in line]
+    assert "The DDS library: recv: malformed packet" in lines[0]
+    assert "times so far)" in lines[-1]
+    assert len(lines) < 6

@@ -16,6 +16,7 @@ from tftool.world.link.dds import dds_types as names
 from tftool.world.link.dds.dds_services import CycloneClient, CycloneServer, ServicePart
 from tftool.world.link.dds.dds_types import Raw, Types
 from tftool.world.link.dds.discovery import Discovery
+from tftool.world.link.dds.library_log import LIBRARY_LOG
 from tftool.world.link.dds.participant import DdsSample, Participant, TopicReader, TopicWriter
 from tftool.world.link.dds.reach import DdsReach
 from tftool.world.link.dds.settings import network, other_domains, participants_here
@@ -121,11 +122,22 @@ class DdsMiddleware:
         self._participant.inbox.start(loop)
         self._discovery.start(self._changed)
         if watcher is not None:
+            if not self._network.config:
+                self._complaints_to(watcher)
             for process in self.graph.processes():
                 watcher.graph_changed(process, True)
             for one in self.graph.entities():
                 watcher.graph_changed(one, True)
                 self._compare(one)
+
+    def _complaints_to(self, watcher: Watcher) -> None:
+        inbox = self._participant.inbox
+
+        def complain(sentence: str) -> None:
+            watcher.say_once(sentence, sentence)
+
+        stop = LIBRARY_LOG.listen(lambda sentence: inbox.put(complain, sentence))
+        self._participant.at_close(stop)
 
     def tell_frames(self, names: Sequence[str]) -> None:
         """Do nothing: command lines are completed from sessions over zenoh."""

@@ -8,6 +8,7 @@ goes through an outbox.
 import contextlib
 import threading
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -21,6 +22,7 @@ from cyclonedds.topic import Topic
 from tftool.base.errors import LinkError
 from tftool.world.endpoints import Quality
 from tftool.world.link.dds.dds_types import Raw
+from tftool.world.link.dds.library_log import LIBRARY_LOG
 from tftool.world.link.dds.settings import MOST_PARTICIPANTS, Network
 from tftool.world.link.inbox import Inbox
 from tftool.world.link.outbox import Outbox
@@ -70,8 +72,11 @@ class Domains:
                     f"this process is in DDS domain {number} by another network already"
                 )
             if made is None:
+                # A user's own configuration says itself where the library's words go.
+                taking = nullcontext() if network.config else LIBRARY_LOG.taking()
                 try:
-                    made = Domain(number, config)
+                    with taking:
+                        made = Domain(number, config)
                 except (DDSException, UnicodeEncodeError) as error:
                     raise LinkError(_refused(number, network)) from error
             self._held[number] = made, config, count + 1

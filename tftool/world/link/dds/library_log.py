@@ -1,0 +1,98 @@
+"""Complaints of the DDS library, counted; by itself it writes each to stderr."""
+
+import ctypes
+import os
+import re
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Final
+
+from tftool.base.escaping import shorten
+from tftool.world.log import Repeats
+
+_MOST: Final = 160
+"""Characters of a complaint that are passed on: the bytes of the packet follow them."""
+
+_STAMP: Final = re.compile(r"^[\d.]+ (\[\w*\])?\s*")
+_NUMBER: Final = re.compile(r"[0-9a-f.]*\d[0-9a-f.]*")
+
+
+class LibraryLog:
+    """The library's complaints, read through a pipe and given to whoever listens.
+
+    The library has no function that says where they go: a domain writes to the `stderr` of C as
+    it was when the domain was made. That variable names our pipe for so long. The pipe's end in
+    the library never blocks, what finds no room is dropped: the library holds locks while it
+    writes, so neither a full pipe nor Python's own lock, as in a callback from C, may stop it.
+    """
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._listeners: list[Callable[[str], object]] = []
+        self._repeats = Repeats()
+        self._stream: int | None = None
+
+    def listen(self, callback: Callable[[str], object]) -> Callable[[], None]:
+        """Have `callback` called on another thread with what is to be said.
+
+        Returns:
+            A function that ends this.
+        """
+        with self._lock:
+            self._listeners.append(callback)
+
+        def stop() -> None:
+            with self._lock:
+                self._listeners.remove(callback)
+
+        return stop
+
+    @contextmanager
+    def taking(self) -> Iterator[None]:
+        """Take the complaints of a domain that is made in here; where C allows it."""
+        try:
+            c = ctypes.CDLL(None)
+            stderr = ctypes.c_void_p.in_dll(
+                c, "__stderrp" if sys.platform == "darwin" else "stderr"
+            )
+        except (OSError, TypeError, ValueError):
+            # Windows, and libraries of C in which it is no variable: they stay on stderr.
+            yield
+            return
+        before = stderr.value
+        stderr.value = self._open(c)
+        try:
+            yield
+        finally:
+            stderr.value = before
+
+    def _open(self, c: ctypes.CDLL) -> int:
+        """Return the stream of C that is read; it stays open, as domains go on to write to it."""
+        if self._stream is None:
+            read, write = os.pipe()
+            os.set_blocking(write, False)
+            c.fdopen.restype = ctypes.c_void_p
+            stream: int = c.fdopen(write, b"w")
+            c.setbuf(ctypes.c_void_p(stream), None)
+            self._stream = stream
+            threading.Thread(target=self._read, args=(read,), name="dds-log", daemon=True).start()
+        return self._stream
+
+    def _read(self, read: int) -> None:
+        with os.fdopen(read, encoding="utf-8", errors="replace") as lines:
+            for line in lines:
+                text = _STAMP.sub("", line.strip())
+                kind = _NUMBER.sub("#", text)[:40]
+                said = self._repeats.said(kind, f"The DDS library: {shorten(text, _MOST)}")
+                if not said:
+                    continue
+                with self._lock:
+                    listeners = tuple(self._listeners)
+                for listener in listeners:
+                    listener(said)
+
+
+LIBRARY_LOG: Final = LibraryLog()
+"""One for the process, as its `stderr` is."""
