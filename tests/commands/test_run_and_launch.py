@@ -491,10 +491,37 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
     assert capsys.readouterr().err == "tftool: 'ros2 run' is 'tftool run' here.\n"
     assert main(["ros2", "bag", "info", "run.mcap"]) == 2
     assert capsys.readouterr().err == "tftool: 'ros2 bag info' is 'tftool info' here.\n"
-    assert main(["run", "tf2_ros", "tf2_echo", "map", "odom"]) == 2
-    assert capsys.readouterr().err == (
-        "tftool: 'tf2_ros tf2_echo' is 'tftool echo' here, in a terminal of its own.\n"
+    assert main(["run", "joint_state_publisher_gui", "joint_state_publisher_gui"]) == 2
+    assert "is 'tftool robot FILE' here" in capsys.readouterr().err
+
+
+def test_a_viewer_of_ros_runs_the_command_of_the_same_purpose(tmp_path, tftool):
+    echo = tftool("run", "tf2_ros", "tf2_echo", "world", "turtle1", "--once")
+    assert (echo.status, echo.out.splitlines()[1]) == (0, "- Translation: [5.544, 5.544, 0.000]")
+    assert "Without ROS this is 'tftool echo world turtle1 --once'." in echo.err
+
+    file = tmp_path / "frames.pdf"
+    words = ["tf2_tools", "view_frames", "--output", file, "--ros-args", "-r", "a:=b"]
+    assert tftool("run", *words).status == 0
+    assert file.read_bytes().startswith(b"%PDF")
+
+    misplaced = tftool("run", "--for", "1", "rviz2", "rviz2")
+    assert (misplaced.status, "is 'tftool view' here" in misplaced.err) == (2, True)
+    lacking = tftool("run", "tf2_ros", "tf2_echo", "world")
+    assert (lacking.status, "Missing argument 'SOURCE'" in lacking.err) == (2, True)
+
+
+def test_a_loop_that_polls_simulated_time_is_named_with_its_line(tmp_path, tftool, monkeypatch):
+    monkeypatch.setattr("tftool.ros.host.fibers.GIVE_UP", 0.2)
+    file = tmp_path / "polls.py"
+    file.write_text(
+        "import time\nimport rclpy\nrclpy.init()\nrclpy.create_node('polls')\n"
+        "while time.time() < 1e9:\n    pass\n"
     )
+
+    run = tftool("run", "--simulated", "--for", "2", str(file))
+    assert run.err.count("has polled for 0.2 s") == 1
+    assert "polls.py:5, in <module>: while time.time() < 1e9:" in run.err
 
 
 @pytest.mark.parametrize(

@@ -284,6 +284,7 @@ def test_a_client_asks_for_and_changes_another_nodes_parameters(node, tmp_path):
     assert answer(client.describe_parameters(["speed"])).descriptors[0].name == "speed"
     change = [Parameter("speed", value=2.5)]
     assert answer(client.set_parameters(change, callback=told.append)).results[0].successful
+    rclpy.spin_once(node, timeout_sec=0.0)
     assert told[0].result().results[0].successful
     assert robot.get_parameter("speed").value == 2.5
     wrong = [Parameter("speed", value=3.0), Parameter("arm.length", value="long")]

@@ -1,12 +1,14 @@
 """`tftool run`: a node of the user's own, without ROS."""
 
 import itertools
+import shlex
 from collections.abc import Collection, Sequence
 
 from typer.models import Context
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
+from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import (
     open_empty_session,
@@ -20,6 +22,7 @@ from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.commands.teleop.command import run as drive
 from tftool.ros import running
+from tftool.ros.host import executables
 from tftool.ros.host.importing import ros_free
 from tftool.ros.launch import packages
 from tftool.world.link.session_world import Session
@@ -71,6 +74,28 @@ def _opened(connection: Connection, place: str | None, *, alone: bool, simulated
     )
 
 
+def _own_words(words: Sequence[str]) -> list[str]:
+    """The words before `--ros-args`: options of ROS mean nothing to a command of tftool."""
+    return list(itertools.takewhile(lambda word: word != "--ros-args", words))
+
+
+def _run_command(connection: Connection, context: Context, words: list[str]) -> int:
+    """Run another command of tftool in the same session, and say so.
+
+    Raises:
+        UsageError: If the session is another machine's: the command itself takes those options.
+    """
+    if connection.reach.is_asked:
+        raise UsageError(f"give the options of the session to 'tftool {shlex.join(words)}' itself")
+    if connection.domain:
+        words += ["--domain", str(connection.domain)]
+    notice(f"Without ROS this is 'tftool {visible(shlex.join(words))}'.")
+    commands = context.find_root().command
+    with commands.make_context("tftool", words, obj=context.find_root().obj) as other:
+        status = commands.invoke(other)
+    return status if isinstance(status, int) else ExitStatus.DONE
+
+
 def run(
     connection: Connection,
     context: Context,
@@ -101,6 +126,14 @@ def run(
         return drive(
             connection, running.driven_turtle(words[1:]), None, ascii_only=False, light=False
         )
+    command = executables.COMMANDS.get((target, "".join(words[:1])))
+    if command is not None and target not in workspace.packages:
+        if place is not None or simulated or run_for is not None:
+            raise UsageError(
+                f"'{target} {words[0]}' is 'tftool {shlex.join(command)}' here; --in, --for and "
+                "--simulated go with nodes"
+            )
+        return _run_command(connection, context, [*command, *_own_words(words[1:])])
     # These bring all there is to see; turtles have no place beside them.
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (target in ROBOTS and place is None)

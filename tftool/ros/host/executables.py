@@ -1,5 +1,6 @@
 """What a package's executable is: a user's console script or file, or a node of ours."""
 
+import shlex
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
@@ -271,14 +272,19 @@ for _package in TURTLE_TF_PACKAGES:
         ),
     }
 
+COMMANDS = {
+    ("tf2_ros", "tf2_echo"): ("echo",),
+    ("tf2_ros", "tf2_monitor"): ("monitor",),
+    ("tf2_tools", "view_frames"): ("tree", "--format", "pdf"),
+    ("rqt_tf_tree", "rqt_tf_tree"): ("tree", "--watch"),
+    ("rviz2", "rviz2"): ("view",),
+}
+"""Programs of ROS that have a command of tftool, which `tftool run` runs in their place."""
+
 # What has a command of its own here.
 _ELSEWHERE = {
     ("turtlesim", "turtle_teleop_key"): "tftool teleop",
-    ("tf2_ros", "tf2_echo"): "tftool echo",
-    ("tf2_ros", "tf2_monitor"): "tftool monitor",
-    ("tf2_tools", "view_frames"): "tftool tree --format pdf",
-    ("rqt_tf_tree", "rqt_tf_tree"): "tftool tree --watch",
-    ("rviz2", "rviz2"): "tftool view",
+    **{names: shlex.join(("tftool", *words)) for names, words in COMMANDS.items()},
     ("joint_state_publisher_gui", "joint_state_publisher_gui"): "tftool robot FILE",
 }
 

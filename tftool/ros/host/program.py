@@ -8,11 +8,12 @@ import asyncio
 import inspect
 import sys
 import threading
+import time
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Any, ClassVar, TypeVar
 
 from tftool.base.errors import TftoolError
-from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds
 from tftool.ros.host import fibers
 from tftool.ros.host.fibers import CodeLine, Fiber
 from tftool.ros.host.names import RosOptions
@@ -109,6 +110,9 @@ class Program(Node):
         self._loop_thread = 0
         self._asked_at: Stamp = 0
         self._asked = 0.0
+        self._polled_until: Stamp = 0
+        self._polls_since = 0
+        self._is_polling_named = False
         if body is None:
             self.fiber = Fiber.adopt(name)
         else:
@@ -270,6 +274,28 @@ class Program(Node):
         if self._asked > 1.0 and not self.interrupted:
             self._asked = 0.0
             fiber.ask(lambda: self.clock.sleep(TICK, self.turn, self.rank))
+            self._note_polling(now)
+
+    def _note_polling(self, start: Stamp) -> None:
+        """Name a loop that has polled for long, without a word from the run; once."""
+        now = time.monotonic_ns()  # real, for simulated time hardly moves meanwhile
+        if start != self._polled_until:
+            self._polls_since = now
+        self._polled_until = self.clock.now()
+        patience = seconds(fibers.GIVE_UP)
+        if not self._is_polling_named and now - self._polls_since > patience:
+            self._is_polling_named = True
+            place = fibers.user_line(sys._getframe(1))
+            self.ask(lambda: self._say_polling(place))
+
+    def _say_polling(self, place: CodeLine | None) -> None:
+        where = str(place) if place is not None else "code that is not yours"
+        self.say(
+            "WARN",
+            self.name,
+            f"'{self.name}' has polled for {fibers.GIVE_UP:g} s, and simulated time moves on by "
+            f"only {TICK / NANOSECONDS:g} s at a time: wait with time.sleep or a timer: {where}",
+        )
 
 
 def exit_status(error: SystemExit) -> int:

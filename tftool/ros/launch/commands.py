@@ -1,9 +1,13 @@
 """Commands of the system, run beside the nodes."""
 
 import asyncio
+import contextlib
+import errno
+import os
 import shlex
 import signal
 import subprocess
+import threading
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -25,11 +29,13 @@ class SystemCommand:
         words: It and its arguments.
         environment: Its environment variables, all of them.
         cwd: Where it runs; None for here.
+        emulate_tty: Whether it writes to a terminal, in place of a pipe.
     """
 
     words: Sequence[str]
     environment: Mapping[str, str]
     cwd: str | None
+    emulate_tty: bool = False
 
 
 def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[int, str]:
@@ -43,15 +49,18 @@ def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[i
     """
     reason = ""
     try:
-        done = subprocess.run(
-            command.words,
-            env=dict(command.environment),
-            cwd=command.cwd,
-            capture_output=True,
-            check=False,
-            timeout=LONGEST_RUN,
-        )
-        output, status = done.stdout + done.stderr, done.returncode
+        if command.emulate_tty:
+            output, status = _run_on_terminal(command)
+        else:
+            done = subprocess.run(
+                command.words,
+                env=dict(command.environment),
+                cwd=command.cwd,
+                capture_output=True,
+                check=False,
+                timeout=LONGEST_RUN,
+            )
+            output, status = done.stdout + done.stderr, done.returncode
     except subprocess.TimeoutExpired as error:
         output, status = (error.stdout or b"") + (error.stderr or b""), -signal.SIGKILL
         reason = (
@@ -65,23 +74,81 @@ def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[i
     return status, reason
 
 
-async def begin(command: SystemCommand) -> asyncio.subprocess.Process:
-    """Start a command, leading a group of its own.
+def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
+    """Run a command whose output is a terminal to its end; return its output and exit status.
+
+    Raises:
+        subprocess.TimeoutExpired: If that takes longer than `LONGEST_RUN`; it is killed.
+        OSError: If it cannot be run.
+    """
+    ours, theirs = os.openpty()
+    chunks: list[bytes] = []
+
+    def drain() -> None:
+        # The end of a terminal is an error on Linux.
+        with contextlib.suppress(OSError):
+            while chunk := os.read(ours, 1 << 16):
+                chunks.append(chunk)
+
+    try:
+        try:
+            process = subprocess.Popen(
+                command.words,
+                env=dict(command.environment),
+                cwd=command.cwd,
+                stdout=theirs,
+                stderr=subprocess.STDOUT,
+            )
+        finally:
+            os.close(theirs)
+        reader = threading.Thread(target=drain, name="terminal", daemon=True)
+        reader.start()
+        try:
+            status = process.wait(LONGEST_RUN)
+        except subprocess.TimeoutExpired as error:
+            process.kill()
+            process.wait()
+            error.stdout = b"".join(chunks)
+            raise
+        reader.join(1.0)
+        return b"".join(chunks), status
+    finally:
+        os.close(ours)
+
+
+async def begin(
+    command: SystemCommand,
+) -> tuple[asyncio.subprocess.Process, asyncio.StreamReader]:
+    """Start a command, leading a group of its own; return it and its output.
 
     Raises:
         UsageError: If it cannot be run.
     """
+    ours, output = os.openpty() if command.emulate_tty else (None, asyncio.subprocess.PIPE)
     try:
-        return await asyncio.create_subprocess_exec(
+        process = await asyncio.create_subprocess_exec(
             *command.words,
             env=dict(command.environment),
             cwd=command.cwd,
-            stdout=asyncio.subprocess.PIPE,
+            stdout=output,
             stderr=asyncio.subprocess.STDOUT,
             start_new_session=True,
         )
     except OSError as error:
+        if ours is not None:
+            os.close(ours)
         raise _cannot_run(command, error) from None
+    finally:
+        if ours is not None:
+            os.close(output)
+    if ours is None:
+        assert process.stdout is not None
+        return process, process.stdout
+    reader = asyncio.StreamReader()
+    await asyncio.get_running_loop().connect_read_pipe(
+        lambda: asyncio.StreamReaderProtocol(reader), os.fdopen(ours, "rb", buffering=0)
+    )
+    return process, reader
 
 
 def _cannot_run(command: SystemCommand, error: OSError) -> UsageError:
@@ -90,18 +157,27 @@ def _cannot_run(command: SystemCommand, error: OSError) -> UsageError:
     return UsageError(f"cannot run '{command.words[0]}': {error.strerror}{missing}")
 
 
+async def _chunk_of(stream: asyncio.StreamReader) -> bytes:
+    try:
+        return await stream.read(1 << 16)
+    except OSError as error:
+        if error.errno == errno.EIO:  # the end of a terminal, on Linux
+            return b""
+        raise
+
+
 async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
     """What a command writes, line by line.
 
     asyncio's own reader raises where a line is longer than 64 KiB.
     """
     rest = b""
-    while chunk := await stream.read(1 << 16):
+    while chunk := await _chunk_of(stream):
         *lines, rest = (rest + chunk).split(b"\n")
         if len(rest) > LONGEST_LINE:
             lines.append(rest)
             rest = b""
         for line in lines:
-            yield line.decode(errors="replace")
+            yield line.removesuffix(b"\r").decode(errors="replace")
     if rest:
         yield rest.decode(errors="replace")

@@ -424,16 +424,15 @@ class Launch(Node):
 
     async def _watch(self, action: Any, label: str, command: SystemCommand) -> None:
         try:
-            process = await begin(command)
+            process, output = await begin(command)
         except UsageError as error:
             self._ended(action, label, 127, str(error))
             return
         self._running[label] = partial(interrupt, process)
         if self._closing:
             interrupt(process)
-        if process.stdout is not None:
-            async for line in lines_of(process.stdout):
-                self._line(label, line)
+        async for line in lines_of(output):
+            self._line(label, line)
         status = await process.wait()
         self._ended(action, label, status, "")
 

@@ -78,9 +78,15 @@ def _optional(element: Element, name: str, default: Any = None) -> Any:
     return default if value is None else parsed(value, element.where)
 
 
+YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
+"""Further words for true and false where ROS reads an attribute as YAML."""
+
+
 def _flag(element: Element, name: str, default: str) -> bool:
     """An attribute that decides while the file is read, so no substitution."""
     text = str(element.get(name, default))
+    if (word := text.strip().lower()) in YAML_FLAGS:
+        return YAML_FLAGS[word]
     try:
         return is_true(text)
     except UsageError:

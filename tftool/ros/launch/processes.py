@@ -69,7 +69,8 @@ class Startable(Action):
         **kwargs: Any,
     ) -> None:
         # These are about how real processes end, and where their output goes.
-        for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout", "log_cmd",
+        self.emulate_tty = kwargs.pop("emulate_tty", False)
+        for name in ("sigterm_timeout", "sigkill_timeout", "log_cmd",
                      "output_format", "cached_output"):  # fmt: skip
             kwargs.pop(name, None)
         super().__init__(**kwargs)
@@ -170,7 +171,9 @@ class ExecuteProcess(Startable):
             return None
         if shell:
             words = ["/bin/sh", "-c", " ".join(words)]
-        command = SystemCommand(words, environment, cwd)
+        # The configuration of that name decides for every process, as in ROS 2.
+        wanted = context.launch_configurations.get("emulate_tty", self.emulate_tty)
+        command = SystemCommand(words, environment, cwd, is_true(perform(context, wanted)))
         context.launch.start_process(self, name, command, self.respawn_after(context))
         return None
 

@@ -130,12 +130,12 @@ class ActionClient(Requester):
                 handle = world.send_goal(self.full, copy, on_feedback, goal_id=bytes(goal_id.uuid))
             except TftoolError as error:
                 refused = error
-                self.put(lambda: future.set_exception(refused))
+                self.settle(future, lambda: future.set_exception(refused))
                 return
             # Shielded: the decision is the server's, whether or not this client waits for it.
             accepted = handle.decided is None or await asyncio.shield(handle.decided)
             held = ClientGoalHandle(self, goal_id, handle if accepted else None)
-            self.put(lambda: future.set_result(held))
+            self.settle(future, lambda: future.set_result(held))
 
         self.ask(send())
         return future
@@ -162,7 +162,7 @@ class ActionClient(Requester):
                 handle.status = int(status)
                 future.set_result(_Result(int(status), result))
 
-            self.put(arrive)
+            self.settle(future, arrive)
 
         self.ask(wait())
         return future
@@ -173,7 +173,7 @@ class ActionClient(Requester):
 
         async def ask() -> None:
             answer = await _cancelled(goal, handle.goal_id)
-            self.put(lambda: future.set_result(answer))
+            self.settle(future, lambda: future.set_result(answer))
 
         self.ask(ask())
         return future

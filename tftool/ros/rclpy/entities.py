@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Callable, Coroutine
 from typing import Any, Final, Self
 
+from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat
 
 Work = Callable[[], Any]
@@ -119,6 +120,16 @@ class Requester(WorkQueue):
             task.add_done_callback(self._asking.discard)
 
         self.seat.program.ask(start)
+
+    def settle(self, future: Future, complete: Callable[[], object]) -> None:
+        """Complete a future while an executor serves this; that executor runs its callbacks."""
+
+        def work() -> None:
+            if not future.cancelled():
+                future.set_executor(self.seat.executor)
+                complete()
+
+        self.put(work)
 
     def withdraw(self) -> None:
         """Wait for no answer any more."""

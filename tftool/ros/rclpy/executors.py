@@ -144,7 +144,7 @@ class Executor:
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Serve until a future is done, or the time is up."""
         deadline = self._deadline(timeout_sec)
-        future.add_done_callback(lambda _: self._wake_from_anywhere())
+        future.watch(lambda _: self._wake_from_anywhere())
         while not (future.done() or future.cancelled()):
             if not self._context.ok() or self._over:
                 return
@@ -158,7 +158,7 @@ class Executor:
     ) -> None:
         """Wait for one thing to do, or for a future."""
         if not (future.done() or future.cancelled()):
-            future.add_done_callback(lambda _: self._wake_from_anywhere())
+            future.watch(lambda _: self._wake_from_anywhere())
             self._step(self._deadline(timeout_sec), future)
 
     def _deadline(self, timeout_sec: float | None) -> Stamp | None:
@@ -211,7 +211,7 @@ class Executor:
             if error is not None:
                 raise error
         elif isinstance(waits_for, Future):
-            waits_for.add_done_callback(lambda _: self._schedule(task, group))
+            waits_for.watch(lambda _: self._schedule(task, group))
         else:
             self._schedule(task, group)
 
@@ -280,11 +280,14 @@ class Executor:
             yield from (one for one in seat.entities if not isinstance(one, Timer))
 
     def _is_ready(self, entity: NodeEntity) -> bool:
-        if entity.only_ends_spin_once and not self.spins_once:
+        if not self._counts(entity):
             return False
         if isinstance(entity, Timer) and self._program.strict and not self._has_turn(entity.due):
             return False
         return entity.ready() and self._may_run(entity)
+
+    def _counts(self, entity: NodeEntity) -> bool:
+        return self.spins_once or not entity.only_ends_spin_once
 
     def _has_turn(self, due: Stamp) -> bool:
         return due <= self._reached or due < self._program.clock.now()
@@ -297,7 +300,10 @@ class Executor:
         moments = [
             entity.due
             for entity in self._entities()
-            if isinstance(entity, Timer) and not entity.is_canceled() and self._may_run(entity)
+            if isinstance(entity, Timer)
+            and not entity.is_canceled()
+            and self._counts(entity)
+            and self._may_run(entity)
         ]
         return min(moments, default=None)
 
@@ -368,7 +374,7 @@ class MultiThreadedExecutor(Executor):
 
     def _lead(self, future: Future, deadline: Stamp | None) -> None:
         """Have the workers serve until a future is done."""
-        future.add_done_callback(lambda _: self._wake_from_anywhere())
+        future.watch(lambda _: self._wake_from_anywhere())
         let_go = self._let_go = Future()
         self._program.ask(lambda: self._hire(let_go))
         try:

@@ -34,6 +34,7 @@ class Future:
         self._exception: BaseException | None = None
         self._asked = False
         self._callbacks: list[Callable[[Any], object]] = []
+        self._watchers: list[Callable[[Any], object]] = []
         self._executor = executor
         # Answers come on other threads than questions. Never held while a callback runs.
         self._mutex = threading.Lock()
@@ -61,11 +62,8 @@ class Future:
             with contextlib.suppress(RuntimeError):  # The loop has closed: it waits no more.
                 loop.call_soon_threadsafe(settle)
 
-        self.add_done_callback(tell)
-        try:
-            yield from over
-        finally:
-            self.remove_done_callback(tell)
+        self.watch(tell)
+        yield from over
 
     def done(self) -> bool:
         """Whether the answer is there."""
@@ -117,33 +115,55 @@ class Future:
         self._tell()
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
-        """Have `callback` called with this future once it is done (at once if it is)."""
+        """Have `callback` called with this future once it is done (at once if it is).
+
+        The executor that completes the future runs the callback as its next task, as in ROS 2.
+        """
+        self._add(callback, self._callbacks, self._call)
+
+    def watch(self, callback: Callable[[Any], object]) -> None:
+        """Have `callback` called in the thread that completes the future, never as a task."""
+        self._add(callback, self._watchers, lambda watcher: watcher(self))
+
+    def _add(
+        self,
+        callback: Callable[[Any], object],
+        waiting: list[Callable[[Any], object]],
+        call: Callable[[Callable[[Any], object]], object],
+    ) -> None:
         with self._mutex:
             is_over = self._done or self._cancelled
             if not is_over:
-                self._callbacks.append(callback)
+                waiting.append(callback)
         if is_over:
-            self._call(callback)
+            call(callback)
 
     def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
         """No longer call `callback`; whether it was registered."""
         with self._mutex:
             found = callback in self._callbacks
-            self._callbacks = [one for one in self._callbacks if one != callback]
+            self._callbacks[:] = [one for one in self._callbacks if one != callback]
         return found
 
     def _tell(self) -> None:
         with self._mutex:
-            callbacks, self._callbacks = self._callbacks, []
+            watchers, callbacks = self._watchers[:], self._callbacks[:]
+            self._watchers.clear()
+            self._callbacks.clear()
+        for watcher in watchers:
+            watcher(self)
         for callback in callbacks:
             self._call(callback)
 
     def _call(self, callback: Callable[[Any], object]) -> None:
-        value = callback(self)
-        if inspect.iscoroutine(value):
-            if self._executor is None:
-                raise TypeError("a coroutine as done-callback needs a future with an executor")
-            self._executor.create_task(value)
+        if self._executor is not None:
+            self._executor.create_task(callback, self)
+        elif inspect.iscoroutine(callback(self)):
+            raise TypeError("a coroutine as done-callback needs a future with an executor")
+
+    def set_executor(self, executor: Any) -> None:
+        """Name the executor that runs the callbacks; None runs them where the answer is set."""
+        self._executor = executor
 
 
 class Task(Future):

@@ -23,7 +23,7 @@ from tftool.ros.rclpy.rosout import RosoutPublisher
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.services import Client, Service, serve_own
 from tftool.ros.rclpy.time import Clock, Rate, ROSClock
-from tftool.ros.rclpy.timers import Timer, period_of
+from tftool.ros.rclpy.timers import RateTimer, Timer, period_of
 from tftool.ros.rclpy.topics import Publisher, Subscription
 from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
 from tftool.world.node_parameters import parameter_services
@@ -279,9 +279,14 @@ class Node(NodeGraph, NodeParameters):
 
         Raises:
             InvalidHandle: If the node is destroyed.
+            ValueError: If the frequency is not above 0.
         """
         self._tftool.require()
-        return Rate(frequency, self._tftool)
+        if frequency <= 0:
+            raise ValueError("frequency must be greater than 0")
+        period, goes_by = period_of(1.0 / frequency), clock or self._clock
+        timer = self.__keep(lambda: RateTimer(self._tftool, None, period, None, goes_by))
+        return Rate(self._tftool, timer)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Give a rate up; whether it was one of this node."""

@@ -67,6 +67,7 @@ class NodeParameters:
 
         Raises:
             ParameterAlreadyDeclaredException: If it is known.
+            ValueError: If the type is NOT_SET, or a type is given with `dynamic_typing`.
             InvalidParameterTypeException: If what was given is of another type.
         """
         return self.__declare_one(name, value, descriptor, ignore_override)
@@ -109,7 +110,7 @@ class NodeParameters:
         if name in self._parameters:
             raise ParameterAlreadyDeclaredException(name)
         descriptor = _checked_descriptor(descriptor)
-        kind, value = _kind_and_value(value, descriptor)
+        kind, value = _kind_and_value(name, value, descriptor)
         self._unused_parameters.pop(name, None)
         if not ignore_override and name in self._parameter_overrides:
             value = self._parameter_overrides[name]
@@ -207,6 +208,7 @@ class NodeParameters:
 
         Raises:
             TypeError: If the prefixes are no list or tuple of strings, or the depth no integer.
+            ValueError: If the depth is negative.
         """
         if not isinstance(prefixes, (list, tuple)) or not all(
             isinstance(one, str) for one in prefixes
@@ -214,6 +216,8 @@ class NodeParameters:
             raise TypeError("the prefixes must be a list of strings")
         if not isinstance(depth, int):
             raise TypeError(f"the depth must be an integer, not {type(depth).__name__}")
+        if depth < 0:
+            raise ValueError(f"the depth must be 0 or more levels, not {depth}")
         return list_result(self._parameters, prefixes, depth)
 
     def __known(self, name: str) -> None:
@@ -428,7 +432,7 @@ def _checked_descriptor(descriptor: Any) -> Any:
     return descriptor
 
 
-def _kind_and_value(declared: Any, descriptor: Any) -> tuple[Type, Any]:
+def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, Any]:
     """The type and the default that a parameter is declared with; None without a default."""
     if isinstance(declared, INTERFACES.message("rcl_interfaces/ParameterValue")):
         if not descriptor.dynamic_typing:
@@ -437,6 +441,15 @@ def _kind_and_value(declared: Any, descriptor: Any) -> tuple[Type, Any]:
             )
         declared = value_of(declared)
     if isinstance(declared, Type):
+        if declared is Type.NOT_SET:
+            raise ValueError(
+                f"parameter '{name}' cannot have the type NOT_SET: leave it out, or give a "
+                "descriptor with dynamic_typing=True"
+            )
+        if descriptor.dynamic_typing:
+            raise ValueError(
+                f"parameter '{name}' is given a type and dynamic_typing=True: leave one of them out"
+            )
         return declared, None
     if isinstance(declared, Parameter):
         return declared.type_, declared.value

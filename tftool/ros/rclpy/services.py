@@ -105,9 +105,9 @@ class Client(_Introspected, Requester):
             response = values.unpack(answer, self.srv_type.Response)
         except TftoolError as error:
             failure = error
-            self.put(lambda: None if future.cancelled() else future.set_exception(failure))
+            self.settle(future, lambda: future.set_exception(failure))
             return
-        self.put(lambda: None if future.cancelled() else future.set_result(response))
+        self.settle(future, lambda: future.set_result(response))
 
 
 class Service(_Introspected, WorkQueue):

@@ -359,10 +359,9 @@ class JumpHandle:
 class Rate:
     """Sleeps so that a loop runs so many times a second."""
 
-    def __init__(self, frequency: float, seat: Any) -> None:
-        if frequency <= 0:
-            raise ValueError("frequency must be greater than 0")
-        self._period = int(S_TO_NS / frequency)
+    def __init__(self, seat: Any, timer: Any) -> None:
+        self._period: int = timer.timer_period_ns
+        self._timer = timer
         self._program = seat.program
         self._due = self._program.clock.now() + self._period
         self._context = seat.context
@@ -399,5 +398,6 @@ class Rate:
         if not self._over:
             self._over = True
             self._siblings.discard(self)
+            self._timer.destroy()
             self._stop()
             self._sleep.end()

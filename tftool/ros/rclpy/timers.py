@@ -119,6 +119,12 @@ class Timer(NodeEntity):
         return None if self._canceled else self.due - self.seat.now()
 
 
+class RateTimer(Timer):
+    """Ends a `spin_once` at every moment of a rate's grid, as the timer of a rate does in ROS."""
+
+    only_ends_spin_once = True
+
+
 def _takes_none(callback: Callable[..., Any]) -> bool:
     try:
         inspect.signature(callback).bind()
