@@ -18,6 +18,12 @@ from tftool.frames.frames import Frames
 from tftool.frames.moment import At
 from tftool.frames.source_options import RecordingOptions, RobotOptions
 from tftool.recordings.find import Found, Kind, find, names_a_path
+from tftool.recordings.poses.pose_options import (
+    ChosenOptions,
+    PoseOptions,
+    options_of,
+    pose_options,
+)
 from tftool.scenario import builtin
 from tftool.world.link.link_options import read_reach
 
@@ -43,6 +49,11 @@ def open_frames(
     urdf: "str | os.PathLike[str] | None" = None,
     with_odometry: bool = False,
     no_cache: bool = False,
+    frames: str | None = None,
+    pose_rate: float | None = None,
+    pose_format: str | None = None,
+    inverted: bool = False,
+    axes: str | None = None,
     domain: int | None = None,
     connects: Sequence[str] = (),
     session: "Session | None" = None,
@@ -68,6 +79,11 @@ def open_frames(
         urdf: The description of the robot in a recording that has none inside.
         with_odometry: Whether odometry and poses of a recording count as transforms.
         no_cache: Whether to read a recording anew, and keep no columns for the next time.
+        frames: Names of parent and child in a pose file: "odom:base_link".
+        pose_rate: Poses in a second, for a pose file without stamps.
+        pose_format: Format of a pose file; decided by content if None.
+        inverted: Whether to take the inverse of each pose that a pose file has.
+        axes: Axes of a pose file's cameras: "opencv" or "opengl".
         domain: Number of the session's ROS domain; ROS_DOMAIN_ID, else 0, if None.
         connects: Endpoints of other machines' sessions: "tcp/192.168.1.5:7448".
         session: A session that was joined already, to listen to.
@@ -80,6 +96,21 @@ def open_frames(
         LinkError: If there is no session to listen to.
         UsageError: If an option does not fit what is opened, or an extra is not installed.
     """
+    poses = PoseOptions(frames, pose_rate, pose_format, inverted, axes)
+    if poses != PoseOptions():
+        with pose_options(ChosenOptions(poses)):
+            return open_frames(
+                place,
+                listen_for=listen_for,
+                until=until,
+                cache_time=cache_time,
+                joints=joints,
+                arguments=arguments,
+                urdf=urdf,
+                with_odometry=with_odometry,
+                no_cache=no_cache,
+                progress=progress,
+            )
     robot = RobotOptions(joints or {}, arguments or {}, Path(urdf) if urdf else None)
     recording = RecordingOptions(no_cache, with_odometry)
     if place is None:
@@ -160,6 +191,7 @@ def refuse_options_of_files(
     what = "The session that runs" if word is None else f"'{visible(word)}'"
     robot.refuse(f"{what} is no robot description and no recording")
     recording.refuse(f"{what} is no recording")
+    options_of(word or "").refuse(f"{what} is no pose file")
 
 
 def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:

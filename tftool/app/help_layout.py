@@ -1,7 +1,8 @@
 """How help is laid out: commands by what one wants, options by what they are about."""
 
+import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from inspect import cleandoc
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -79,7 +80,38 @@ class Command(TyperCommand):
                     else (word,)
                 )
             ]
+        ctx.meta[_POSES] = list(self._pose_options(args))
         return super().parse_args(ctx, args)
+
+    def _pose_options(self, args: list[str]) -> "Iterator[tuple[str | None, str, Any]]":
+        """Give each option of pose files with the file before it, its name and its value."""
+        from tftool.commands.shared.declaration import POSE_OPTIONS
+        from tftool.recordings.poses.pose_options import names_file
+
+        options = {one: param for param in self.params for one in param.opts if one[0] == "-"}
+        file: str | None = None
+        words = iter(args)
+        for word in words:
+            flag, equals, value = word.partition("=")
+            param = options.get(flag) if flag.startswith("-") else None
+            if param is not None:
+                taken: Any = True
+                if not getattr(param, "is_flag", False):
+                    taken = value if equals else next(words, "")
+                if param.name in POSE_OPTIONS:
+                    yield file, param.name, _number(taken) if param.name == "pose_rate" else taken
+            elif names_file(word):
+                file = word
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; each pose file is read with the options behind it."""
+        given = ctx.meta.get(_POSES)
+        if not given:
+            return super().invoke(ctx)
+        from tftool.recordings.poses.pose_options import collect, pose_options
+
+        with pose_options(collect(given)):
+            return super().invoke(ctx)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the arguments, then the options by their headings."""
@@ -98,6 +130,17 @@ class Command(TyperCommand):
                 with formatter.section(title):
                     formatter.write_dl(rows)
 
+
+def _number(word: str) -> float:
+    """Read a number; what is none is refused where all options are read."""
+    try:
+        return float(word)
+    except ValueError:
+        return math.nan
+
+
+_POSES = "tftool.pose_options"
+"""Under which name a context keeps the options of pose files."""
 
 SESSION = "Session and network"
 

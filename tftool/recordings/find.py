@@ -16,6 +16,7 @@ from typing import Final
 
 from tftool.base.errors import InputError
 from tftool.base.named_files import open_regular
+from tftool.recordings.poses.pose_options import options_of, path_behind_prefix
 from tftool.recordings.remote_files import is_url
 
 MCAP_MAGIC = b"\x89MCAP0\r\n"
@@ -31,7 +32,9 @@ ACTIVE: Final = ".active"
 MOST_FILES = 10_000
 """Files of one folder or glob that are looked at."""
 
-_HEAD = 4096
+HEAD: Final = 4096
+"""First bytes of a file by which its kind is decided."""
+
 _MOST_NAMES = 4
 BESIDE = ("-wal", "-shm", "-journal")
 """How the files end that sqlite has beside a database."""
@@ -63,6 +66,7 @@ class Kind(Enum):
     SQLITE = "rosbag2 (sqlite3)"
     ROS1 = "ROS 1 bag"
     ZSTD = "compressed file"
+    POSES = "pose file"
     ROSBAG2 = "rosbag2"
     SEVERAL = "several recordings"
 
@@ -93,7 +97,11 @@ class Found:
     passed_over: tuple[Path, ...] = ()
 
     def told(self) -> list[str]:
-        """What is worth saying of what was found, as sentences: which files are passed over."""
+        """List what is worth saying, as sentences: files that are passed over, a convention."""
+        if self.kind is Kind.POSES:
+            from tftool.recordings.poses.pose_formats import convention_of
+
+            return [convention_of(self.name, self.paths[0])]
         if not self.passed_over:
             return []
         names = ", ".join(map(_said, self.passed_over[:_MOST_NAMES]))
@@ -112,7 +120,7 @@ def _said(path: Path) -> str:
 def names_a_path(word: str) -> bool:
     """Whether a word names something in the file system: a file, a folder, a glob that fits."""
     try:
-        return os.path.lexists(word) or bool(_globbed(word))
+        return os.path.lexists(word) or bool(_globbed(word) or path_behind_prefix(word)[0])
     except ValueError:
         return False  # a zero character
 
@@ -137,6 +145,9 @@ def find(word: str) -> Found:
     """
     path = Path(word)
     try:
+        prefix, behind = path_behind_prefix(word)
+        if prefix and behind is not None:
+            return _prefixed(word, behind)
         if not path.exists():
             matches = _globbed(word)
             if matches:
@@ -159,7 +170,7 @@ def find(word: str) -> Found:
             return _folder(word, path)
         if path.name == METADATA and _is_metadata(path):
             return Found(word, Kind.ROSBAG2, (path.parent,))
-        return Found(word, kind_of_file(path), (path,))
+        return Found(word, _kind_with_options(word, path), (path,))
     except PermissionError as error:
         raise InputError(
             f"'{error.filename or word}' may not be read: permission denied."
@@ -167,6 +178,33 @@ def find(word: str) -> Found:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"'{word}' cannot be read: {reason}") from error
+
+
+def _kind_with_options(word: str, path: Path) -> Kind:
+    """Return what one file is; options for pose files are refused for anything else.
+
+    Raises:
+        UsageError: If it has such options and is no pose file.
+    """
+    options = options_of(word)
+    if options.pose_format is not None:
+        return Kind.POSES
+    kind = kind_of_file(path)
+    if kind is not Kind.POSES:
+        options.refuse(f"'{word}' is a {kind.value} and no pose file")
+    return kind
+
+
+def _prefixed(word: str, path: Path) -> Found:
+    """Return the pose file of NAME=FILE.
+
+    Raises:
+        InputError: If the file is something else.
+    """
+    kind = _kind_with_options(word, path)
+    if kind is not Kind.POSES:
+        raise InputError(f"'{word}' gives a prefix to a {kind.value}: only pose files take one.")
+    return Found(word, kind, (path,))
 
 
 _DESCRIBING = {".urdf", ".xacro"}
@@ -186,7 +224,7 @@ def kind_of_file(path: Path) -> Kind:
         what = "a pipe" if stat.S_ISFIFO(mode) else "a device"
         raise InputError(f"'{path}' is {what}, which cannot be searched: save it to a file first.")
     with path.open("rb") as file:
-        head = file.read(_HEAD)
+        head = file.read(HEAD)
     if not head:
         nothing = "" if path.suffix in _WRITTEN else ": nothing was recorded"
         raise InputError(f"'{path}' is an empty file (0 bytes){nothing}.")
@@ -213,6 +251,8 @@ def kind_of_file(path: Path) -> Kind:
         raise InputError(
             f"'{path}' is only git's pointer to a large file: 'git lfs pull' fetches the file."
         )
+    if head.startswith((b"PK\x03\x04", b"PAR1")) and _are_poses(path, head):
+        return Kind.POSES
     for magic, what in _OTHERS.items():
         if head.startswith(magic):
             raise InputError(f"'{path}' is {what}.")
@@ -238,7 +278,14 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
         return Kind.STATICS
     if not (is_scenario or _is_text(text)):
         raise _nothing(path)
-    return Kind.SCENARIO
+    return Kind.POSES if not is_scenario and _are_poses(path, head) else Kind.SCENARIO
+
+
+def _are_poses(path: Path, head: bytes) -> bool:
+    # Its readers import what no other kind of file needs at start-up.
+    from tftool.recordings.poses.pose_formats import recognised
+
+    return recognised(head, str(path)) is not None
 
 
 def _is_text(head: bytes) -> bool:
@@ -246,20 +293,20 @@ def _is_text(head: bytes) -> bool:
     try:
         head.decode()
     except UnicodeDecodeError as error:
-        return len(head) == _HEAD and error.start >= _HEAD - 3
+        return len(head) == HEAD and error.start >= HEAD - 3
     return True
 
 
 def _nothing(path: Path) -> InputError:
     return InputError(
-        f"'{path}' is neither a recording (MCAP, rosbag2, ROS 1 bag), nor a robot "
+        f"'{path}' is neither a recording (MCAP, rosbag2, ROS 1 bag), nor a pose file, nor a robot "
         "description (URDF, xacro), nor a scenario (YAML)."
     )
 
 
 def _is_metadata(path: Path) -> bool:
     with open_regular(path) as file:
-        return b"rosbag2_bagfile_information" in file.read(_HEAD)
+        return b"rosbag2_bagfile_information" in file.read(HEAD)
 
 
 def _folder(word: str, path: Path) -> Found:

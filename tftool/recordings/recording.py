@@ -44,7 +44,7 @@ from tftool.recordings.description_frames import (
     prefix_of,
     read_description,
 )
-from tftool.recordings.find import Found, find
+from tftool.recordings.find import Found, Kind, find
 from tftool.recordings.joint_state_reader import (
     RecordedJoints,
     joint_state_topics,
@@ -509,7 +509,9 @@ def open_recording(
     try:
         found = find(name)
         before = _facts(found)
-        kept = None if cache is None else KeptColumns(cache, found)
+        # The options of a pose file change its columns.
+        is_kept = cache is not None and found.kind is not Kind.POSES
+        kept = KeptColumns(cache, found) if is_kept and cache is not None else None
         return Recording(Recorded(name, open_found(found)), progress, robot, kept, with_odometry)
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error

@@ -25,7 +25,7 @@ LINKS = "Links"
 """Headings of the help."""
 
 
-@declare(shares=False)
+@declare(shares=False, poses=True)
 def edit(
     names: Annotated[
         list[str],

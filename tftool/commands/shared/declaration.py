@@ -118,6 +118,40 @@ URDF_OPTION: dict[str, Any] = {
 """Option of commands whose FROM may be a recording that lacks the description of its robot."""
 
 
+POSES = "Pose files"
+"""Heading of the help under which their options are listed."""
+
+POSE_OPTIONS: dict[str, Any] = {
+    "frames": Annotated[
+        str | None,
+        option(
+            "Names of parent and child in a pose file. Each of these options is for the file it "
+            "follows.",
+            "--frames",
+            metavar="PARENT:CHILD",
+            panel=POSES,
+        ),
+    ],
+    "pose_rate": Annotated[
+        float | None,
+        option("Poses in a second, where they have no stamps.", metavar="HZ", panel=POSES),
+    ],
+    "pose_format": Annotated[
+        str | None,
+        option("Format of the file, where its content fits two.", metavar="NAME", panel=POSES),
+    ],
+    "inverted": Annotated[
+        bool,
+        option("Take the inverse of each pose that is written.", "--inverted", panel=POSES),
+    ],
+    "axes": Annotated[
+        str | None,
+        option("Axes of the cameras: opencv or opengl.", metavar="NAME", panel=POSES),
+    ],
+}
+"""Options of commands whose FROM may be a pose file; `Command` puts them into effect."""
+
+
 @dataclass(frozen=True, slots=True)
 class Declaration:
     """A command's own options, and what kind of command it is.
@@ -131,6 +165,7 @@ class Declaration:
         recordings: Whether FROM may be a recording.
         descriptions: Whether FROM may be a robot description.
         urdf: Whether FROM may be a recording without the description of its robot.
+        poses: Whether FROM may be a pose file, without being a command of sessions.
         settings: Differences from click's reading of a command line.
     """
 
@@ -141,6 +176,7 @@ class Declaration:
     recordings: bool = False
     descriptions: bool = False
     urdf: bool = False
+    poses: bool = False
     settings: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -154,14 +190,15 @@ class Declaration:
         Args:
             providers: Source of clocks and links; the real ones when None.
         """
-        if not self.shares:
+        if not (self.shares or self.poses):
             # Not the bound method itself, which takes no attributes.
             return functools.wraps(self.declared)(functools.partial(self._run))
         added = {
+            **(POSE_OPTIONS if self.poses or self.recordings or self.urdf else {}),
             **(ROBOT_OPTIONS if self.descriptions else {}),
             **(URDF_OPTION if self.urdf else {}),
             **(RECORDING_OPTIONS if self.recordings else {}),
-            **SESSION_OPTIONS,
+            **(SESSION_OPTIONS if self.shares else {}),
         }
 
         @functools.wraps(self.declared)
@@ -169,6 +206,10 @@ class Declaration:
             from tftool.commands.shared.connection import Providers, read
 
             given = {name: words.pop(name) for name in added if name in words}
+            for name in POSE_OPTIONS:
+                given.pop(name, None)
+            if not self.shares:
+                return self._run(*args, **words)
             with read(
                 self.name,
                 providers or Providers(),
@@ -179,12 +220,14 @@ class Declaration:
                 return self._run(connection, *args, **words)
 
         signature = inspect.signature(self.declared)
-        first, *own = signature.parameters.values()
+        own = list(signature.parameters.values())
+        first = own.pop(0) if self.shares else None
         connected.__signature__ = signature.replace(  # type: ignore[attr-defined]
             parameters=[*own, *(_parameter(*one) for one in added.items())]
         )
         connected.__annotations__ = {**self.declared.__annotations__, **added}
-        connected.__annotations__.pop(first.name, None)
+        if first is not None:
+            connected.__annotations__.pop(first.name, None)
         return connected
 
     def _run(self, *args: Any, **options: Any) -> Any:

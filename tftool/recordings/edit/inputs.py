@@ -12,7 +12,8 @@ from tftool.recordings.edit.mcap_tape import McapTape
 from tftool.recordings.edit.rosbag1_tape import Rosbag1Tape
 from tftool.recordings.edit.sqlite_tape import SqliteTape
 from tftool.recordings.edit.tape import Tape
-from tftool.recordings.find import METADATA, Kind, find, kind_of_file, refusal
+from tftool.recordings.find import METADATA, Found, Kind, find, kind_of_file, refusal
+from tftool.recordings.poses.pose_container import open_poses
 from tftool.recordings.rosbag2.folder import files_of_folder, unpack_file
 
 
@@ -79,6 +80,19 @@ class EditedInput:
         self.tapes.append(open_tape(place, kind, unpacks=self.mode == "message"))
         self.paths.append(path)
 
+    def add_poses(self, found: Found) -> None:
+        """Open a pose file, as the MCAP file of its messages.
+
+        Raises:
+            InputError: If it cannot be read.
+        """
+        folder = tempfile.TemporaryDirectory(prefix="tftool-")
+        self._unpacked.append(folder)
+        place = Path(folder.name) / "poses.mcap"
+        open_poses(found).write_mcap(place)
+        self.tapes.append(open_tape(place, Kind.MCAP))
+        self.paths.append(found.paths[0])
+
 
 def open_input(name: str) -> EditedInput:
     """Open a recording to edit it: a file, a folder of rosbag2's, or a glob of files.
@@ -102,6 +116,9 @@ def open_input(name: str) -> EditedInput:
             paths = files_of_folder(folder, opened.damage)
         else:
             paths = list(found.paths)
+        if found.kind is Kind.POSES:
+            opened.add_poses(found)
+            paths = []
         refused: list[InputError] = []
         for path in paths:
             if path.is_dir():

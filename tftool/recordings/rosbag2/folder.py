@@ -17,6 +17,7 @@ from tftool.recordings.decompression import most_of, zstandard
 from tftool.recordings.find import BESIDE, METADATA, Found, Kind, kind_of_file, refusal
 from tftool.recordings.joined import Joined
 from tftool.recordings.mcap.read import Mcap
+from tftool.recordings.poses.pose_container import open_poses
 from tftool.recordings.rosbag1.read import Rosbag1
 from tftool.recordings.rosbag2.read import Sqlite
 
@@ -38,6 +39,8 @@ def open_found(found: Found) -> Container:
         return _open_folder(found.paths[0])
     if found.kind is Kind.SEVERAL:
         return _joined(found.paths, [], by_time=True)
+    if found.kind is Kind.POSES:
+        return open_poses(found)
     return _open_file(found.paths[0])
 
 

@@ -1,0 +1,211 @@
+"""Links of a pose file as its reader gives them: stamps and numbers, as they are written."""
+
+from array import array
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from decimal import ROUND_HALF_EVEN, Decimal, InvalidOperation
+from pathlib import Path
+from typing import BinaryIO, Final, NoReturn
+
+from tftool.base.errors import InputError
+from tftool.base.named_files import open_regular
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.recordings.poses.pose_options import PoseOptions
+
+MOST_POSES: Final = 10_000_000
+"""Poses of one file that are read."""
+
+LARGEST_FILE: Final = 1 << 31
+"""Bytes of one file that is read."""
+
+LONGEST_LINE: Final = 1 << 20
+"""Bytes of one line of text."""
+
+_LAST: Final = (1 << 31) * NANOSECONDS
+_LONGEST_NUMBER: Final = 64
+
+
+@dataclass(slots=True)
+class PoseLink:
+    """One link: the pose of a child in its parent, once or over time.
+
+    Attributes:
+        parent: Name of the parent.
+        child: Name of the child.
+        static: Whether the one pose holds at all times.
+        width: Numbers of one pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of the matrix).
+        stamps: Nanoseconds, one a pose.
+        numbers: The poses, one behind the other.
+    """
+
+    parent: str
+    child: str
+    static: bool = False
+    width: int = 7
+    stamps: "array[int]" = field(default_factory=lambda: array("q"))
+    numbers: "array[float]" = field(default_factory=lambda: array("d"))
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+
+class PoseFile:
+    """A pose file while it is read: its lines, options and the odd rows.
+
+    Attributes:
+        path: Where it is.
+        options: How it is read.
+        default: Names of the format's frames.
+        oddities: Rows that were left out or out of order, as the middle of a sentence.
+    """
+
+    def __init__(self, path: Path, options: PoseOptions, default: tuple[str, str]) -> None:
+        """Take a file.
+
+        Args:
+            path: Where it is.
+            options: How it is read.
+            default: Names of parent and child, where the options name none.
+        """
+        self.path = path
+        self.options = options
+        self.default = default
+        self.oddities: Counter[str] = Counter()
+        self._place = 0
+
+    @property
+    def frames(self) -> tuple[str, str]:
+        """Names of parent and child."""
+        return self.default if self.options.frames is None else self.options.pair()
+
+    def link(self, width: int = 7) -> PoseLink:
+        """Begin the one link of a trajectory."""
+        return PoseLink(*self.frames, width=width)
+
+    def open(self) -> BinaryIO:
+        """Open the file.
+
+        Raises:
+            InputError: If it is too large.
+            OSError: If it cannot be opened.
+        """
+        file = open_regular(self.path)
+        if file.seek(0, 2) > LARGEST_FILE:
+            file.close()
+            raise InputError(f"'{self.path}' has more than {LARGEST_FILE >> 20} MiB: split it.")
+        file.seek(0)
+        return file
+
+    def lines(self, path: Path | None = None) -> Iterator[str]:
+        """Give every line of the file, or of one beside it, without its end."""
+        name = path or self.path
+        own = PoseFile(name, self.options, self.default)
+        self._place = 0
+        with own.open() as file:
+            while line := file.readline(LONGEST_LINE + 1):
+                self._place += 1
+                if len(line) > LONGEST_LINE:
+                    self.fail("a line of less than 1 MiB", f"{len(line)} bytes and more", name)
+                text = line.decode("utf-8", "backslashreplace")
+                yield text.removeprefix("\ufeff").strip() if self._place == 1 else text.strip()
+
+    def rows(self, comments: str = "#", path: Path | None = None) -> Iterator[list[str]]:
+        """Give the words of every line that is neither empty nor a comment."""
+        for line in self.lines(path):
+            if line and not line.startswith(comments):
+                yield line.replace(",", " ").split()
+
+    def fail(self, expected: str, found: str, path: Path | None = None) -> NoReturn:
+        """Refuse the line that was given last.
+
+        Raises:
+            InputError: Always, with the file and the line.
+        """
+        raise InputError(
+            f"'{path or self.path}:{self._place}': expected {expected}, found {found}."
+        )
+
+    def floats(self, words: list[str], expected: str) -> list[float]:
+        """Read numbers; words that are none are refused."""
+        try:
+            return [float(word) for word in words]
+        except ValueError:
+            bad = next(word for word in words if not _is_number(word))
+            self.fail(expected, f"'{bad[:40]}'")
+
+    def seconds(self, word: str, expected: str, path: Path | None = None) -> Stamp:
+        """Read a stamp in seconds, exact to the nanosecond."""
+        whole, _, part = word.partition(".")
+        is_short = word.isascii() and len(word) < 24 and len(part) <= 9
+        if is_short and whole.isdigit() and (part.isdigit() or not part):
+            stamp = int(whole) * NANOSECONDS + int(part.ljust(9, "0"))
+            return self._checked(stamp, word, expected, path)
+        return self._decimal(word, NANOSECONDS, expected, path)
+
+    def nanoseconds(self, word: str, expected: str) -> Stamp:
+        """Read a stamp in nanoseconds."""
+        if word.isascii() and word.isdigit() and len(word) < 24:
+            return self._checked(int(word), word, expected, None)
+        return self._decimal(word, 1, expected, None)
+
+    def _decimal(self, word: str, unit: int, expected: str, path: Path | None) -> Stamp:
+        try:
+            if len(word) > _LONGEST_NUMBER:
+                raise InvalidOperation
+            number = Decimal(word)
+            if number and not (number.is_finite() and -20 < number.adjusted() < 20):
+                raise InvalidOperation
+        except (InvalidOperation, ValueError):
+            self.fail(expected, f"the stamp '{word[:40]}'", path)
+        exact = (number * unit).to_integral_value(ROUND_HALF_EVEN)
+        return self._checked(int(exact), word, expected, path)
+
+    def _checked(self, stamp: Stamp, word: str, expected: str, path: Path | None) -> Stamp:
+        if not 0 <= stamp < _LAST:
+            self.fail(
+                expected,
+                f"the stamp '{word[:40]}', which is not in the seconds 0 to {_LAST // NANOSECONDS}",
+                path,
+            )
+        return stamp
+
+    def at_rate(self, link: PoseLink) -> None:
+        """Give the poses of a link stamps by --pose-rate, the first one a period after 0.
+
+        Raises:
+            InputError: If there is no rate.
+        """
+        rate = self.options.pose_rate
+        if rate is None:
+            raise InputError(f"'{self.path}' has no stamps: --pose-rate HZ gives it some.")
+        count = len(link.numbers) // link.width
+        # Stamp 0 asks for the latest in tf2, so no pose can have it.
+        link.stamps = array("q", (round(place * 1e9 / rate) for place in range(1, count + 1)))
+
+    def check_count(self, link: PoseLink) -> None:
+        """Refuse a file of more poses than are read.
+
+        Raises:
+            InputError: If there are more.
+        """
+        if len(link.numbers) > MOST_POSES * link.width:
+            raise InputError(f"'{self.path}' has more than {MOST_POSES:,} poses: split it.")
+
+    def name(self, word: str) -> str:
+        """Make a frame's name of a text that comes from the file.
+
+        Raises:
+            InputError: If it is empty or too long.
+        """
+        if not 0 < len(word.encode()) <= 4096 or "\0" in word:
+            raise InputError(f"'{self.path}' has a name that no frame can have: '{word[:40]}'.")
+        return word
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

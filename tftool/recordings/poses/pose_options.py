@@ -1,0 +1,153 @@
+"""Options for reading pose files: frame names, rate, format, direction, axes of cameras."""
+
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.base.errors import UsageError
+
+AXES: Final = ("opencv", "opengl")
+"""Names of the axes that a camera can have: z forward and y down, or z back and y up."""
+
+
+@dataclass(frozen=True, slots=True)
+class PoseOptions:
+    """Options about how one pose file is read.
+
+    Attributes:
+        frames: Names of its frames, "PARENT:CHILD"; those of the format if None.
+        pose_rate: Poses in a second, for a file without stamps.
+        pose_format: Name of the format; decided by content if None.
+        inverted: Whether the file holds the inverse of what its format usually holds.
+        axes: Axes of the file's cameras, one of `AXES`; those of the format if None.
+        prefix: Name that goes before each frame, with a slash.
+    """
+
+    frames: str | None = None
+    pose_rate: float | None = None
+    pose_format: str | None = None
+    inverted: bool = False
+    axes: str | None = None
+    prefix: str = ""
+
+    def __post_init__(self) -> None:
+        if self.frames is not None:
+            self.pair()
+        if self.pose_rate is not None and not (
+            math.isfinite(self.pose_rate) and 1e-6 <= self.pose_rate <= 1e6
+        ):
+            raise UsageError(f"--pose-rate takes poses in a second, not {self.pose_rate:g}.")
+        if self.axes is not None and self.axes not in AXES:
+            raise UsageError(f"--axes takes {' or '.join(AXES)}, not '{self.axes}'.")
+
+    def pair(self) -> tuple[str, str]:
+        """Return the names of parent and child.
+
+        Raises:
+            UsageError: If they are not two different names with a colon between.
+        """
+        parent, _, child = (self.frames or "").partition(":")
+        if not parent or not child or ":" in child or parent == child:
+            raise UsageError(
+                f"--frames takes two names, such as odom:base_link, not '{self.frames}'."
+            )
+        return parent, child
+
+    def refuse(self, what: str) -> None:
+        """Refuse them for a FROM that is no pose file.
+
+        Args:
+            what: What it is, as the beginning of a sentence.
+
+        Raises:
+            UsageError: If one was given.
+        """
+        given = [
+            f"--{one.name.replace('_', '-')}"
+            for one in fields(self)
+            if getattr(self, one.name) != one.default
+        ]
+        if given:
+            raise UsageError(f"{what}: leave out {', '.join(given)}.")
+
+
+@dataclass(frozen=True, slots=True)
+class ChosenOptions:
+    """Options for all pose files of one question, and for some of them by name.
+
+    Attributes:
+        every: Options for files that have none of their own.
+        by_name: Options by the word that names a file.
+    """
+
+    every: PoseOptions = PoseOptions()
+    by_name: Mapping[str, PoseOptions] = field(default_factory=dict)
+
+
+_CHOSEN: ContextVar[ChosenOptions] = ContextVar("chosen pose options")
+_NONE: Final = ChosenOptions()
+
+
+@contextmanager
+def pose_options(chosen: ChosenOptions) -> Iterator[None]:
+    """Read pose files with these options, in this context.
+
+    A recording is opened at many places by its name alone; each of them reads the same file with
+    the same options.
+    """
+    token = _CHOSEN.set(chosen)
+    try:
+        yield
+    finally:
+        _CHOSEN.reset(token)
+
+
+def options_of(word: str) -> PoseOptions:
+    """Return the options for the file that a word names."""
+    chosen = _CHOSEN.get(_NONE)
+    return chosen.by_name.get(word, chosen.every)
+
+
+def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
+    """Put options together, each for the file it follows.
+
+    An option that follows no file is for every file.
+
+    Args:
+        given: Each option's word before it, its name and its value.
+    """
+    every: dict[str, Any] = {}
+    named: dict[str, dict[str, Any]] = {}
+    for word, name, value in given:
+        is_file = word is not None and names_file(word)
+        (named.setdefault(word or "", {}) if is_file else every)[name] = value
+    return ChosenOptions(
+        PoseOptions(**every),
+        {word: PoseOptions(**{**every, **own}) for word, own in named.items()},
+    )
+
+
+def names_file(word: str) -> bool:
+    """Whether a word names a file, by itself or behind a prefix."""
+    return path_behind_prefix(word)[1] is not None
+
+
+def path_behind_prefix(word: str) -> tuple[str, Path | None]:
+    """Return the prefix and the file of NAME=FILE; no prefix for a file's own name.
+
+    Returns:
+        The prefix, and the file; None where there is no such file.
+    """
+    try:
+        if Path(word).exists():
+            return "", Path(word) if Path(word).is_file() else None
+        name, equals, rest = word.partition("=")
+        if equals and name and "/" not in name and Path(rest).is_file():
+            return name, Path(rest)
+    except (OSError, ValueError):
+        pass
+    return "", None
