@@ -97,3 +97,70 @@ def test_a_flag_of_xml_may_be_any_word_that_yaml_takes_for_one(tftool, tmp_path,
 
     run = tftool("launch", "--simulated", "--for", "1", str(file))
     assert expected in run.err, run.err
+
+
+def test_a_time_source_moves_its_clocks_and_tells_of_jumps(node):
+    import rclpy
+    from builtin_interfaces.msg import Time as TimeMessage
+    from rclpy.clock import ClockChange, JumpThreshold, ROSClock
+    from rclpy.duration import Duration
+    from rclpy.parameter import Parameter
+    from rclpy.time_source import TimeSource
+    from rosgraph_msgs.msg import Clock
+
+    source, clock, told = TimeSource(node=node), ROSClock(), []
+    source.attach_clock(clock)
+    assert not clock.ros_time_is_active
+
+    def register(name, **threshold):
+        limits = {"min_forward": None, "min_backward": None, "on_clock_change": False} | threshold
+        return clock.create_jump_callback(
+            JumpThreshold(**limits),
+            pre_callback=lambda: told.append((name, "before", clock.now().nanoseconds)),
+            post_callback=lambda jump: told.append(
+                (name, jump.clock_change, jump.delta.nanoseconds)
+            ),
+        )
+
+    register("change", on_clock_change=True)
+    forward = register("forward", min_forward=Duration(seconds=2))
+    register("backward", min_backward=Duration(seconds=-2))
+    node.set_parameters([Parameter("use_sim_time", Parameter.Type.BOOL, True)])
+    assert clock.ros_time_is_active
+    assert clock.now().nanoseconds == 0
+    assert [one[:2] for one in told] == [
+        ("change", "before"),
+        ("change", ClockChange.ROS_TIME_ACTIVATED),
+    ]
+
+    told.clear()
+    publisher = node.create_publisher(Clock, "/clock", 1)
+    for second in (5, 6, 3):
+        publisher.publish(Clock(clock=TimeMessage(sec=second)))
+        rclpy.spin_once(node, timeout_sec=1.0)
+        assert clock.now().nanoseconds == second * 10**9
+        forward.unregister()
+    unchanged = ClockChange.ROS_TIME_NO_CHANGE
+    assert told == [
+        ("forward", "before", 0),
+        ("forward", unchanged, 5 * 10**9),
+        ("backward", "before", 6 * 10**9),
+        ("backward", unchanged, -3 * 10**9),
+    ]
+
+    told.clear()
+    node.set_parameters([Parameter("use_sim_time", Parameter.Type.BOOL, False)])
+    assert told[-1][:2] == ("change", ClockChange.ROS_TIME_DEACTIVATED)
+    assert clock.now().nanoseconds >= 1000 * 10**9
+
+
+def test_the_lifespan_of_an_endpoint_is_told_to_the_nanosecond(node):
+    from rclpy.duration import Duration
+    from rclpy.qos import QoSProfile
+    from std_msgs.msg import String
+
+    lifespan = Duration(seconds=20, nanoseconds=9887665)
+    node.create_publisher(String, "words", QoSProfile(depth=1, lifespan=lifespan))
+
+    (info,) = node.get_publishers_info_by_topic("/words")
+    assert info.qos_profile.lifespan == lifespan

@@ -25,11 +25,13 @@ class Timing:
         deadline: At most so long between two messages, nanoseconds; None for any time.
         lease: After how long without a sign of life a publisher counts as dead; None for never.
         is_manual: Whether a message, or asserting it, is a sign of life, and not just to be there.
+        lifespan: After how long a message is of no use, as told to programs; None for never.
     """
 
     deadline: Duration | None = None
     lease: Duration | None = None
     is_manual: bool = False
+    lifespan: Duration | None = None
 
 
 @dataclass(frozen=True, slots=True)

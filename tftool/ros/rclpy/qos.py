@@ -159,6 +159,7 @@ def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
             _limit(profile.deadline),
             _limit(profile.liveliness_lease_duration),
             profile.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC,
+            _limit(profile.lifespan),
         ),
     )
 
@@ -201,6 +202,7 @@ def profile_from(quality: Quality) -> QoSProfile:
     return QoSProfile(
         deadline=Duration(nanoseconds=timing.deadline or 0),
         liveliness_lease_duration=Duration(nanoseconds=timing.lease or 0),
+        lifespan=Duration(nanoseconds=timing.lifespan or 0),
         liveliness=LivelinessPolicy.MANUAL_BY_TOPIC
         if timing.is_manual
         else LivelinessPolicy.SYSTEM_DEFAULT,

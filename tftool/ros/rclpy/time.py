@@ -2,7 +2,8 @@
 
 import asyncio
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from enum import IntEnum
 from typing import Any
 
@@ -201,6 +202,7 @@ class Clock:
             raise TypeError("Clock type must be a ClockType enum")
         self._clock_type = clock_type
         self._program = program.current()
+        self._jump_handles: list[JumpHandle] = []
 
     @property
     def clock_type(self) -> ClockType:
@@ -238,16 +240,20 @@ class Clock:
         return not self._program.interrupted and (context is None or context.ok())
 
     def create_jump_callback(
-        self, threshold: "JumpThreshold", *, pre_callback: Any = None, post_callback: Any = None
+        self,
+        threshold: "JumpThreshold",
+        *,
+        pre_callback: Callable[[], object] | None = None,
+        post_callback: "Callable[[TimeJump], object] | None" = None,
     ) -> "JumpHandle":
-        """Register for jumps in time; this clock never jumps.
+        """Register for jumps in time; only a ROS clock that a time source drives ever jumps.
 
         Raises:
             ValueError: If there is neither of the callbacks.
         """
         if pre_callback is None and post_callback is None:
             raise ValueError("One of pre_callback or post_callback must be callable")
-        return JumpHandle()
+        return JumpHandle(self._jump_handles, threshold, pre_callback, post_callback)
 
     def __repr__(self) -> str:
         return f"Clock(clock_type={self._clock_type.name})"
@@ -303,6 +309,55 @@ class ROSClock(Clock):
 
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
         super().__init__(clock_type=ClockType.ROS_TIME)
+        self._is_overridden: bool | None = None
+        """Whether a time source gives the time; None where none has decided: the world does."""
+        self._override = Time(clock_type=ClockType.ROS_TIME)
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether time is simulated."""
+        return super().ros_time_is_active if self._is_overridden is None else self._is_overridden
+
+    def now(self) -> Time:
+        """Return the present moment, or what the time source last said while it is active."""
+        return self._override if self._is_overridden else super().now()
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        """Follow the time source or the world from now on (called by the time source)."""
+        if enabled is bool(self._is_overridden):
+            self._is_overridden = enabled
+            return
+        change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
+        with self._jumping(TimeJump(change, Duration())):
+            self._is_overridden = enabled
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Set what the clock says while its time source is active.
+
+        Raises:
+            TypeError: If that is no Time.
+        """
+        if not isinstance(time, Time):
+            raise TypeError(
+                f"Time must be specified as rclpy.time.Time. Received type: {type(time)}"
+            )
+        override = Time(nanoseconds=time.nanoseconds, clock_type=ClockType.ROS_TIME)
+        if not self._is_overridden:
+            self._override = override
+            return
+        delta = Duration(nanoseconds=override.nanoseconds - self._override.nanoseconds)
+        with self._jumping(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta)):
+            self._override = override
+
+    @contextmanager
+    def _jumping(self, jump: "TimeJump") -> Iterator[None]:
+        """Call the registered callbacks around the jump that the block makes."""
+        handles = [one for one in self._jump_handles if one.concerns(jump)]
+        for handle in handles:
+            handle.call_before()
+        yield
+        for handle in handles:
+            handle.call_after(jump)
 
 
 class ClockChange(IntEnum):
@@ -344,10 +399,43 @@ class TimeJump:
 
 
 class JumpHandle:
-    """A registration for jumps."""
+    """A registration for jumps of a clock; the newest of its clock is called last."""
+
+    def __init__(
+        self,
+        siblings: "list[JumpHandle]",
+        threshold: JumpThreshold,
+        before: Callable[[], object] | None,
+        after: Callable[[TimeJump], object] | None,
+    ) -> None:
+        self._siblings, self._threshold = siblings, threshold
+        self._before, self._after = before, after
+        siblings.append(self)
+
+    def concerns(self, jump: TimeJump) -> bool:
+        """Whether the jump exceeds the threshold."""
+        least, most = self._threshold.min_forward, self._threshold.min_backward
+        changes = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
+        return (
+            (self._threshold.on_clock_change and jump.clock_change in changes)
+            or (least is not None and jump.delta >= least)
+            or (most is not None and jump.delta <= most)
+        )
+
+    def call_before(self) -> None:
+        """Call back before the clock jumps."""
+        if self._before is not None:
+            self._before()
+
+    def call_after(self, jump: TimeJump) -> None:
+        """Call back once the clock has jumped."""
+        if self._after is not None:
+            self._after(jump)
 
     def unregister(self) -> None:
-        """Nothing to withdraw: no clock here jumps."""
+        """Call back no more."""
+        if self in self._siblings:
+            self._siblings.remove(self)
 
     def __enter__(self) -> "JumpHandle":
         return self

@@ -1,32 +1,94 @@
-"""rclpy.time_source: whose time a node goes by. Here there is one time, the world's."""
+"""rclpy.time_source: gives clocks the time of the topic `/clock`, apart from the world's own time.
+
+A node's own clock follows the world. Programs that make a `TimeSource` themselves, most of them
+tests, decide with a node's parameter `use_sim_time` whether the clocks they attach follow `/clock`.
+"""
 
 from typing import Any
 
-from tftool.ros.rclpy.time import ROSClock
+from tftool.messages.classes import INTERFACES
+from tftool.ros.rclpy.node import Node
+from tftool.ros.rclpy.node_parameters import set_result
+from tftool.ros.rclpy.parameters import Parameter
+from tftool.ros.rclpy.qos import QoSProfile, ReliabilityPolicy
+from tftool.ros.rclpy.time import ClockType, ROSClock, Time
 
 CLOCK_TOPIC = "/clock"
 USE_SIM_TIME_NAME = "use_sim_time"
 
 
 class TimeSource:
-    """Gives its clocks a node's time: all clocks of a world have the same one."""
+    """Gives its clocks the time of `/clock` while its node's `use_sim_time` is true."""
 
     def __init__(self, *, node: Any = None) -> None:
-        self._node = node
+        self._node: Any = None
+        self._clock_sub: Any = None
         self._clocks: list[ROSClock] = []
+        self._last_time_set = Time(clock_type=ClockType.ROS_TIME)
+        self._ros_time_is_active = False
+        if node is not None:
+            self.attach_node(node)
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether the clocks follow `/clock`."""
+        return self._ros_time_is_active
+
+    @ros_time_is_active.setter
+    def ros_time_is_active(self, enabled: bool) -> None:
+        if enabled is self._ros_time_is_active:
+            return
+        self._ros_time_is_active = enabled
+        for clock in self._clocks:
+            clock._set_ros_time_is_active(enabled)
+        if enabled:
+            self._subscribe()
+        else:
+            self._unsubscribe()
+
+    def _subscribe(self) -> None:
+        if self._node is not None and self._clock_sub is None:
+            qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+            kind = INTERFACES.message("rosgraph_msgs/Clock")
+            self._clock_sub = self._node.create_subscription(
+                kind, CLOCK_TOPIC, self.clock_callback, qos
+            )
+
+    def _unsubscribe(self) -> None:
+        if self._node is not None and self._clock_sub is not None:
+            self._node.destroy_subscription(self._clock_sub)
+        self._clock_sub = None
 
     def attach_node(self, node: Any) -> None:
-        """Go by a node's time."""
-        self._node = node
-
-    def detach_node(self) -> None:
-        """Go by no node's time.
+        """Follow a node's parameter `use_sim_time`.
 
         Raises:
-            RuntimeError: If it goes by none.
+            TypeError: If it is no node.
         """
-        if self._node is None:
-            raise RuntimeError("Unable to detach node from time source")
+        if not isinstance(node, Node):
+            raise TypeError("Node must be of type rclpy.node.Node")
+        if self._node is not None:
+            self.detach_node()
+        self._node = node
+        if not node.has_parameter(USE_SIM_TIME_NAME):
+            node.declare_parameter(USE_SIM_TIME_NAME, False)
+        parameter = node.get_parameter(USE_SIM_TIME_NAME)
+        if parameter.type_ is Parameter.Type.BOOL:
+            self.ros_time_is_active = parameter.value
+            if self.ros_time_is_active:
+                self._subscribe()
+        elif parameter.type_ is not Parameter.Type.NOT_SET:
+            node.get_logger().error(
+                f"Invalid type for parameter '{USE_SIM_TIME_NAME}' {parameter.type_!r} "
+                "should be bool"
+            )
+        node.add_on_set_parameters_callback(self._on_parameters)
+
+    def detach_node(self) -> None:
+        """Follow no node; does nothing without one."""
+        if self._node is not None:
+            self._node.remove_on_set_parameters_callback(self._on_parameters)
+        self._unsubscribe()
         self._node = None
 
     def attach_clock(self, clock: Any) -> None:
@@ -37,4 +99,25 @@ class TimeSource:
         """
         if not isinstance(clock, ROSClock):
             raise ValueError("Only clocks with type ROS_TIME can be attached.")
-        self._clocks.append(clock)
+        clock.set_ros_time_override(self._last_time_set)
+        clock._set_ros_time_is_active(self._ros_time_is_active)
+        if clock not in self._clocks:
+            self._clocks.append(clock)
+
+    def clock_callback(self, message: Any) -> None:
+        """Set the attached clocks to the time of a message of `/clock`."""
+        self._last_time_set = Time.from_msg(message.clock)
+        for clock in self._clocks:
+            clock.set_ros_time_override(self._last_time_set)
+
+    def _get_node(self) -> Any:
+        return self._node
+
+    def _on_parameters(self, parameters: list[Parameter]) -> Any:
+        for parameter in parameters:
+            if parameter.name != USE_SIM_TIME_NAME:
+                continue
+            if parameter.type_ is not Parameter.Type.BOOL:
+                return set_result(False, f"{USE_SIM_TIME_NAME} parameter set to no bool")
+            self.ros_time_is_active = parameter.value
+        return set_result(True, "")
