@@ -2,6 +2,8 @@ import json
 
 import pytest
 
+from tests.recordings.writers import SECOND, Sent, numbers, write_mcap
+
 ROBOT = """<robot name="post">
   <link name="foot"/><link name="arm"/><link name="lamp"/>
   <joint name="turn" type="revolute">
@@ -210,3 +212,23 @@ def test_info_of_a_text_file_and_of_a_scenario_by_its_name(tftool, tmp_path):
     assert misused.status == 2
     for result in (unreadable, misused):
         assert "is no recording and no robot description" in result.err
+
+
+@pytest.mark.parametrize("words", [["view", "-o", "page.html"], ["tree"], ["echo", "map", "base"]])
+def test_a_recorded_description_with_elements_of_xacro_is_not_run(
+    tftool, tmp_path, monkeypatch, words
+):
+    monkeypatch.chdir(tmp_path)
+    text = (
+        '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="base"/>'
+        "<xacro:property name='x' value='${open(\"trap\", \"w\")}'/></robot>"
+    )
+    base = ((SECOND, "map", "base", numbers(1)),)
+    sent = [Sent(SECOND, "/robot_description", text=text), Sent(SECOND, "/tf", base)]
+    write_mcap(tmp_path / "run.mcap", sent)
+
+    result = tftool(*words, "run.mcap")
+
+    assert result.status == 3
+    assert "has elements of xacro, which were not expanded" in result.err
+    assert [one.name for one in tmp_path.iterdir()] == ["run.mcap"]

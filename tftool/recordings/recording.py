@@ -53,6 +53,7 @@ from tftool.recordings.joint_state_reader import (
 from tftool.recordings.odometry import implying, joined
 from tftool.recordings.rosbag2.folder import open_found
 from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import UnexpandedXacro
 
 MOST_FRAMES: Final = 1 << 18
 
@@ -284,6 +285,9 @@ class Recording:
         """The robot, by its description: the one that was given, else the one recorded.
 
         What is wrong with a recorded one is told in `oddities`.
+
+        Raises:
+            UnexpandedXacro: If the recorded one has elements of xacro.
         """
         if self._robot is not None:
             return self._robot
@@ -292,6 +296,9 @@ class Recording:
         for topic in description_topics(self.topics):
             try:
                 return read_description(self._readable, topic)
+            except UnexpandedXacro:
+                # Without its links the answer would be that of another robot.
+                raise
             except TftoolError as error:
                 first = str(error).strip().partition("\n")[0]
                 self._oddities[f"'{topic.name}' cannot be read: {first}"] += 1

@@ -130,6 +130,10 @@ def _without_declaration(text: str) -> str:
     return re.sub(r"[^\s]", " ", found.group()) + text[found.end() :]
 
 
+class UnexpandedXacro(InputError):
+    """A description with elements of xacro where a URDF is due; nothing of it is run."""
+
+
 def parse_description(text: str, name: str = "robot_description") -> RobotDescription:
     """Read the text of a URDF.
 
@@ -139,10 +143,10 @@ def parse_description(text: str, name: str = "robot_description") -> RobotDescri
 
     Raises:
         DescriptionError: If it has mistakes; all of them, with line and column.
-        InputError: If it has elements of xacro, which is expanded by whoever publishes it.
+        UnexpandedXacro: If it has elements of xacro, which its publisher has to expand.
     """
     if "<xacro:" in text and is_xacro(text):
-        raise InputError(
+        raise UnexpandedXacro(
             f"'{name}' has elements of xacro, which were not expanded: expand the file that it "
             "comes from (xacro FILE -o robot.urdf)"
         )

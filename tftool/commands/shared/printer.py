@@ -1,9 +1,7 @@
 """Results on stdout, as wide as the terminal or a line each where there is none; and in files."""
 
-import os
 import shutil
 import sys
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,23 +49,19 @@ def write_file(path: Path, content: str | bytes) -> None:
         InputError: If that fails.
         UsageError: If the name is `-`.
     """
-    from tftool.recordings.target import PART, failed, refuse_stdout, remove
+    from tftool.frames.export.trajectory_files import whole_file
+    from tftool.recordings.target import failed, refuse_stdout
 
     refuse_stdout(path)
     data = content if isinstance(content, bytes) else content.encode()
     # A link stays a link: what it names is replaced.
-    there = path.resolve()
-    whole = there.is_file() or not there.exists()
-    part = there.with_name(there.name + PART) if whole else there
+    there = path.resolve() if path.is_symlink() else path
     try:
-        with open(part, "wb", opener=reader_there) as file:
+        if there.is_file() or not there.exists():
+            with whole_file(there, force=True) as file:
+                file.write(data)
+            return
+        with open(path, "wb", opener=reader_there) as file:
             file.write(data)
-        if whole:
-            if there.exists():
-                shutil.copymode(there, part)
-            os.replace(part, there)
     except OSError as error:
-        if whole:
-            with suppress(OSError):
-                remove(part)
         raise failed(path, error) from error
