@@ -21,7 +21,7 @@ from tftool.buffer.history import (
     History,
     Sample,
 )
-from tftool.buffer.native_kernel import Door, usual_by_kernel
+from tftool.buffer.native_kernel import Door, native_first
 from tftool.buffer.path import Path
 from tftool.buffer.requests import NEVER, Callback, Requests
 from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
@@ -90,7 +90,6 @@ def _share(sizes: list[int], room: int) -> int:
     return max(sizes)
 
 
-@usual_by_kernel
 class Buffer(Door):
     """Named frames over time, as tf2 keeps them.
 
@@ -155,6 +154,7 @@ class Buffer(Door):
         kept = "all" if self.cache_time == NO_LIMIT else f"{as_seconds(self.cache_time):g} s"
         return f"<Buffer: {len(self.frames())} frames, keeps {kept}>"
 
+    @native_first
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
         """Remember a sample of a link that moves.
 
@@ -438,6 +438,7 @@ class Buffer(Door):
 
     # Looking up
 
+    @native_first
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Stamp = 0
     ) -> TransformStamped:
@@ -479,6 +480,7 @@ class Buffer(Door):
             assert pose is not None, "a link that answers for its parent answers for its pose"
         return _new(TransformStamped, (moment, target_frame, source_frame, pose))
 
+    @native_first
     def lookup_transform_full(
         self,
         target_frame: str,
@@ -666,6 +668,7 @@ class Buffer(Door):
 
     # Asking whether
 
+    @native_first
     def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
         if type(time) is not int:

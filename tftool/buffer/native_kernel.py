@@ -1,6 +1,6 @@
-"""The native kernel, where it was built: one C file that does what the plain modules say."""
+"""The native kernel, where it was built: one C file that implements the usual cases."""
 
-from typing import TYPE_CHECKING, Final, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
 
 from tftool.base.native import built
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from tftool.buffer.path import Path
     from tftool.buffer.requests import Request
 
-_Class = TypeVar("_Class", bound=type)
+_Method = TypeVar("_Method")
 
 IS_NATIVE: Final[bool] = built("tftool.buffer._kernel", 6) is not None
 """Whether the kernel is used."""
@@ -41,13 +41,21 @@ else:
     from tftool.buffer._kernel import Door
 
 
-def usual_by_kernel(plain: _Class) -> _Class:
-    """Have the kernel's methods do what is usual, and the plain ones of that name all else.
+class _NativeFirst:
+    """A method in a class body, which the class replaces by the kernel's of the same name."""
 
-    The kernel's are inherited from `Door`; it finds a plain one under `_plain_` and its name.
+    def __init__(self, plain: Any) -> None:
+        self._plain = plain
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        setattr(owner, f"_plain_{name}", self._plain)
+        setattr(owner, name, vars(Door)[name])
+
+
+def native_first(plain: _Method) -> _Method:
+    """Decorate a method that the kernel implements for ordinary arguments.
+
+    The kernel calls the decorated method, as `_plain_` and its name, for everything else: a new
+    frame, a refusal, a long chain. Without the kernel it is the method itself.
     """
-    for name in vars(Door).keys() & vars(plain).keys() if IS_NATIVE else ():
-        if not name.startswith("__"):
-            setattr(plain, f"_plain_{name}", vars(plain)[name])
-            delattr(plain, name)
-    return plain
+    return cast(_Method, _NativeFirst(plain)) if IS_NATIVE else plain
