@@ -164,3 +164,43 @@ def test_the_lifespan_of_an_endpoint_is_told_to_the_nanosecond(node):
 
     (info,) = node.get_publishers_info_by_topic("/words")
     assert info.qos_profile.lifespan == lifespan
+
+
+def test_a_sleep_on_a_clock_with_a_time_source_ends_at_its_time_or_with_the_source(
+    tftool, tmp_path
+):
+    file = tmp_path / "sleeps.py"
+    file.write_text(
+        "import threading, time\nimport rclpy\nfrom rclpy.clock import ROSClock\n"
+        "from rclpy.duration import Duration\nfrom rclpy.time import Time\n"
+        "rclpy.init()\nnode = rclpy.create_node('sleeps')\n"
+        "def slept(then):\n    clock, answers = ROSClock(), []\n"
+        "    clock._set_ros_time_is_active(True)\n"
+        "    work = lambda: answers.append(clock.sleep_for(Duration(seconds=10)))\n"
+        "    thread = threading.Thread(target=work)\n    thread.start()\n    time.sleep(20.0)\n"
+        "    assert answers == []\n    then(clock)\n    thread.join()\n"
+        "    node.get_logger().info(f'slept: {answers}')\n"
+        "kind = ROSClock().clock_type\n"
+        "slept(lambda clock: clock.set_ros_time_override(Time(seconds=10, clock_type=kind)))\n"
+        "slept(lambda clock: clock._set_ros_time_is_active(False))\n"
+    )
+
+    run = tftool("run", "--simulated", "--for", "60", str(file))
+    assert "[1020.000000000] [sleeps]: slept: [True]" in run.err
+    assert "[1040.000000000] [sleeps]: slept: [False]" in run.err
+
+
+def test_a_throttle_counts_by_the_clock_that_it_is_given(node):
+    from rclpy.clock import ROSClock
+    from rclpy.time import Time
+
+    clock = ROSClock()
+    clock._set_ros_time_is_active(True)
+
+    def passes(second):
+        clock.set_ros_time_override(Time(seconds=second, clock_type=clock.clock_type))
+        return node.get_logger().info(
+            "word", throttle_duration_sec=2.0, throttle_time_source_type=clock
+        )
+
+    assert [passes(second) for second in range(6)] == [False, False, True, False, True, False]

@@ -177,6 +177,7 @@ class Task(Future):
         executor: Any = None,
     ) -> None:
         super().__init__(executor=executor)
+        self._is_stepping = False
         if inspect.iscoroutine(handler):
             self._coroutine: Coroutine[Any, Any, Any] | None = handler
             self._handler: Callable[[], Any] | None = None
@@ -190,6 +191,7 @@ class Task(Future):
         if self._done or self._cancelled:
             return None
         beneath, _STEPPING.beneath = _STEPPING.beneath, _asyncio_task()
+        self._is_stepping = True
         try:
             if self._coroutine is None and self._handler is not None:
                 value = self._handler()
@@ -204,8 +206,13 @@ class Task(Future):
         except Exception as error:
             self.set_exception(error)
         finally:
+            self._is_stepping = False
             _STEPPING.beneath = beneath
         return None
+
+    def executing(self) -> bool:
+        """Whether a step of it is running now."""
+        return self._is_stepping
 
     def cancel(self) -> None:
         """Give it up; a coroutine is closed."""

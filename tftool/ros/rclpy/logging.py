@@ -91,7 +91,9 @@ class RcutilsLogger:
         frame = _caller_frame()
         wait = 0 if throttle_duration_sec is None else seconds(throttle_duration_sec)
         call = self._called(frame, int(severity), name or self.name, (once, skip_first, wait))
-        if not self.is_enabled_for(severity) or not call.passes(owner.clock.now()):
+        goes_by = throttle_time_source_type
+        now = goes_by.now().nanoseconds if hasattr(goes_by, "now") else owner.clock.now()
+        if not self.is_enabled_for(severity) or not call.passes(now):
             return False
         level = _LEVELS[int(severity)]
         speaker = name or self.name
@@ -153,7 +155,7 @@ class _Call:
         self._left = 1 if once else None
         self._skip = skip_first
         self._throttle = throttle
-        self._last: Stamp | None = None
+        self._last: Stamp = 0
 
     def require(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
         """See that it logs as before.
@@ -171,7 +173,7 @@ class _Call:
     def passes(self, now: Stamp) -> bool:
         """Whether a line may be said now; asked in ROS 2's order, so it counts as there."""
         if self._throttle:
-            if self._last is not None and now < self._last + self._throttle:
+            if now < self._last + self._throttle:
                 return False
             self._last = now
         if self._skip:

@@ -15,6 +15,9 @@ S_TO_NS = NANOSECONDS
 
 _RANGE = 2**63
 
+_FOR_EVER = 10**18
+"""Nanoseconds that no run lasts."""
+
 
 class ClockType(IntEnum):
     """Which clock a time belongs to."""
@@ -222,13 +225,14 @@ class Clock:
         """Block until a moment; False if the program or the context was ended meanwhile."""
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
-        return self._sleep(until.nanoseconds - self._program.clock.now(), context)
+        return self._sleep(until.nanoseconds - self.now().nanoseconds, context)
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
         """Block for a while; False if the program or the context was ended meanwhile."""
         return self._sleep(rel_time.nanoseconds, context)
 
     def _sleep(self, duration: int, context: Any) -> bool:
+        """Block on the world's clock; False where something else ended it."""
         _require_started(context)
         sleep = _Sleep(self._program)
         stop = None if context is None else context.on_change(sleep.end)
@@ -348,6 +352,36 @@ class ROSClock(Clock):
         delta = Duration(nanoseconds=override.nanoseconds - self._override.nanoseconds)
         with self._jumping(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta)):
             self._override = override
+
+    def _sleep(self, duration: int, context: Any) -> bool:
+        """Block until this clock has moved so far; False where its source of time changed."""
+        _require_started(context)
+        until, is_changed = super().now().nanoseconds + duration, False
+        if self._is_overridden:
+            until = self._override.nanoseconds + duration
+        sleep = _Sleep(self._program)
+
+        def is_over() -> bool:
+            reached = self._is_overridden and self._override.nanoseconds >= until
+            return bool(is_changed or reached or (context is not None and not context.ok()))
+
+        def on_jump(jump: TimeJump) -> None:
+            nonlocal is_changed
+            is_changed = is_changed or jump.clock_change is not ClockChange.ROS_TIME_NO_CHANGE
+            if is_over():
+                sleep.end()
+
+        threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
+        stop = None if context is None else context.on_change(sleep.end)
+        try:
+            with self.create_jump_callback(threshold, post_callback=on_jump):
+                # Only a jump ends a sleep while a time source gives the time.
+                sleep.start(_FOR_EVER if self._is_overridden else duration, is_over)
+        finally:
+            if stop is not None:
+                stop()
+        is_alive = not self._program.interrupted and (context is None or context.ok())
+        return is_alive and not is_changed
 
     @contextmanager
     def _jumping(self, jump: "TimeJump") -> Iterator[None]:
