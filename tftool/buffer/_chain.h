@@ -90,7 +90,7 @@ static ptrdiff_t find(const Edge *edge, int64_t time, ptrdiff_t at) {
 /* Fetch both neighbours of each moment, and how far it lies between them: NaN where the link has
    no data for it, which makes all of the pose NaN, and of what that is chained with. */
 INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
-                  double *second, double *share, ptrdiff_t *places) {
+                  double *second, double *fraction, ptrdiff_t *places) {
     const Record *records = edge->records;
     const ptrdiff_t last = edge->last;
     for (int i = 0; i < n; i++)
@@ -111,8 +111,8 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
             at = time == edge->oldest && time != edge->newest ? 0 : last;
         const Record *here = records + at, *next = here + (at < last);
         const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
-        const double way = (double)((uint64_t)time - (uint64_t)here->stamp);
-        share[i] = length > 0.0 ? way / length : way > 0.0 ? NAN : 0.0;
+        const double since = (double)((uint64_t)time - (uint64_t)here->stamp);
+        fraction[i] = length > 0.0 ? since / length : since > 0.0 ? NAN : 0.0;
         for (int k = 0; k < 7; k++) {
             first[k * width + i] = here->pose[k];
             second[k * width + i] = next->pose[k];
@@ -130,7 +130,7 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
    The whole is a product of terms that are all positive:
    f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
    Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
-INLINE double bend(double f, double u) {
+INLINE double slerp_weight(double f, double u) {
     double sum = 1.0, more = 0.0;
     const double less = u * f * f;
     for (int i = TERMS; i > 0; i--) {
@@ -141,9 +141,10 @@ INLINE double bend(double f, double u) {
     return f * more;
 }
 
-/* The poses on the way from `a` to `b`, to be written to `out`. */
-INLINE void interpolate(const double *a, const double *b, const double *share, int n, int width,
-                        double *out, double *near, double *sign, double *keep, double *take) {
+/* Write to `out` the poses at `fraction` of the arc from `a` to `b`. */
+INLINE void interpolate(const double *a, const double *b, const double *fraction, int n, int width,
+                        double *out, double *near, double *sign, double *first_weight,
+                        double *second_weight) {
     int longest = 0;
     for (int i = 0; i < n; i++) {
         const double *first = a + 3 * width + i, *second = b + 3 * width + i;
@@ -154,25 +155,26 @@ INLINE void interpolate(const double *a, const double *b, const double *share, i
         longest += 1.0 - near[i] > SHORT_ARC;
     }
     for (int i = 0; i < n; i++) {
-        keep[i] = bend(1.0 - share[i], 1.0 - near[i]);
-        take[i] = sign[i] * bend(share[i], 1.0 - near[i]);
+        first_weight[i] = slerp_weight(1.0 - fraction[i], 1.0 - near[i]);
+        second_weight[i] = sign[i] * slerp_weight(fraction[i], 1.0 - near[i]);
     }
     for (int k = 0; k < 7; k++)
         for (int i = 0; i < n; i++) {
-            /* Where a sample is met it is taken as it is: no way leads to infinity. Between equals
-               the rotation stays to the last bit. */
+            /* A sample that is met is taken unchanged: no weight of 0 times infinity. Between equal
+               rotations the answer is theirs to the last bit. */
             const double here = a[k * width + i], there = b[k * width + i];
-            const double chord = here + share[i] * ((k < 3 ? there : sign[i] * there) - here);
-            const double arc = k < 3 ? chord : chord + (keep[i] * here + take[i] * there);
-            out[k * width + i] = share[i] == 0.0 ? here : arc;
+            const double chord = here + fraction[i] * ((k < 3 ? there : sign[i] * there) - here);
+            const double weighted = first_weight[i] * here + second_weight[i] * there;
+            const double arc = k < 3 ? chord : chord + weighted;
+            out[k * width + i] = fraction[i] == 0.0 ? here : arc;
         }
     for (int i = 0; longest > 0 && i < n; i++)
-        if (1.0 - near[i] > SHORT_ARC && share[i] > 0.0) {
+        if (1.0 - near[i] > SHORT_ARC && fraction[i] > 0.0) {
             const double angle = acos(near[i]), sine = sin(angle);
-            const double kept = sin((1.0 - share[i]) * angle) / sine;
-            const double taken = sign[i] * (sin(share[i] * angle) / sine);
+            const double weight = sin((1.0 - fraction[i]) * angle) / sine;
+            const double taken = sign[i] * (sin(fraction[i] * angle) / sine);
             for (int k = 3; k < 7; k++)
-                out[k * width + i] = kept * a[k * width + i] + taken * b[k * width + i];
+                out[k * width + i] = weight * a[k * width + i] + taken * b[k * width + i];
         }
 }
 
@@ -204,7 +206,7 @@ INLINE void compose(const double *outer, double *inner, int n, int width) {
 }
 
 /* `second` as seen from `first`, in place of the former: turned back, the difference of both. */
-INLINE void between(const double *first, double *second, int n, int width) {
+INLINE void relative(const double *first, double *second, int n, int width) {
     for (int i = 0; i < n; i++) {
         const double *o = first + i;
         for (int k = 0; k < 3; k++)
@@ -222,7 +224,7 @@ INLINE void canonical(double *q, int width) {
 
 /* Of length one, as samples are, and of tf2's sign: `quaternions.unit`, then `canonical`, of what
    unit quaternions were chained to. */
-INLINE void settle(double *turn, int n, int width) {
+INLINE void normalise(double *turn, int n, int width) {
     for (int i = 0; i < n; i++) {
         double *q = turn + i;
         const double square = square_of(q, width);
@@ -235,24 +237,25 @@ INLINE void settle(double *turn, int n, int width) {
 
 /* Memory that a solution works in, owned by the caller: each array has room for `width` moments.
    One moment needs some 300 bytes of stack, a block 21 KB: lookups must also succeed in a
-   thread with 64 KB. Separate local arrays, so that the compiler knows that none overlaps another. */
+   thread with 64 KB. Separate local arrays, so that the compiler knows that none
+   overlaps another. */
 typedef struct {
     double *first, *second, *step, *other;      /* 7 numbers a moment. */
-    double *share, *near, *sign, *keep, *take;  /* 1 number a moment. */
+    double *fraction, *near, *sign, *first_weight, *second_weight;  /* 1 number a moment. */
     ptrdiff_t *places;
 } Workspace;
 
 /* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
-INLINE void climb(const Edge *edges, ptrdiff_t count, const int64_t *times, int n, int width,
-                  double *pose, const Workspace *work) {
+INLINE void compose_links(const Edge *edges, ptrdiff_t count, const int64_t *times, int n,
+                          int width, double *pose, const Workspace *work) {
     double *const step = work->step;
     for (ptrdiff_t e = 0; e < count || e == 0; e++) {
         double *out = e > 0 ? step : pose;
         if (count > 0 && edges[e].records != NULL) {
-            fetch(&edges[e], times, n, width, work->first, work->second, work->share,
+            fetch(&edges[e], times, n, width, work->first, work->second, work->fraction,
                   work->places);
-            interpolate(work->first, work->second, work->share, n, width, out, work->near,
-                        work->sign, work->keep, work->take);
+            interpolate(work->first, work->second, work->fraction, n, width, out, work->near,
+                        work->sign, work->first_weight, work->second_weight);
         }
         else
             for (int k = 0; k < 7; k++)
@@ -263,46 +266,50 @@ INLINE void climb(const Edge *edges, ptrdiff_t count, const int64_t *times, int 
     }
 }
 
-/* Ways ------------------------------------------------------------------- */
+/* Chains ------------------------------------------------------------------- */
 
 /* The links from source upward, then those from target upward, made ready. The caller owns the
    edges. */
 typedef struct {
     Edge *edges;
     ptrdiff_t ups, count;
-} Way;
+} Chain;
 
 /* Poses of source in target, or NaN throughout: `Path.solve`. */
-INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose,
+INLINE void solve_chain(const Chain *chain, const int64_t *times, int n, int width, double *pose,
                       const Workspace *work) {
-    climb(way->edges, way->ups, times, n, width, pose, work);
-    if (way->count > way->ups) {
-        climb(way->edges + way->ups, way->count - way->ups, times, n, width, work->other, work);
-        between(work->other, pose, n, width);
+    compose_links(chain->edges, chain->ups, times, n, width, pose, work);
+    if (chain->count > chain->ups) {
+        compose_links(chain->edges + chain->ups, chain->count - chain->ups, times, n, width,
+                      work->other, work);
+        relative(work->other, pose, n, width);
     }
-    settle(pose + 3 * width, n, width);
+    normalise(pose + 3 * width, n, width);
 }
 
 /* The pose of source in target at one moment, or NaN throughout. */
-INLINE void solve_one(const Way *way, int64_t time, double *pose) {
-    double first[7], second[7], step[7], other[7], share[1], near[1], sign[1], keep[1], take[1];
+INLINE void solve_one(const Chain *chain, int64_t time, double *pose) {
+    double first[7], second[7], step[7], other[7], fraction[1], near[1];
+    double sign[1], first_weight[1], second_weight[1];
     ptrdiff_t places[1];
-    const Workspace work = {first, second, step, other, share, near, sign, keep, take, places};
-    solve_way(way, &time, 1, 1, pose, &work);
+    const Workspace work = {first, second, step, other, fraction, near, sign, first_weight,
+                            second_weight, places};
+    solve_chain(chain, &time, 1, 1, pose, &work);
 }
 
 /* Poses of source in target for so many moments, block by block, or NaN where `valid` becomes 0.
    Returns how many these are. */
-WIDE static ptrdiff_t solve_rows(const Way *way, ptrdiff_t rows, const int64_t *times,
+WIDE static ptrdiff_t solve_rows(const Chain *chain, ptrdiff_t rows, const int64_t *times,
                                   double *places, double *turns, unsigned char *valid) {
     ptrdiff_t missing = 0;
     Rows pose, first, second, step, other;
-    double share[BLOCK], near[BLOCK], sign[BLOCK], keep[BLOCK], take[BLOCK];
-    ptrdiff_t spots[BLOCK];
-    const Workspace work = {first, second, step, other, share, near, sign, keep, take, spots};
+    double fraction[BLOCK], near[BLOCK], sign[BLOCK], first_weight[BLOCK], second_weight[BLOCK];
+    ptrdiff_t indices[BLOCK];
+    const Workspace work = {first, second, step, other, fraction, near, sign, first_weight,
+                            second_weight, indices};
     for (ptrdiff_t start = 0; start < rows; start += BLOCK) {
         const int n = rows - start < BLOCK ? (int)(rows - start) : BLOCK;
-        solve_way(way, times + start, n, BLOCK, pose, &work);
+        solve_chain(chain, times + start, n, BLOCK, pose, &work);
         const double *w = pose + 6 * BLOCK;
         for (int i = 0; i < n; i++)
             valid[start + i] = (times[start + i] != 0) & (w[i] == w[i]);

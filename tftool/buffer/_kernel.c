@@ -119,32 +119,33 @@ static int read_link(const Link *link, Edge *edge, Py_buffer *view) {
     return 1;
 }
 
-/* So many links a way has at most; a longer one is left to Python. */
+/* Links of the longest chain solved here; Python solves longer ones. */
 #define MOST_LINKS 128
 
 /* So many of them lie on the stack; room for more is allocated. */
 #define FEW_LINKS 16
 
-/* A way, and the views that own the records of its links until `close_way`. */
+/* A chain, and the views that own the records of its links until `close_chain`. */
 typedef struct {
-    Way way;
+    Chain chain;
     Py_buffer *views;
-    void *more; /* Memory for edges and views, where they are many; freed by `close_way`. */
+    void *more; /* Memory for edges and views, where they are many; freed by `close_chain`. */
     Edge few_edges[FEW_LINKS];
     Py_buffer few_views[FEW_LINKS];
-} Held;
+} OpenChain;
 
 /* Make the links of two tuples ready, to be closed in any case; `time` is when they are read
    first: 0 becomes the newest moment for which every moving link has data, as in `Path.latest`.
    Returns whether all are plain; never sets an error. */
-static int open_way(Held *held, PyTypeObject *fields, PyObject *up, PyObject *down, int64_t *time) {
-    Way *way = &held->way;
+static int open_chain(OpenChain *held, PyTypeObject *fields, PyObject *up, PyObject *down,
+                      int64_t *time) {
+    Chain *chain = &held->chain;
     int64_t latest = 0;
     const Py_ssize_t ups = PyTuple_Size(up), total = ups + PyTuple_Size(down);
     PyTypeObject *known = fields;
-    way->count = 0;
-    way->ups = ups;
-    way->edges = held->few_edges;
+    chain->count = 0;
+    chain->ups = ups;
+    chain->edges = held->few_edges;
     held->views = held->few_views;
     held->more = NULL;
     if (total > MOST_LINKS)
@@ -153,32 +154,32 @@ static int open_way(Held *held, PyTypeObject *fields, PyObject *up, PyObject *do
         held->more = PyMem_Malloc((size_t)total * (sizeof(Edge) + sizeof(Py_buffer)));
         if (held->more == NULL)
             return 0;
-        way->edges = held->more;
-        held->views = (Py_buffer *)(way->edges + total);
+        chain->edges = held->more;
+        held->views = (Py_buffer *)(chain->edges + total);
     }
     for (Py_ssize_t i = 0; i < total; i++) {
         PyObject *link = i < ups ? PyTuple_GetItem(up, i) : PyTuple_GetItem(down, i - ups);
         if (Py_TYPE(link) != known && !PyObject_TypeCheck(link, fields))
             return 0;
         known = Py_TYPE(link);
-        if (!read_link((const Link *)link, &way->edges[i], &held->views[i]))
+        if (!read_link((const Link *)link, &chain->edges[i], &held->views[i]))
             return 0;
-        way->count++;
+        chain->count++;
         const int64_t newest = ((const Link *)link)->newest_stamp; /* 0 if it never moves. */
         if (newest != 0 && (newest < latest || latest == 0))
             latest = newest;
         /* Memory brings what is read first while the other links are made ready. */
-        if (way->edges[i].records != NULL)
-            way->edges[i].here = aim(&way->edges[i], *time != 0 ? *time : newest);
+        if (chain->edges[i].records != NULL)
+            chain->edges[i].here = aim(&chain->edges[i], *time != 0 ? *time : newest);
     }
     *time = *time != 0 ? *time : latest;
     return 1;
 }
 
 /* Let go of the records of the links that are ready. */
-static void close_way(Held *held) {
-    for (Py_ssize_t i = 0; i < held->way.count; i++)
-        if (held->way.edges[i].records != NULL)
+static void close_chain(OpenChain *held) {
+    for (Py_ssize_t i = 0; i < held->chain.count; i++)
+        if (held->chain.edges[i].records != NULL)
             PyBuffer_Release(&held->views[i]);
     PyMem_Free(held->more);
 }
@@ -255,24 +256,24 @@ static PyObject *answer(PyObject *made, const double *pose) {
     return made;
 }
 
-/* The pose of source in target by a path that is kept, and the moment it holds for in place of 0;
+/* The pose of source in target by a cached path, and the moment it holds for in place of 0;
    an answer is prepared on the way if one is wanted. Returns 0 if that is not plain; never sets an
    error. */
 static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
                       int64_t *time, double *pose, PyObject **made) {
     PyObject *of_target = value_of(door->_paths, target), *up, *down;
     PyObject *path = value_of(of_target, source);
-    Held held;
+    OpenChain held;
     int is_open = 0;
     if (is_tuple(path, 3) && PyTuple_Check(up = PyTuple_GetItem(path, 0))
         && PyTuple_Check(down = PyTuple_GetItem(path, 1))) {
         /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
            which drops the path from the buffer: this reference to it is ours. */
-        is_open = open_way(&held, types->fields, up, down, time)
+        is_open = open_chain(&held, types->fields, up, down, time)
             && (made == NULL || (*made = prepare(types, *time, target, source)) != NULL);
         if (is_open)
-            solve_one(&held.way, *time, pose);
-        close_way(&held);
+            solve_one(&held.chain, *time, pose);
+        close_chain(&held);
     }
     Py_XDECREF(path);
     Py_XDECREF(of_target);
@@ -351,7 +352,7 @@ METHOD(lookup_transform_full) {
         && !same_text(args[0], args[2]) && solve_leg(buffer, types, args[4], args[2], &there, inner)
         && solve_leg(buffer, types, args[0], args[4], &here, outer)) {
         compose(outer, inner, 1, 1);
-        settle(inner + 3, 1, 1);
+        normalise(inner + 3, 1, 1);
         if ((made = prepare(types, here, args[0], args[2])) != NULL)
             return answer(made, inner);
     }
@@ -389,7 +390,8 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     if (link->records == NULL || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
         || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
-    /* Nothing below runs Python code before the records are released: what holds here holds there. */
+    /* Nothing below runs Python code before the records are released: these facts still hold
+       there. */
     if (link->origins != Py_None || link->origin != origin || link->limit < 0
         || is_full != (link->start > SLACK + link->count / SLACK_PART)) {
         PyBuffer_Release(&view);
@@ -499,7 +501,7 @@ static PyObject *solve(PyObject *module, PyObject *args) {
     PyObject *up, *down, *result = NULL;
     Py_ssize_t missing = -1;
     int64_t first = 0;
-    Held held;
+    OpenChain held;
     if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &up, &PyTuple_Type, &down,
                           &views[0], &views[1], &views[2], &views[3]))
         return NULL;
@@ -512,13 +514,13 @@ static PyObject *solve(PyObject *module, PyObject *args) {
         PyErr_SetString(PyExc_ValueError, "moments, translations, rotations and valid are "
             "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
     else {
-        if (open_way(&held, types->fields, up, down, &first)) {
+        if (open_chain(&held, types->fields, up, down, &first)) {
             Py_BEGIN_ALLOW_THREADS
-            missing = solve_rows(&held.way, rows, views[0].buf, views[1].buf, views[2].buf,
+            missing = solve_rows(&held.chain, rows, views[0].buf, views[1].buf, views[2].buf,
                                  views[3].buf);
             Py_END_ALLOW_THREADS
         }
-        close_way(&held);
+        close_chain(&held);
         result = missing < 0 ? Py_NewRef(Py_None) : PyLong_FromSsize_t(missing);
     }
     for (int i = 0; i < 4; i++)

@@ -1,9 +1,9 @@
-/* What samples a history keeps as they are: for the kernel, and for the scan that writes them.
+/* Which samples a history stores unchanged: for the kernel, and for the scan that writes them.
 
    Its twin is `batch.insert.adopt`. */
 
-#ifndef TFTOOL_KEPT_H
-#define TFTOOL_KEPT_H
+#ifndef TFTOOL_PATH_H
+#define TFTOOL_PATH_H
 
 #include <float.h>
 #include <math.h>
@@ -24,8 +24,9 @@ static inline double square_of(const double *q, int width) {
         + q[3 * width] * q[3 * width];
 }
 
-/* Whether a pose, x y z and x y z w, is kept as it is: finite, and a unit quaternion of tf2's sign. */
-static inline int is_kept(const double *n) {
+/* Whether a pose, x y z and x y z w, is stored as it is: finite, with a unit quaternion whose sign
+   is tf2's. */
+static inline int is_normalised(const double *n) {
     const double *turn = n + 3, square = square_of(turn, 1);
     /* Where one of the four is no number, or infinite, neither is their square's sum near 1. */
     return fabs(n[0]) <= DBL_MAX && fabs(n[1]) <= DBL_MAX && fabs(n[2]) <= DBL_MAX

@@ -296,7 +296,7 @@ static inline int is_written(Pairs *self, const uint8_t *bytes, const Found *fou
     memcpy(record, &stamp, sizeof stamp);
     memcpy(record + 8, pose, sizeof pose);
     memcpy((char *)target->messages.buf + 4 * row, &message, sizeof message);
-    if (state[KEPT] == row && is_kept(pose) && (row == 0 || stamp > i64_at(record - RECORD, 0)))
+    if (state[KEPT] == row && is_normalised(pose) && (row == 0 || stamp > i64_at(record - RECORD, 0)))
         state[KEPT] = row + 1;
     if (message < state[LAST])
         state[ORDERED] = 0;
