@@ -164,6 +164,28 @@ def test_the_lifespan_of_an_endpoint_is_told_to_the_nanosecond(node):
 
     (info,) = node.get_publishers_info_by_topic("/words")
     assert info.qos_profile.lifespan == lifespan
+    assert info.qos_profile.liveliness.name == "AUTOMATIC"
+
+
+def test_a_node_names_the_executor_that_took_it_whatever_its_class(node):
+    class Own:
+        def __init__(self, takes):
+            self.takes, self.nodes = takes, []
+
+        def add_node(self, node):
+            self.nodes.append(node)
+            return self.takes
+
+        def remove_node(self, node):
+            self.nodes.remove(node)
+
+    first, refusing = Own(True), Own(False)
+    node.executor = first
+    assert (node.executor, first.nodes) == (first, [node])
+    node.executor = refusing
+    assert (node.executor, first.nodes) == (None, [])
+    node.executor = None
+    assert node.executor is None
 
 
 def test_a_sleep_on_a_clock_with_a_time_source_ends_at_its_time_or_with_the_source(

@@ -132,8 +132,10 @@ class Node(NodeGraph, NodeParameters):
             return
         if before is not None:
             before.remove_node(self)
-        if executor is not None:
-            executor.add_node(self)
+        # An executor of a program's own may not know that it serves the node from now on.
+        self._tftool.executor = (
+            executor if executor is not None and executor.add_node(self) else None
+        )
 
     @property
     def default_callback_group(self) -> CallbackGroup:

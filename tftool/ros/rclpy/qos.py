@@ -196,6 +196,14 @@ _UNFIT = {
 }
 
 
+def _liveliness(timing: Timing | None) -> LivelinessPolicy:
+    """Return the policy of an endpoint; the default of the system where it is not known."""
+    if timing is None:
+        return LivelinessPolicy.SYSTEM_DEFAULT
+    manual = timing.is_manual
+    return LivelinessPolicy.MANUAL_BY_TOPIC if manual else LivelinessPolicy.AUTOMATIC
+
+
 def profile_from(quality: Quality) -> QoSProfile:
     """The profile of an endpoint somewhere, as far as it is known."""
     timing = quality.timing or Timing()
@@ -203,9 +211,7 @@ def profile_from(quality: Quality) -> QoSProfile:
         deadline=Duration(nanoseconds=timing.deadline or 0),
         liveliness_lease_duration=Duration(nanoseconds=timing.lease or 0),
         lifespan=Duration(nanoseconds=timing.lifespan or 0),
-        liveliness=LivelinessPolicy.MANUAL_BY_TOPIC
-        if timing.is_manual
-        else LivelinessPolicy.SYSTEM_DEFAULT,
+        liveliness=_liveliness(quality.timing),
         depth=quality.depth,
         history=HistoryPolicy.KEEP_ALL if quality.keeps_all else HistoryPolicy.KEEP_LAST,
         reliability=ReliabilityPolicy.RELIABLE
