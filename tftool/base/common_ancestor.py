@@ -5,7 +5,7 @@ from typing import Protocol, TypeVar
 
 
 class Above(Protocol):
-    """What leads from a frame to its parent."""
+    """Edge from a frame to its parent."""
 
     @property
     def parent(self) -> str:

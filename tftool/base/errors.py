@@ -113,7 +113,7 @@ def showable(text: str) -> str:
 
 
 def _cells(char: str) -> int:
-    """How many columns of a terminal a character takes."""
+    """Return the columns of a terminal that a character takes."""
     if unicodedata.combining(char):
         return 0
     return 2 if unicodedata.east_asian_width(char) in "WF" else 1
@@ -218,7 +218,7 @@ class TransformException(TftoolError):
 
     @property
     def remedy(self) -> str:
-        """What is wrong in our words, by how much, and what to do; may be empty."""
+        """Return the fault in our words, by how much, and what to do; may be empty."""
         return ""
 
 
@@ -338,7 +338,7 @@ class TimeoutException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """What the last refusal has to say."""
+        """Return the remedy of the last refusal."""
         return "" if self.refusal is None else self.refusal.remedy
 
 
@@ -368,7 +368,7 @@ class ExtrapolationException(TransformException):
 
     @property
     def missed(self) -> Duration:
-        """How far the moment asked for is from the stored one, in nanoseconds."""
+        """Return the distance of the moment asked for from the stored one, in nanoseconds."""
         return abs(self.requested - self.available)
 
     def _by(self) -> str:
@@ -434,7 +434,7 @@ class LinkError(InputError):
 
 
 def without_frames(given: object) -> TypeError:
-    """What to raise where a recording or a buffer is wanted, and something else was given."""
+    """Return the error for something given where a recording or a buffer is wanted."""
     hint = ""
     if isinstance(given, str | os.PathLike):
         hint = f": tftool.open_recording({os.fspath(given)!r}) opens one"

@@ -54,7 +54,7 @@ def open_named(path: Path) -> BinaryIO:
 
 
 def read_named(path: Path) -> bytes:
-    """All of a file, or of what comes through a pipe.
+    """Read all of a file, or all that comes through a pipe.
 
     Raises:
         OSError: As of `open_named`.
@@ -64,7 +64,7 @@ def read_named(path: Path) -> bytes:
 
 
 def read_named_text(path: Path) -> str:
-    """The same as UTF-8 text, whose lines end as Python's do.
+    """Read all of a file or pipe as UTF-8 text, with Python's line ends.
 
     Raises:
         OSError: As of `open_named`.

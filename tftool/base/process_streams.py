@@ -1,4 +1,4 @@
-"""The streams of the process: any text can be written to them, and what goes wrong says so."""
+"""Streams of the process: any text can be written to them, and failures are reported."""
 
 import codecs
 import errno
@@ -82,6 +82,6 @@ def has_no_reader() -> bool:
 
 
 def forget_output() -> None:
-    """Let what is still buffered for stdout go nowhere."""
+    """Discard what is still buffered for stdout."""
     with suppress(OSError, ValueError):  # a stdout that is no file has no number
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,4 +1,4 @@
-"""What was judged, and what came of it: one report for scenarios, comparisons and checks."""
+"""Judgements and their outcome: one report for scenarios, comparisons and checks."""
 
 from dataclasses import dataclass
 
@@ -26,7 +26,7 @@ class Judgement:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What came of everything that was looked at in one place.
+    """Outcome of all judgements made in one place.
 
     Attributes:
         name: What was looked at: a scenario's name.

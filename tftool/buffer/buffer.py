@@ -80,7 +80,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """How many samples each link may have, for all of them to have room; at least two."""
+    """Return the samples each link may have for all of them to have room; at least two."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:
@@ -215,7 +215,7 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Set what is new, unusual or static: every check, each with its own line in the log."""
+        """Set a new, unusual or static sample: every check, each with its own line in the log."""
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
@@ -422,7 +422,7 @@ class Buffer(Door):
         self._solver.drop_paths()
 
     def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
-        """Have `callback` called after each accepted sample; call what is returned to stop.
+        """Have `callback` called after each accepted sample; call the returned function to stop.
 
         What it raises is reported under the name of its `owner`; the sample stays, and the
         code that set it goes on.
@@ -489,7 +489,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> TransformStamped:
-        """Where source was at its time, in target as target is at its own time.
+        """Return source's pose at its time, in target as target is at its own time.
 
         Both are looked up against `fixed_frame`, which is taken not to move in between.
 
@@ -614,7 +614,7 @@ class Buffer(Door):
     def lookup_velocity(
         self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
     ) -> velocity.Velocity:
-        """How `tracking_frame` moves in `observation_frame`, by tf2's formula.
+        """Return the velocity of `tracking_frame` in `observation_frame`, by tf2's formula.
 
         See `velocity.full` for what tf2's numbers mean, and `lookup_twist` for plain ones.
         """
@@ -639,7 +639,7 @@ class Buffer(Door):
         time: Stamp,
         interval: Duration,
     ) -> velocity.Velocity:
-        """How `tracking_frame` moves in `observation_frame`, told in `reference_frame`.
+        """Return `tracking_frame`'s velocity in `observation_frame`, given in `reference_frame`.
 
         tf2's formula to the letter; see `velocity.full`.
         """
@@ -693,7 +693,7 @@ class Buffer(Door):
         )
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
-        """Why `can_transform` says no, in tf2's words; empty if it says yes."""
+        """Return why `can_transform` says no, in tf2's words; empty if it says yes."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         reason = self._solver.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
@@ -706,7 +706,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> str:
-        """Why `can_transform_full` says no, in tf2's words; empty if it says yes."""
+        """Return why `can_transform_full` says no, in tf2's words; empty if it says yes."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         fixed_frame = tree.plain(fixed_frame)
         for frame, argument in (
@@ -814,7 +814,7 @@ class Buffer(Door):
         return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
 
     def parent(self, frame: str, time: Stamp = 0) -> str | None:
-        """What a frame hung from at a moment; None for a root, and where there is no data.
+        """Return a frame's parent at a moment; None for a root, and where there is no data.
 
         Raises:
             TypeError: If the moment is no whole number of nanoseconds, or the name no text.
@@ -836,7 +836,7 @@ class Buffer(Door):
         return {self._tree.frames[one].name for one in above}
 
     def rivals(self, frame: str) -> tuple[str, ...]:
-        """Who sends a frame's transforms in turns with others; empty where only one does.
+        """Return the senders that publish a frame's transforms in turns; empty where only one does.
 
         One who took over from another once is no rival.
         """

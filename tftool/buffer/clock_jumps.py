@@ -1,4 +1,4 @@
-"""When a clock falls back, what was remembered is of another time."""
+"""Jumps of a clock, after which a buffer's samples belong to another time."""
 
 from collections.abc import Callable
 

@@ -59,7 +59,7 @@ def plain(name: str) -> str:
 
 
 def fault(name: str) -> str:
-    """Why a name can never be asked for, in tf2's words; empty if it can.
+    """Return why a name can never be asked for, in tf2's words; empty if it can.
 
     Raises:
         TypeError: If it is not a string.
@@ -112,7 +112,7 @@ which the native kernel reads as well: see `native`.
 
 
 class Walk:
-    """How a question about two frames went, by parents alone.
+    """Course of a question about two frames, by parents alone.
 
     Attributes:
         ended: ARRIVED, UNCONNECTED, REFUSED or LOOP.

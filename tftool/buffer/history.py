@@ -1,4 +1,4 @@
-"""What joins a child to its parent over time: a link that never changes, and one that moves.
+"""Links of a child to its parent over time: one that never changes, and one that moves.
 
 How a moving link's samples lie in memory, which the batch path and `Buffer.samples` read too:
 
@@ -99,7 +99,7 @@ LONGEST: Final = 1.0 + quaternions.ROUNDING
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Fields:
-        """What either kind of link keeps; natively the same, where C code can read it."""
+        """Fields of either kind of link; natively the same, where C code can read it."""
 
         __slots__ = (
             "_newest",
@@ -291,7 +291,7 @@ class History(Fields):
         return self._stamp(self.index(time)) if time > self.oldest_stamp else self.oldest_stamp
 
     def refusal(self, time: Stamp) -> Refusal:
-        """Why there is no pose at that moment, and the stamp nearest to it."""
+        """Return why there is no pose at that moment, and the stamp nearest to it."""
         if len(self) <= 1:
             return NO_DATA, self.newest_stamp
         if time > self.newest_stamp:
@@ -350,7 +350,7 @@ class History(Fields):
         return self.parent if self.origins is None else self.origins[index] & PARENT_MASK
 
     def _after(self, time: Stamp) -> int:
-        """Where the first sample after a moment lies; behind the last one if there is none."""
+        """Return the index of the first sample after a moment; the end if there is none."""
         if time < self.oldest_stamp:
             return self.start
         if time < self.newest_stamp:
@@ -358,7 +358,7 @@ class History(Fields):
         return self.count
 
     def index(self, time: Stamp) -> int:
-        """Where the last sample at or before `time` lies; oldest <= time < newest.
+        """Return the index of the last sample at or before `time`; oldest <= time < newest.
 
         Guess by the mean rate, correct the guess once, and search only when that fails.
         """
@@ -388,7 +388,7 @@ class History(Fields):
     # Inserting
 
     def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = False) -> int:
-        """Prune what is too old by now, then remember a sample.
+        """Prune samples that are too old by now, then insert one.
 
         Args:
             stamp: Nanoseconds.
@@ -658,7 +658,7 @@ class History(Fields):
         return True
 
     def _find_newest_parent_start(self) -> int:
-        """Where the newest samples that share a parent begin."""
+        """Return the index of the oldest of the newest samples that share a parent."""
         if self.origins is None:
             return self.start
         first = self.count - 1

@@ -21,7 +21,7 @@ BUILD: Final = "native" if IS_NATIVE else "pure Python"
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Door:
-        """What a buffer's methods read first; natively the same, where C code can read it.
+        """Fields that a buffer's methods read first; natively the same, where C code can read it.
 
         Attributes:
             _paths: The solver's.

@@ -82,7 +82,7 @@ def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
 
 
 def folded(links: Iterable[Link]) -> tuple[Link, ...]:
-    """The same links with each run of static ones made one."""
+    """Return the links with each run of static ones merged into one."""
     result: list[Link] = []
     run: list[Link] = []
     for link in links:

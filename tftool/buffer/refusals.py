@@ -1,4 +1,4 @@
-"""What the buffer says when it refuses, in tf2's words."""
+"""Sentences with which the buffer refuses, in tf2's words."""
 
 from collections.abc import Callable, Collection, Iterable
 from typing import Final
@@ -73,7 +73,7 @@ def loop(frames: str, target: str, source: str) -> LookupException:
 
 
 def shortfall(refusal: Refusal, time: Stamp) -> str:
-    """What a link says that has nothing for a moment."""
+    """Return the sentence of a link that has no data for a moment."""
     kind, available = refusal
     asked, has = display(time), display(available)
     if kind == NO_DATA:
@@ -237,7 +237,7 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
 
 
 def long_name(child: str, parent: str, authority: str, limit: int) -> str:
-    """Which of two names is longer than the buffer takes, in a sentence; empty if neither is."""
+    """Name the one of two names that is longer than the buffer takes; empty if neither is."""
     for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
         # In UTF-8 no character takes more than four bytes: a short name is not written out.
         if 4 * len(name) <= limit:
@@ -269,7 +269,7 @@ Log = Callable[[str, str], None]
 
 
 def log_to_logging(level: str, text: str) -> None:
-    """Where a buffer says why it refused if it was given no log."""
+    """Log why a buffer refused, where it was given no log of its own."""
     # Costs 10 ms at start-up, and most programs never get here.
     import logging
 

@@ -60,7 +60,7 @@ class Requests:
         self._watchers: dict[str, dict[int, None]] = {}
 
     def add(self, callback: Callback, lookup: Lookup) -> int:
-        """Ask now; what has no answer yet waits.
+        """Ask now; a question without an answer waits.
 
         Returns:
             NOW if it can be answered, NEVER if it no longer can, else a handle.
@@ -76,7 +76,7 @@ class Requests:
         return request.handle
 
     def cancel(self, handle: int) -> None:
-        """Let go of a request; a handle that is not pending is nothing to let go of."""
+        """Drop a request; do nothing for a handle that is not pending."""
         request = self.pending.pop(handle, None)
         if request is not None:
             self._unwatch(request)

@@ -1,4 +1,4 @@
-"""What goes into the buffer and what comes out: samples, and all frames at one moment."""
+"""Values the buffer takes and returns: samples, and all frames at one moment."""
 
 from dataclasses import dataclass, field
 from typing import NamedTuple

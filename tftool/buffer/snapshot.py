@@ -108,7 +108,7 @@ class _Sweep:
         return latest, root
 
     def locate(self, number: int, time: Stamp) -> _Located:
-        """Where a frame is at that moment."""
+        """Return a frame's root, its pose in its parent and its pose in the root at that moment."""
         located = self.located.get(time)
         if located is None:
             located = self.located[time] = {}

@@ -85,7 +85,7 @@ class Solver:
         raise refusals.unconnected(target_name, source_name)
 
     def why_not(self, target: str, source: str, time: Stamp) -> str | TransformException | None:
-        """Why a lookup would be refused, as `can_transform` has it; None if it would not."""
+        """Return why a lookup would be refused, as `can_transform` has it; None if it would not."""
         if target == source:
             return None
         for frame, argument in ((target, "target_frame"), (source, "source_frame")):
@@ -116,7 +116,7 @@ class Solver:
         return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
 
     def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
-        """How a waiting question stands, and which frames must change before that can."""
+        """Return the state of a waiting question, and the frames that must change before it can."""
         target, source, time = lookup
         if target == source:
             return AVAILABLE, ()
@@ -156,7 +156,7 @@ class Solver:
         return number
 
     def fault(self, frame: str) -> str:
-        """What is wrong with a frame's name, as `can_transform` has it; empty if nothing is."""
+        """Return the fault of a frame's name, as `can_transform` has it; empty if there is none."""
         if why := tree.fault(frame):
             return why
         return "" if frame in self._tree.numbers else "frame does not exist"
@@ -191,7 +191,7 @@ class Solver:
         return True
 
     def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
-        """What a walk that did not arrive is refused with."""
+        """Return the exception for a walk that did not arrive."""
         if walk.ended == LOOP:
             return self._looped(target, source)
         if walk.ended == REFUSED:

@@ -1,4 +1,4 @@
-"""How often transforms arrive, and how late: what `tf2_monitor` measures.
+"""Rate and delay of arriving transforms: the figures of `tf2_monitor`.
 
 Two sets of numbers. The plain properties are what they say. Those that begin
 with `tf2_` are computed as `tf2_monitor` does, so that they can be compared
@@ -17,7 +17,7 @@ KEEP = 1000
 
 
 class Series:
-    """What one frame, or one sender, sent last.
+    """Latest messages of one frame, or of one sender.
 
     Attributes:
         total: How many messages came, forgotten ones included.
@@ -53,7 +53,7 @@ class Series:
 
     @property
     def last(self) -> Stamp | None:
-        """When the newest message arrived; None before the first."""
+        """Return the arrival of the newest message; None before the first."""
         return self._arrivals[-1] if self._arrivals else None
 
     @property
@@ -142,7 +142,7 @@ class Traffic:
 
 
 class NetDelay:
-    """How old the latest answer to one question is, asked again and again."""
+    """Age of the latest answer to one question that is asked repeatedly."""
 
     def __init__(self) -> None:
         self.count = 0

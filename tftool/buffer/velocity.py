@@ -1,4 +1,4 @@
-"""How one frame moves, seen from another: tf2's formula, and the plain twist beside it."""
+"""Velocity of one frame seen from another: tf2's formula, and the plain twist beside it."""
 
 import math
 from dataclasses import dataclass
@@ -74,7 +74,7 @@ def full(
 def twist(
     buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
 ) -> Velocity:
-    """How the origin of `tracking` moves and how it turns, given in `observation`.
+    """Return the velocity of the origin of `tracking` and its turn rate, given in `observation`.
 
     The mean over `interval` around `time`, or over what part of it the buffer holds.
 

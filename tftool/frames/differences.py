@@ -23,7 +23,7 @@ MOST_MOMENTS: Final = 2_000_000
 
 
 class Behaviour(StrEnum):
-    """How a link behaves."""
+    """Behaviour of a link."""
 
     static = "static"
     moving = "moving"
@@ -32,7 +32,7 @@ class Behaviour(StrEnum):
 
 
 class Change(StrEnum):
-    """What became of a link from A to B."""
+    """Change of a link from A to B."""
 
     added = "added"
     gone = "gone"
@@ -49,7 +49,7 @@ class Change(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Allowance:
-    """What a difference may be before it counts.
+    """Largest difference that does not count.
 
     Attributes:
         millimetres: Of places.
@@ -100,7 +100,7 @@ class LinkState:
 
 @dataclass(frozen=True, slots=True)
 class Displacement:
-    """How far one link lies in B from where it lies in A.
+    """Distance of one link's pose in B from its pose in A.
 
     Attributes:
         millimetres: Distance; of what moves the root mean square.
@@ -125,7 +125,7 @@ class Displacement:
 
 @dataclass(frozen=True, slots=True)
 class LinkDifference:
-    """What became of one link.
+    """Difference of one link.
 
     Attributes:
         child: The frame.
@@ -150,7 +150,7 @@ class LinkDifference:
 
     @property
     def parent(self) -> str:
-        """What it hangs from: in A, else in B."""
+        """Return its parent: in A, else in B."""
         state = self.before or self.after
         return "" if state is None else state.parent
 
@@ -303,7 +303,7 @@ def _state(side: Side, held: SampleColumns) -> LinkState:
 def _static_offset(
     second: Buffer, child: str, before: LinkState, after: LinkState
 ) -> Displacement | None:
-    """How far the child lies in B from where it lies in A, both seen from A's parent."""
+    """Return the offset of the child in B from the child in A, both seen from A's parent."""
     old, new = before.pose, after.pose
     assert old is not None
     if before.parent != after.parent:
@@ -337,7 +337,7 @@ def _moving_offset(
     parent: str,
     tolerance: Allowance,
 ) -> tuple[Displacement | None, str]:
-    """The same for what moves, seen from A's parent, at the stamps the two share."""
+    """Return the offset of a moving child, seen from A's parent, at the stamps the two share."""
     stamps = _common(held[0][child], held[1][child], shift)
     if not len(stamps):
         return None, APART

@@ -60,7 +60,7 @@ class Trajectory:
 
     @property
     def source(self) -> str:
-        """Whose poses they are."""
+        """Frame whose poses they are."""
         return self.path.child_frame_id
 
     @property
@@ -75,7 +75,7 @@ class Trajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moments:
-    """When to ask.
+    """Moments of the questions.
 
     Attributes:
         start: First moment, nanoseconds; None for the first there is data of.
@@ -171,7 +171,7 @@ def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
 
 
 def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = None) -> batch.Floats:
-    """The same rotations, each with the sign nearer to the one before; NaN rows are passed over.
+    """Return the rotations, each with the sign nearer to the one before; NaN rows are passed over.
 
     Args:
         rotations: Unit quaternions x y z w, shape (n, 4).
@@ -258,7 +258,7 @@ def _refusals(buffer: Buffer, path: TransformArray) -> tuple[RefusedRun, ...]:
 
 
 def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Where flags are set without a break: first place, and the one behind the last."""
+    """Return the runs of set flags: the first index, and the one behind the last."""
     edges = np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))
     firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return list(zip(firsts.tolist(), ends.tolist(), strict=True))

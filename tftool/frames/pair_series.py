@@ -1,4 +1,4 @@
-"""What of a trajectory is drawn over time: curves by panel, with gaps where there is nothing.
+"""Curves of a trajectory over time, by panel, with gaps where there is no data.
 
 Times are seconds since one start, so that a plot's axis counts as `--from` and `--at` do.
 """
@@ -161,7 +161,7 @@ def panels(
 
 
 def shades(found: Sequence[Trajectory], start: Stamp) -> list[RefusedSpan]:
-    """Where lookups are refused, in the order of time."""
+    """Return the spans in which lookups are refused, in the order of time."""
     spans = [_shade(run, start) for one in found for run in one.refusals]
     return sorted(spans, key=lambda span: span.first)
 
@@ -202,7 +202,7 @@ def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]
 
 
 def thinned(times: Floats, values: Floats, most: int) -> tuple[Floats, Floats]:
-    """The same curve with fewer points: of each stretch its lowest and its highest.
+    """Return the curve with fewer points: the lowest and the highest of each stretch.
 
     Args:
         times: Shape (n,).
@@ -242,7 +242,7 @@ def _columns(
 
 
 def _jumps(angles: Floats) -> "np.ndarray":
-    """Where an angle passes half a turn, and comes back from the other side."""
+    """Return the indices where an angle passes half a turn and comes back from the other side."""
     with np.errstate(invalid="ignore"):
         found: np.ndarray = np.abs(np.diff(angles)) > 180.0
     return found

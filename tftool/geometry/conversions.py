@@ -85,7 +85,7 @@ def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, flo
 
 
 def _wrapped(angle: float) -> float:
-    """The same angle from -π to π."""
+    """Return the equal angle from -π to π."""
     return math.remainder(angle, 2.0 * math.pi) if abs(angle) > math.pi else angle + 0.0
 
 
@@ -195,13 +195,13 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
 
 
 def wxyz_from_xyzw(quaternion: Iterable[float]) -> tuple[float, float, float, float]:
-    """The same numbers, w first, as transforms3d and others have them."""
+    """Return the numbers with w first, as transforms3d and others have them."""
     x, y, z, w = quaternion
     return w, x, y, z
 
 
 def xyzw_from_wxyz(quaternion: Iterable[float]) -> Quaternion:
-    """The same numbers, w last, as ROS and we have them."""
+    """Return the numbers with w last, as ROS and we have them."""
     w, x, y, z = quaternion
     return Quaternion(x, y, z, w)
 

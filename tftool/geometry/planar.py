@@ -27,12 +27,12 @@ def bearing(transform: Transform) -> float:
 
 
 def distance(transform: Transform) -> float:
-    """How far away the other frame's origin lies in the plane, in metres."""
+    """Return the distance of the other frame's origin in the plane, in metres."""
     return math.hypot(transform.translation.x, transform.translation.y)
 
 
 def wrap(angle: float) -> float:
-    """The same direction as an angle in [−π, π)."""
+    """Return the equal direction in [−π, π)."""
     # A step of 2π leaves rounding; the two bounds are met exactly when they are given.
     if -math.pi <= angle < math.pi:
         return angle

@@ -1,4 +1,4 @@
-"""What a transform does to each kind of thing: points, directions, poses, covariances, forces.
+"""Transforms applied to points, directions, poses, covariances and forces.
 
 Everything goes in as plain numbers given in the transform's child and comes out given in
 its parent; nothing that goes in is changed. A rotation of all zeros stands for none, as it

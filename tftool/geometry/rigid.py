@@ -158,7 +158,7 @@ class Transform(_Parts):
         return Vector3(*quaternions.rotate(quaternions.unit(self.rotation), (x, y, z)))
 
     def matrix(self) -> Matrix:
-        """The same as a homogeneous 4×4 matrix, row by row."""
+        """Return the homogeneous 4×4 matrix, row by row."""
         first, second, third = quaternions.matrix(self.rotation)
         x, y, z = self.translation
         return ((*first, x), (*second, y), (*third, z), (0.0, 0.0, 0.0, 1.0))
@@ -213,10 +213,10 @@ def apply(a_from_b: Transform, point: Iterable[float]) -> Vector3:
 
 
 def canonical(pose: Transform) -> Transform:
-    """The same pose with a unit quaternion of the sign tf2 gives (NaN for a zero one)."""
+    """Return the pose with a unit quaternion of the sign tf2 gives (NaN for a zero one)."""
     return transform(pose.translation, quaternions.canonical(quaternions.unit(pose.rotation)))
 
 
 def distance(pose: Transform) -> float:
-    """How far apart the two origins are, in metres."""
+    """Return the distance of the two origins, in metres."""
     return math.hypot(*pose.translation)

@@ -1,4 +1,4 @@
-"""What `rigid` and `quaternions` do for one, for many at once: shapes (..., 3) and (..., 4).
+"""The functions of `rigid` and `quaternions` for many poses: shapes (..., 3) and (..., 4).
 
 Quaternions are in xyzw order and leading axes broadcast. Each function gives row by row
 what its namesake for plain floats gives.
@@ -125,7 +125,7 @@ def roll_pitch_yaw(quaternions: Floats) -> Floats:
 
 
 def _wrapped(angles: Floats) -> Floats:
-    """The same angles from -π to π."""
+    """Return the equal angles from -π to π."""
     turned: Floats = np.where(
         np.abs(angles) > np.pi, angles - 2.0 * np.pi * np.round(angles / (2.0 * np.pi)), angles
     )

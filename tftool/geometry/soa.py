@@ -74,7 +74,7 @@ def _dot(first: Floats, second: Floats) -> Floats:
 
 
 def _terms(square: float) -> int:
-    """How many terms of the series are needed up to an angle whose square this is."""
+    """Return the terms of the series needed up to an angle whose square this is."""
     power = 1.0
     for count, coefficient in enumerate(_SERIES):
         if coefficient * power < _NEGLIGIBLE:

@@ -43,7 +43,7 @@ _WXYZ = [6, 3, 4, 5]
 
 
 class Intervals:
-    """What lies between neighbouring samples of one link, or of some of its rows.
+    """Intervals between neighbouring samples of one link, or of some of its rows.
 
     Worked out once for all moments that fall there: at the share f of the way the position is
     P + f·D, and the rotation as `soa.Arcs` has it. Quaternions are in wxyz order here. Four
@@ -214,7 +214,7 @@ def room(count: int) -> Floats:
 
 
 class BlockArrays:
-    """The arrays in which a block of moments is worked on, and what is done in them."""
+    """Work arrays for a block of moments, and the arithmetic on them."""
 
     def __init__(self, room: Floats, count: int) -> None:
         """Lay out memory from `room` for blocks of exactly `count` moments."""

@@ -21,7 +21,7 @@ _MOST_STEPS = 3
 
 
 class Column:
-    """What a moving link remembered when it was asked: its samples, oldest first.
+    """Samples of a moving link when it was asked, oldest first.
 
     As long as it lives, the records it was made of stay as they are; see `History.columns`.
 
@@ -77,7 +77,7 @@ class Column:
         return int(self.records[-1, 0]) if len(self.records) else -(2**63)
 
     def changes(self) -> Stamps:
-        """Where the parent may be another one than before: both ends, and each change."""
+        """Return the rows where the parent may differ from the last: both ends, and each change."""
         ends = self.stamps[[0, -1]] if len(self.stamps) else self.stamps
         if self.parents is None:
             return ends

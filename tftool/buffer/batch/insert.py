@@ -37,7 +37,7 @@ _BLOCK = 8192  # rows per chunk, so that a chunk fits the processor's cache
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Insertion:
-    """What became of samples that were set together; true if all were taken.
+    """Outcome of samples that were set together; true if all were taken.
 
     Attributes:
         accepted: For each row whether it was taken, shape (n,). A row that was known already
@@ -110,7 +110,7 @@ class CheckedRows:
             yield int(self.stamps[row]), (x, y, z, qx, qy, qz, qw)
 
     def lines(self, row: int) -> list[str]:
-        """What is said of a row that is objected to."""
+        """Return the log's lines for a refused row."""
         child, parent, authority = self._rest
         x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
         stamp = int(self.stamps[row])
@@ -130,7 +130,7 @@ def insert(
 
     Args:
         tree: Where to.
-        log: Takes the sentences about what is refused.
+        log: Takes the sentences about refused samples.
         max_frames: How many names there may be.
         link: Parent, child and authority.
         stamps: Shape (n,).
@@ -303,7 +303,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Which samples are not the very same as one of the last before it with the same stamp."""
+    """Return the rows that repeat none of the last samples before them with the same stamp."""
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]
     equal = np.flatnonzero(ordered[1:] == ordered[:-1])

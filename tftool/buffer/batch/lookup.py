@@ -207,7 +207,7 @@ class _Batch:
                 self.put(row, self.ask(int(self.times[row])))
 
     def begin(self, times: Stamps, start: int) -> Indices:
-        """Answer what the steady path can, of rows of which others remain; says which."""
+        """Solve the rows this path covers; return the indices still open."""
         rows = slice(start, start + len(times))
         usable = (times >= self.first) & (times <= self.last) & (times != 0)
         self.valid[rows] = False
@@ -432,7 +432,7 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
 
 
 def _workers(threads: int | None) -> int:
-    """How many threads to use: as many as were asked for, else one for each core we may use."""
+    """Return the number of threads: the number asked for, else one for each core we may use."""
     if threads is None:
         # Where the system tells, those it allows us; a container may have more.
         allowed = getattr(os, "sched_getaffinity", None)

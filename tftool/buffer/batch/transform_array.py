@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Velocities(NamedTuple):
-    """How fast something moves and turns, row by row.
+    """Linear and angular velocities, row by row.
 
     Attributes:
         linear: Metres per second, shape (n, 3).
@@ -31,7 +31,7 @@ class Velocities(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SampleColumns:
-    """What a buffer remembers of one frame's link, oldest first: `Buffer.samples`.
+    """Samples of one frame's link, oldest first: `Buffer.samples`.
 
     The arrays are read-only copies. Of equal stamps the one that was set last comes last.
 
@@ -204,7 +204,7 @@ class TransformArray:
         return TransformArray(self.frame_id, child, self.stamps, moved, turned, valid)
 
     def velocities(self) -> Velocities:
-        """How the origin of the child moves and how the child turns, given in `frame_id`.
+        """Return the velocity of the child's origin and the child's turn rate, given in `frame_id`.
 
         The mean from the row before to the row after; at either end, to the one neighbour.
         NaN where one of the two is not valid, or both have the same stamp.
@@ -219,7 +219,7 @@ class TransformArray:
         return Velocities(moved / lasted, batch.rotation_vectors(turned) / lasted)
 
     def to_scipy(self) -> "tuple[RigidTransform, Rotation]":
-        """The same as scipy's `RigidTransform` and, for itself, its `Rotation`.
+        """Return scipy's `RigidTransform`, and its `Rotation` by itself.
 
         Raises:
             UsageError: If scipy is not installed, or older than 1.16.

@@ -80,7 +80,7 @@ def exact_rows(
     seconds: bool = False,
     separator: str = ",",
 ) -> bytes:
-    """The same with any number of decimals, one number at a time; see `FULL`."""
+    """Format rows with any number of decimals, one number at a time; see `FULL`."""
     lines = []
     for place, row in enumerate(numbers.tolist()):
         words = [_shortest(one) if decimals >= FULL else f"{one:.{decimals}f}" for one in row]
@@ -136,7 +136,7 @@ def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
 def _digits(
     values: npt.NDArray[np.int64], before: bytes, *, negative: npt.NDArray[np.bool_] | None = None
 ) -> Words:
-    """Whole numbers, shape (n, k), as words: what stands before them, sign, digits."""
+    """Format whole numbers, shape (n, k), as words: a prefix, the sign, the digits."""
     size = np.abs(values)
     signs = _table([before, before + b"-"])
     words = [signs[((values < 0) if negative is None else negative).astype(np.intp)]]

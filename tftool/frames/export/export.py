@@ -1,4 +1,4 @@
-"""Frames to files of other tools: which format a name asks for, and what goes into it."""
+"""Export of frames to files of other tools: the format a name asks for, and its content."""
 
 import os
 from collections.abc import Sequence
@@ -30,7 +30,7 @@ Framed: TypeAlias = "Buffer | Frames | Recording | Robot"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Exported:
-    """What was written.
+    """Files that were written.
 
     Attributes:
         paths: The files.

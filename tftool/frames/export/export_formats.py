@@ -1,4 +1,4 @@
-"""What can be written, what the name of a file asks for, and how an export is written.
+"""Export formats, by the name of a file, and the style of an export.
 
 To add a format: its line in `Format`, and its function in the table of writers in
 `trajectory_files` (pairs over time) or `static_files` (links).
@@ -18,7 +18,7 @@ DECIMALS: Final = 9
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """How an export is written; each format takes what concerns it.
+    """Style of an export; each format uses the fields that concern it.
 
     Attributes:
         decimals: Of numbers in texts; 17 writes each as short as it can be read back.
@@ -38,7 +38,7 @@ class Style:
 
 
 class Format(StrEnum):
-    """What can be written.
+    """Format of an export.
 
     Attributes:
         holds: One pair of frames over time, several pairs, or the links themselves.
@@ -88,7 +88,7 @@ def suffixes_of(*, trajectories: bool) -> str:
 
 
 def format_of(path: Path) -> Format:
-    """What the name of a file asks for.
+    """Return the format that the name of a file asks for.
 
     Raises:
         UsageError: If it says nothing.

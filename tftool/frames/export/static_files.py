@@ -1,4 +1,4 @@
-"""What holds at all times to files that publish it again: URDF, launch files, a shell script."""
+"""Static transforms to files that publish them again: URDF, launch files, a shell script."""
 
 import json
 import re

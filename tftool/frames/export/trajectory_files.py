@@ -55,7 +55,7 @@ def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
 
 @contextmanager
 def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
-    """The same of several that belong together: all of them come to their names, or none.
+    """Open several files that belong together: all of them come to their names, or none.
 
     Args:
         paths: What they are called; the last is that by which the others are found.
@@ -255,7 +255,7 @@ def _writer(
     progress: Progress | None,
     before: bytes = b"",
 ) -> "Callable[..., None]":
-    """What writes blocks of rows, each as fast as its numbers allow, and tells how far it is."""
+    """Return the writer of blocks of rows: as fast as the numbers allow, with progress."""
     done = 0
 
     def write(

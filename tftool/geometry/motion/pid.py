@@ -8,7 +8,7 @@ from tftool.base.errors import UsageError
 
 @dataclass(frozen=True, slots=True)
 class Gains:
-    """How a controller answers an error.
+    """Gains of a controller.
 
     Attributes:
         kp: Output per unit of error.
@@ -46,7 +46,7 @@ class Gains:
 
 @dataclass(frozen=True, slots=True)
 class PidState:
-    """What a controller keeps from one step to the next.
+    """State of a controller between two steps.
 
     Attributes:
         integral: Sum of error times time so far.

@@ -21,7 +21,7 @@ _STOP = Twist2D()
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """How distance and bearing become speed and turn rate; the defaults are the tutorial's.
+    """Law from distance and bearing to speed and turn rate; the defaults are the tutorial's.
 
     Attributes:
         distance: Gains from distance in metres to speed in m/s.
@@ -45,7 +45,7 @@ class Law:
 
 @dataclass(frozen=True, slots=True)
 class PursuitState:
-    """What the two controllers keep from one step to the next."""
+    """State of the two controllers between two steps."""
 
     distance: pid.PidState = pid.FRESH
     bearing: pid.PidState = pid.FRESH

@@ -47,7 +47,7 @@ _LARGEST = 3.4028234663852886e38
 
 
 class Placement(NamedTuple):
-    """Where a body is in the plane: metres, and radians counter-clockwise from +x."""
+    """Pose of a body in the plane: metres, and radians counter-clockwise from +x."""
 
     x: float
     y: float
@@ -55,7 +55,7 @@ class Placement(NamedTuple):
 
 
 class Turning(NamedTuple):
-    """What one update of the rotate action finds.
+    """Result of one update of the rotate action.
 
     Attributes:
         remaining: Angle still to go, the short way, in rad.

@@ -237,7 +237,7 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
 
 
 def _ambiguous(count: int) -> UsageError:
-    """Why `count` bare numbers need a form, or are no rotation in any."""
+    """Return why `count` bare numbers need a form, or are no rotation in any."""
     if count == 4:
         return UsageError(
             "Four bare numbers can be x y z w or w x y z: say which with --as xyzw or --as wxyz."

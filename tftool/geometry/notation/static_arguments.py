@@ -232,7 +232,7 @@ def _refusal(tf2_text: str, remedy: str) -> UsageError:
 
 
 def advice(said: StaticArguments) -> list[str]:
-    """What the author of these arguments may not have meant: one sentence each."""
+    """Return what the author of these arguments may not have meant: one sentence each."""
     sentences = []
     if said.old_style:
         sentences.append("Old-style arguments are deprecated; see --help for new-style arguments.")

@@ -11,7 +11,7 @@ def exact(number: float) -> str:
 
 
 def urdf_origin(transform: Transform) -> str:
-    """URDF's element for it; what is read back is the same rotation to 1e-12."""
+    """Return URDF's element for it; reading it back gives the same rotation to 1e-12."""
     xyz = " ".join(map(exact, transform.translation))
     rpy = " ".join(map(exact, precise_rpy_from_quaternion(transform.rotation)))
     return f'<origin xyz="{xyz}" rpy="{rpy}"/>'
