@@ -62,7 +62,7 @@ class MessageField:
 
 
 class Message:
-    """What all messages have in common; the fields come from the definitions."""
+    """Base of all messages; the fields come from the definitions."""
 
     __slots__ = ()
 
@@ -297,7 +297,7 @@ class Interfaces(Schema):
         return _holder(full, made)
 
     def _derived(self, action: str) -> type[Any]:
-        """What ROS 2 makes of an action: three services and two topics, by rclpy's names."""
+        """Return the parts of a ROS 2 action: three services and two topics, by rclpy's names."""
         made = self._made.get(f"{action}_Impl")
         if made is None:
             services = {

@@ -260,7 +260,7 @@ class _Planner:
         self._fields = 0
 
     def plan(self, kind: type[Message]) -> "_Plan":
-        """How messages of a class lie."""
+        """Return the layout of a class of messages."""
         found = self._plans.get(kind)
         if found is None:
             found = self._plans[kind] = _Plan(kind, self._steps(kind))
@@ -305,7 +305,7 @@ class _Planner:
         return steps
 
     def _letter(self, owner: type[Message], field: MessageField) -> str | None:
-        """How a number of a field is written by `struct`; None for texts and messages."""
+        """Return the letter of `struct` for a number of a field; None for texts and messages."""
         if field.kind == "wstring":
             raise MalformedMessage(
                 self._name,
@@ -342,7 +342,7 @@ def _letter_of(view: memoryview) -> str:
 
 
 def _getter(paths: list[str]) -> Callable[[Any], tuple[Any, ...]]:
-    """What gives the values of some attributes, as a tuple."""
+    """Return a function that gives the values of some attributes, as a tuple."""
     if len(paths) > 1:
         return attrgetter(*paths)
     getters = [attrgetter(path) for path in paths]
@@ -357,7 +357,7 @@ def _check_count(field: MessageField, count: int) -> None:
 
 
 class _Shape:
-    """How the values of a message's fields, in order, make the message."""
+    """Constructor of a message from the values of its fields, in order."""
 
     def __init__(self, kind: type[Message]) -> None:
         self._kind = kind
@@ -378,7 +378,7 @@ class _Shape:
 
 
 class _Plan:
-    """How one type of message lies in its bytes."""
+    """Layout of one type of message in its bytes."""
 
     def __init__(self, kind: type[Message], steps: list[_Step]) -> None:
         self._steps = steps

@@ -1,4 +1,4 @@
-"""What may be assigned to a field: types and ranges, judged as ROS 2's own classes judge."""
+"""Checks of values assigned to a field: types and ranges, as in ROS 2's own classes."""
 
 import array
 import math

@@ -1,4 +1,4 @@
-"""How the fields of a message lie in its bytes: ROS 2's plain CDR, and ROS 1's layout.
+"""Layouts of a message's fields in its bytes: ROS 2's plain CDR, and ROS 1's layout.
 
 CDR has a header of four bytes that tells the byte order; from behind it every number is
 aligned to its size, and a text ends with a zero byte that its length counts. We write
@@ -242,7 +242,7 @@ class Reader:
         return length
 
     def count(self, smallest: int, bound: int | None) -> int:
-        """How many items follow, each of at least `smallest` bytes."""
+        """Return how many items follow, each of at least `smallest` bytes."""
         count = self.length()
         rest = self._size - self.position
         if count * smallest > rest:

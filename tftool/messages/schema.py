@@ -85,7 +85,7 @@ class FieldDefinition:
 
 @dataclass(frozen=True, slots=True)
 class Structure:
-    """What lies in one message, in order.
+    """Fields of one message, in order.
 
     Attributes:
         name: Its full name, "geometry_msgs/msg/Pose".

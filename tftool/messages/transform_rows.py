@@ -40,7 +40,7 @@ _WORD: Final = {order: struct.Struct(f"{order}I") for order in "<>"}
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where one transform of a message lies.
+    """Place of one transform in a message.
 
     Attributes:
         parent: Name as it was sent.
@@ -146,7 +146,7 @@ def _byte_order(payload: bytes) -> str:
 
 
 def row_span(layout: Layout, length: int) -> tuple[int, int]:
-    """How the row of a message of that length lies to its bytes, in whole words.
+    """Return the span of the row of a message of that length, in whole words.
 
     Returns:
         Where the row begins, from the first byte of the message on, and its length. Rows begin
@@ -178,14 +178,14 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
 
 
 def _items(rows: npt.NDArray[Any], begin: int, size: int) -> npt.NDArray[np.void]:
-    """The same bytes of every row, as single items: numpy copies each in one go."""
+    """Return a slice of bytes of every row as single items: numpy copies each in one go."""
     return np.ndarray(
         (len(rows),), f"V{size}", buffer=rows.data, offset=begin, strides=rows.strides[:1]
     )
 
 
 class Template:
-    """What all messages of one layout, length and set of frames have in common.
+    """Common part of all messages of one layout, length and set of frames.
 
     Attributes:
         places: Its transforms.
@@ -210,7 +210,7 @@ class Template:
         self._values = row.view(np.uint64)[self._words]
 
     def value(self, word: int, mask: int) -> int:
-        """What stands in a word of its rows, as far as that is the same in all of them.
+        """Return the value of a word of its rows, as far as all of them share it.
 
         Returns:
             The word under the mask; -1 where what it covers may differ.
@@ -225,7 +225,7 @@ class Template:
         return list(zip(self._words.tolist(), self._masks.tolist(), strict=True))
 
     def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
-        """Which rows have its frames, shape (n,); None where all do."""
+        """Return the rows that have its frames, shape (n,); None where all do."""
         apart = rows.take(self._words, axis=1)
         apart ^= self._values
         apart &= self._masks

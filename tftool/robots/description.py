@@ -1,4 +1,4 @@
-"""What a robot description says: links with their shapes, joints with their limits."""
+"""Robot descriptions: links with their shapes, joints with their limits."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -64,7 +64,7 @@ ShapeGeometry: TypeAlias = BoxShape | CylinderShape | CapsuleShape | SphereShape
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """What a surface looks like.
+    """Appearance of a surface.
 
     Attributes:
         name: Its name; may be empty.
@@ -113,7 +113,7 @@ class RobotLink:
 
 @dataclass(frozen=True, slots=True)
 class JointLimit:
-    """How far and how fast a joint may move; radians or metres, and per second.
+    """Limits of a joint's position and speed; radians or metres, and per second.
 
     Attributes:
         lower: Smallest position.
@@ -139,7 +139,7 @@ class JointMimic:
 
 @dataclass(frozen=True, slots=True)
 class RobotJoint:
-    """What joins one link to its parent.
+    """Joint between a link and its parent.
 
     Attributes:
         name: Its name.
@@ -175,7 +175,7 @@ class RobotJoint:
 
     @property
     def unit(self) -> str:
-        """What its position is counted in: rad or m."""
+        """Return the unit of its position: rad or m."""
         return "m" if self.type == "prismatic" else "rad"
 
 

@@ -82,7 +82,7 @@ class Robot:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is odd about the description, as sentences."""
+        """Return oddities of the description, as sentences."""
         return self.description.notes
 
     def positions(self, given: Mapping[str, float] | None = None) -> dict[str, float]:
@@ -279,7 +279,7 @@ class Robot:
         return self._leader(self.joints[name], frozenset(given))[0].name
 
     def drive(self, name: str) -> tuple[str, float, float]:
-        """What decides a joint's position, where no other is given.
+        """Return the joint that decides a joint's position, where none is given.
 
         Args:
             name: The joint.
@@ -367,7 +367,7 @@ def _pose(joint: RobotJoint, position: float) -> Transform:
 
 
 def _poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
-    """The same for many positions, shape (n,), written into `poses`, shape (n, 7)."""
+    """Write the poses of many positions, shape (n,), into `poses`, shape (n, 7)."""
     poses[:, :3] = joint.origin.translation
     turn = np.array(joint.origin.rotation)
     if joint.type == "prismatic":

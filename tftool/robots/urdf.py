@@ -286,7 +286,7 @@ class _Reader:
             self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
-        """Where an attribute's assignment stands; the element itself if it is not found."""
+        """Return the place of an attribute's assignment; that of the element if it is not found."""
         wanted = re.compile(rf"(?<![\w:]){re.escape(attribute)}\s*=\s*(\"[^\"]*\"|'[^']*')")
         column = element.column
         for line in range(element.line, min(element.line + 20, len(self.lines))):

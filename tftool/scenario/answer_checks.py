@@ -1,4 +1,4 @@
-"""What an answer must be: a range, a pose, a refusal, names.
+"""Checks of an answer: a range, a pose, a refusal, names.
 
 A `Form` reads the keys that stand beside a question and makes a check of them;
 the check judges answers and says in words what it expects and what it found.
@@ -30,20 +30,20 @@ NEAR = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """What became of one look: whether it holds, and what was found, in words."""
+    """Outcome of one look: whether it holds, and the finding in words."""
 
     ok: bool
     found: str
 
 
 def _meant(error: TransformException) -> str:
-    """Which frame's name is near the one that is unknown; empty without one."""
+    """Return the frame's name near the unknown one; empty without one."""
     remedy = error.remedy if isinstance(error, LookupException) else ""
     return remedy if "did you mean" in remedy else ""
 
 
 class AnswerCheck(ABC):
-    """What an answer must be; its text follows the question in a sentence."""
+    """Check of an answer; its text follows the question in a sentence."""
 
     @abstractmethod
     def judge(self, answer: Any) -> Judged:
@@ -151,7 +151,7 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
 
 
 def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
-    """Which names that there are may be meant by those that there are not, one for each."""
+    """Return the existing name nearest to each unknown one."""
     found = [near_names(name, known) for name in wanted if name not in known]
     near = [f"'{names[0]}'" for names in found if names]
     return f"; did you mean {', '.join(near)}?" if near else ""
@@ -159,7 +159,7 @@ def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class FrameFacts:
-    """What is known of a frame; all None when it is not known at all.
+    """Facts about a frame; all None when it is unknown.
 
     Attributes:
         exists: Whether it is known.
@@ -278,13 +278,13 @@ SHORT = 30
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """How far a pose may be off."""
+    """Tolerance of a pose."""
 
     position: float = NEAR
     angle: float = NEAR
 
     def words(self, *, position: bool, angle: bool) -> str:
-        """What was allowed for, in brackets; nothing where only rounding is."""
+        """Return the tolerance in brackets; nothing where it covers rounding alone."""
         parts = []
         if position and self.position != NEAR:
             parts.append(f"{self.position:g} m")

@@ -11,7 +11,7 @@ PACKAGE = Path(__file__).resolve().parents[1]
 
 
 def folder() -> Path:
-    """Where the built-in scenarios are.
+    """Return the folder of the built-in scenarios.
 
     Raises:
         InputError: If they are missing.
@@ -20,7 +20,7 @@ def folder() -> Path:
 
 
 def shipped(name: str, mark: str) -> Path:
-    """Where a folder is that comes with tftool and holds a file or folder called `mark`.
+    """Return the folder shipped with tftool that holds a file or folder called `mark`.
 
     A wheel carries it inside the package; in a checkout, also an editable install of one,
     it lies beside it.

@@ -1,4 +1,4 @@
-"""What a scenario, or a file beside a recording, asks of the doctor; and listening for it.
+"""Expectations of a scenario, or of a file beside a recording, about the doctor's findings.
 
 The doctor itself, and the numpy it needs, is imported where one is asked: most scenarios ask none.
 """
@@ -25,7 +25,7 @@ ENDING = ".doctor.yaml"
 
 @dataclass(frozen=True, slots=True)
 class DoctorRules:
-    """What the doctor is to leave out, and which thresholds it is to take.
+    """Checks the doctor leaves out, and thresholds it takes.
 
     Attributes:
         ignore: Ids and areas of checks.
@@ -36,7 +36,7 @@ class DoctorRules:
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def settings(self, given: "Settings") -> "Settings":
-        """What a command line says, and these thresholds where it says nothing."""
+        """Return the settings of a command line, with these thresholds where it says nothing."""
         from tftool.doctor.model import Settings
 
         limits = {name: dict(of) for name, of in self.limits.items()}

@@ -30,7 +30,7 @@ MOST_VALUES = 20_000
 
 @dataclass(frozen=True, slots=True)
 class TextPlace:
-    """Where something stands: line and column from 0, and how wide it is."""
+    """Place in a text: line and column from 0, and the width."""
 
     line: int
     column: int

@@ -39,7 +39,7 @@ class Entrant:
 
 @dataclass(frozen=True, slots=True)
 class Exercise:
-    """What the user brings to a scenario.
+    """Programs and launch files that the user brings to a scenario.
 
     Attributes:
         workspace: Where packages are looked for.

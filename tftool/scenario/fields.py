@@ -36,7 +36,7 @@ class Unreadable(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """What one key may hold, and what it means when it is left out."""
+    """Values that one key may hold, and its default."""
 
     read: Reader
     default: Any = REQUIRED
@@ -197,7 +197,7 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
 
 
 def parts_of(kind: type) -> dict[str, tuple[Key, bool]]:
-    """What a dataclass that is read may hold, by key, and whether that stands beside it."""
+    """Return the keys that a dataclass reads, and whether each stands beside it."""
     parts = {}
     for one in fields(kind):
         if "read" in one.metadata:

@@ -173,7 +173,7 @@ class _ScenarioReader:
                 )
 
     def length(self, node: Node, reading: Reading) -> Duration:
-        """How long it lasts."""
+        """Duration of the scenario."""
         self.duration = values.time(least=values.SHORTEST)(node, reading)
         return self.duration
 
@@ -299,7 +299,7 @@ class _ScenarioReader:
     # Script and expectations.
 
     def script(self, node: Node, reading: Reading) -> tuple[Step, ...]:
-        """What happens."""
+        """Actions of the scenario."""
         read = [
             reading.try_read(self.step, item) for item in reading.items(node, "one action an item")
         ]
@@ -317,7 +317,7 @@ class _ScenarioReader:
         return Step(given["at"], action, node.place.line + 1, name, given["fails"])
 
     def expect(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """What must hold."""
+        """Expectations of the scenario."""
         read = [
             reading.try_read(self.expectation, item)
             for item in reading.items(node, "one expectation an item")
@@ -361,7 +361,7 @@ class _ScenarioReader:
     def whens(
         self, place: document.TextPlace, given: Mapping[str, Any], reading: Reading
     ) -> tuple[When, ...]:
-        """When an expectation is judged."""
+        """Moments at which an expectation is judged."""
         said = [key for key in _WHEN if given[key] is not None]
         if len(said) != 1:
             raise Unreadable  # said already

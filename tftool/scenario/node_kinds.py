@@ -137,7 +137,7 @@ ROBOT_FIELDS: Mapping[str, Reader] = {
 
 
 class NodeKind:
-    """How a node of one kind is read and made.
+    """Reader and constructor of one kind of node.
 
     Attributes:
         make: The class, or a function that does as a class does.

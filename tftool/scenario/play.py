@@ -159,7 +159,7 @@ class Play:
             raise
 
     def verdict(self) -> Verdict:
-        """What held so far; expectations whose time has not come say so."""
+        """Return the verdict so far; expectations that are not due yet say so."""
         judge = self._expectations
         steps = () if self._script is None else tuple(self._script.outcomes)
         pairs = [] if judge is None else zip(judge.expected, judge.outcomes, strict=True)

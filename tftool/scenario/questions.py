@@ -1,4 +1,4 @@
-"""What may be asked of a scenario: the subjects of its expectations, each with its answer.
+"""Questions about a scenario: the subjects of its expectations, each with its answer.
 
 A subject is a dataclass: each field names the reader of its value, `key` is what a
 scenario calls it, `form` says what its answer may be held to, and `answer` finds the
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 
 class ScenarioWorld:
-    """What questions are asked of.
+    """World that answers questions.
 
     Attributes:
         world: Where the scenario lives.
@@ -122,7 +122,7 @@ class Subject(ABC):
 
     @property
     def problem(self) -> str:
-        """What is wrong with its fields together; empty when nothing is."""
+        """Return the fault of its fields together; empty when there is none."""
         return ""
 
 
@@ -141,7 +141,7 @@ class Lookup(Subject):
 
     @property
     def problem(self) -> str:
-        """What is wrong with the whole, empty when nothing is."""
+        """Return the fault of the whole; empty when there is none."""
         if self.fixed is None and (self.target_time or self.source_time):
             return "two times need a fixed frame to go through: 'fixed'"
         if self.fixed is not None and self.time is not None:
@@ -192,7 +192,7 @@ class Between(Subject, ABC):
 
     @property
     def problem(self) -> str:
-        """What is wrong with the whole, empty when nothing is."""
+        """Return the fault of the whole; empty when there is none."""
         return self.lookup.problem
 
     @property
@@ -209,7 +209,7 @@ class Between(Subject, ABC):
 
 
 class Distance(Between):
-    """How far the origins of two frames are apart."""
+    """Distance of the origins of two frames."""
 
     key: ClassVar[str] = "distance"
     form: ClassVar[Form] = range_form(LENGTH)
@@ -240,7 +240,7 @@ class Bearing(Between):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointOf(Subject):
-    """Where a point fixed in one frame lies in another."""
+    """Position, in one frame, of a point fixed in another."""
 
     key: ClassVar[str] = "point"
     form: ClassVar[Form] = POSE_FORM
@@ -262,7 +262,7 @@ class PointOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion(Subject, ABC):
-    """How one frame moves in another, taken over a while."""
+    """Motion of one frame in another, taken over a while."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -276,7 +276,7 @@ class Motion(Subject, ABC):
 
 
 class SpeedOf(Motion):
-    """How fast the origin of a frame moves."""
+    """Speed of a frame's origin."""
 
     key: ClassVar[str] = "speed"
     form: ClassVar[Form] = range_form(SPEED)
@@ -290,7 +290,7 @@ class SpeedOf(Motion):
 
 
 class TurnRateOf(Motion):
-    """How fast a frame turns about the z axis, anticlockwise."""
+    """Turn rate of a frame about the z axis, anticlockwise."""
 
     key: ClassVar[str] = "turn_rate"
     form: ClassVar[Form] = range_form(TURN_RATE)
@@ -326,7 +326,7 @@ class RateOf(OfFrame):
 
 
 class AgeOf(OfFrame):
-    """How old a frame's newest sample is."""
+    """Age of a frame's newest sample."""
 
     key: ClassVar[str] = "age"
     form: ClassVar[Form] = range_form(DURATION)
@@ -340,7 +340,7 @@ class AgeOf(OfFrame):
 
 
 class MemoryOf(OfFrame):
-    """How far back a frame is remembered: newest minus oldest sample."""
+    """Length of a frame's history: newest minus oldest sample."""
 
     key: ClassVar[str] = "memory"
     form: ClassVar[Form] = range_form(DURATION)
@@ -377,7 +377,7 @@ class FrameOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trees(Subject):
-    """How many trees the frames make."""
+    """Number of trees the frames make."""
 
     key: ClassVar[str] = "trees"
     form: ClassVar[Form] = COUNT_FORM
@@ -394,7 +394,7 @@ class Trees(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Roots(Subject):
-    """Which frames hang from nothing."""
+    """Frames without a parent."""
 
     key: ClassVar[str] = "roots"
     form: ClassVar[Form] = NAMES_FORM
@@ -411,7 +411,7 @@ class Roots(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Turtles(Subject):
-    """Which turtles are on the field."""
+    """Turtles on the field."""
 
     key: ClassVar[str] = "turtles"
     form: ClassVar[Form] = NAMES_FORM
@@ -449,7 +449,7 @@ class PoseOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Logged(Subject):
-    """How many lines of the log hold a text."""
+    """Number of log lines that hold a text."""
 
     key: ClassVar[str] = "logged"
     form: ClassVar[Form] = range_form(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0)
@@ -477,7 +477,7 @@ class Logged(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Diagnosed(Subject):
-    """What the doctor finds in all transforms since the start."""
+    """Findings of the doctor in all transforms since the start."""
 
     key: ClassVar[str] = "doctor"
     form: ClassVar[Form] = CLEAN_FORM

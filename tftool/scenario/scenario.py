@@ -51,7 +51,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class When:
-    """When an expectation is judged, in nanoseconds since the start.
+    """Moments at which an expectation is judged, in nanoseconds since the start.
 
     Attributes:
         kind: "at" a moment, "by" a moment at the latest, or "during" a while.
@@ -73,7 +73,7 @@ class When:
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """What must hold, and when.
+    """Condition that must hold, and its moments.
 
     Attributes:
         when: When it is judged.
@@ -131,7 +131,7 @@ def _clock(duration: Duration) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of one expectation.
+    """Outcome of one expectation.
 
     Attributes:
         expectation: What was asked, in words: "distance from turtle2 to turtle1".
@@ -170,7 +170,7 @@ class Outcome:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What came of one run of a scenario.
+    """Verdict on one run of a scenario.
 
     Attributes:
         scenario: Its name.

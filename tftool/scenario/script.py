@@ -305,7 +305,7 @@ class ResetField(Action):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrameAction(Action, ABC):
-    """Where a child is in its parent."""
+    """Pose of a child in its parent."""
 
     parent: str = reads(values.frame)
     child: str = reads(values.frame)

@@ -1,4 +1,4 @@
-"""What came of a scenario that was played through: who ended where, and what held."""
+"""Summary of a scenario that was played through: final poses, and the expectations that held."""
 
 import json
 import math
@@ -162,7 +162,7 @@ def _settings(values: Mapping[str, str], names: Sequence[str]) -> str:
 
 
 def _distances(played: Played) -> list[tuple[str, str, float]]:
-    """How far each moving frame ended from the first one in its tree."""
+    """Return the final distance of each moving frame from the first one in its tree."""
     moving = [
         info
         for info in played.snapshot.frames

@@ -55,7 +55,7 @@ def goal_id_message(goal_id: bytes) -> Any:
 
 
 def goal_info(goal_id: bytes, accepted: Stamp) -> Any:
-    """Which goal, and when it was taken."""
+    """Goal id, and the stamp at which it was accepted."""
     return message(
         "action_msgs/msg/GoalInfo", goal_id=goal_id_message(goal_id), stamp=_time(accepted)
     )

@@ -1,4 +1,4 @@
-"""Where time comes from: simulated or real, one interface for both.
+"""Clocks, simulated and real, behind one interface.
 
 No other module touches `time` or `asyncio.sleep`. A waiter names the moment it wants
 and its place within that moment: (stamp, phase, rank, order of asking). Both
@@ -111,7 +111,7 @@ class Clock(ABC):
         return waiting
 
     def elapsed(self) -> Duration:
-        """How long ago the clock's epoch was, in nanoseconds."""
+        """Return the time since the clock's epoch, in nanoseconds."""
         return self.now() - self.epoch
 
     def timer(
@@ -140,7 +140,7 @@ class Clock(ABC):
         await self.timer(self.now() + duration, phase, rank)
 
     def _next_due(self) -> Stamp | None:
-        """When the next waiter that still waits is due; given-up ones are dropped."""
+        """Return when the next waiter is due; drop cancelled ones."""
         while self._waiters:
             if not self._waiters[0][4].done():
                 return self._waiters[0][0]
@@ -337,7 +337,7 @@ class WallClock(Clock):
         asyncio.get_running_loop().call_soon(self._wake)
 
     def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
-        """Where a head start goes on after `moment`; None where it has reached the present."""
+        """Return the moment at which a head start goes on; None once it has reached the present."""
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
@@ -572,7 +572,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
 
 
 class _VirtualSelector(selectors.DefaultSelector):
-    """Where a virtual loop would wait for files, it lets its clock jump instead."""
+    """Selector of a virtual loop: it lets the clock jump instead of waiting for files."""
 
     POLL_EVERY = 64
 

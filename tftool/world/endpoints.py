@@ -1,4 +1,4 @@
-"""Who publishes and who subscribes what, and with what quality of service.
+"""Publishers and subscriptions of topics, with their quality of service.
 
 Nodes are entered here by what they publish and subscribe, those of other processes too. What
 stays inside the process, such as keys that are pressed, has no ROS type and is not entered.
@@ -19,7 +19,7 @@ SUBSCRIPTION: Final = "subscription"
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """How often a topic's publishers speak up, as they promise or as it is asked of them.
+    """Deadline and liveliness of a topic's publishers, offered or requested.
 
     Attributes:
         deadline: At most so long between two messages, nanoseconds; None for any time.
@@ -36,7 +36,7 @@ class Timing:
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """How messages are to be handed on.
+    """Quality of service of a publisher or a subscription.
 
     Attributes:
         depth: How many messages wait, or are kept for late subscribers.

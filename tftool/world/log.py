@@ -1,4 +1,4 @@
-"""What nodes have to say, kept for screens and handed to listeners."""
+"""Log lines of nodes, kept for screens and handed to listeners."""
 
 import math
 from collections import deque

@@ -1,4 +1,4 @@
-"""How much memory the transforms of a live world may take, and what is forgotten beyond it.
+"""Limit of the memory that the transforms of a live world take; the oldest beyond it are dropped.
 
 A buffer prunes by time alone, as tf2's does: a publisher at a very high rate, or with stamps a
 nanosecond apart, fills the memory of each process that subscribes. The size of a recording is not
@@ -26,7 +26,7 @@ Say = Callable[[str], object]
 
 
 def allowed(environment: Mapping[str, str] = os.environ) -> int:
-    """How many bytes a buffer's samples may take: as the environment says, else `MAX_BYTES`.
+    """Return the bytes a buffer's samples may take: from the environment, else `MAX_BYTES`.
 
     Raises:
         UsageError: If the environment names no number of megabytes.

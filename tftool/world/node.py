@@ -62,7 +62,7 @@ class Node(Resident):
         return self.world.buffer
 
     async def run(self) -> None:
-        """What the node does; it ends when this returns."""
+        """Run the node; it ends when this returns."""
 
     def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
         """Run something beside `run`, as a part of this node.

@@ -68,7 +68,7 @@ class Parameters:
 
 
 class ParameterHolder(Protocol):
-    """What the services read and change: messages of rcl_interfaces in and out."""
+    """Parameters as the services read and change them: messages of rcl_interfaces in and out."""
 
     def values(self, names: Sequence[str]) -> list[Any]:
         """A ParameterValue for each name, without a type where there is none of that name."""

@@ -1,4 +1,4 @@
-"""What a world knows of its nodes, of their supervisor, and of the services and actions they serve.
+"""Registry of a world's nodes, their supervisor, and the services and actions they serve.
 
 Nodes know their world; the world knows them only as residents, so that neither module has to
 know the other.
@@ -29,14 +29,14 @@ class Resident:
     is_shown: ClassVar[bool] = True
 
     async def run(self) -> None:
-        """What it does; it ends when this returns."""
+        """Run it; it ends when this returns."""
 
     def close(self) -> None:
         """Withdraw everything it offers; called at its end."""
 
 
 class Supervision:
-    """What a world asks of the supervisor that runs its residents."""
+    """Interface of the supervisor that runs a world's residents."""
 
     def start(self, resident: Resident) -> None:
         """Start one that joined."""
@@ -138,10 +138,10 @@ class NamedOffers(Generic[T]):
         return stop
 
     def get(self, name: str) -> Offer[T] | None:
-        """Who answers; None where none does."""
+        """Return the server that answers; None where none does."""
         return self._first.get(name.removeprefix("/"))
 
     def count(self, name: str) -> int:
-        """How many would answer in turn."""
+        """Return how many servers would answer in turn."""
         plain = name.removeprefix("/")
         return (plain in self._first) + len(self._next.get(plain, ()))

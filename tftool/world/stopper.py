@@ -46,7 +46,7 @@ class Overdue(BaseException):
 
 
 class Stopper:
-    """What ends one run of an event loop.
+    """Stopper of one run of an event loop.
 
     Attributes:
         interrupted: Whether a signal has come.
@@ -244,7 +244,7 @@ def leave_screen() -> None:
 
 
 def node_task_name(name: str) -> str:
-    """What a node's tasks are called, by which they are told apart from others."""
+    """Return the name of a node's tasks, which tells them from others."""
     return f"node '{name}'"
 
 
@@ -315,7 +315,7 @@ def _say(sentence: str) -> None:
 
 
 def _terminal_settings() -> Any:
-    """How the terminal on stdin is set; None where there is none."""
+    """Return the settings of the terminal on stdin; None where there is none."""
     try:
         import termios
 

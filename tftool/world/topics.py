@@ -108,12 +108,12 @@ class Topic(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """How many listen at the moment, those in other processes included."""
+        """Return how many subscribe at the moment, those in other processes included."""
         return len(self._subscribers.registered) + self.far_subscribers
 
     @property
     def near_subscribers(self) -> int:
-        """How many listen in this process."""
+        """Return how many subscribe in this process."""
         return len(self._subscribers)
 
     def stream(self, depth: int = 100) -> AsyncIterator[T]:
@@ -124,7 +124,7 @@ class Topic(Generic[T]):
 async def streamed(
     subscribe: Callable[[Callable[[T], object]], Callable[[], None]], depth: int
 ) -> AsyncIterator[T]:
-    """What a subscription brings, one by one; a reader slower than `depth` loses the oldest."""
+    """Yield a subscription's messages one by one; a reader slower than `depth` loses the oldest."""
     waiting: deque[T] = deque(maxlen=depth)
     arrived = asyncio.Event()
 
@@ -149,7 +149,7 @@ Handler = Callable[[Any], Any | Awaitable[Any]]
 
 @dataclass(frozen=True, slots=True)
 class GoalResult:
-    """How an action ended.
+    """Result of an action.
 
     Attributes:
         status: "succeeded", "aborted" or "canceled".
@@ -235,7 +235,7 @@ class GoalHandle:
 
     @property
     def ended(self) -> GoalResult | None:
-        """How it ended; None while it is under way."""
+        """Return its result; None while it is under way."""
         return self._result.result() if self.done else None
 
     # The server's side.

@@ -46,7 +46,7 @@ class TransformMessage(_Transforms):
 
 
 class TopicPublisher(Generic[T]):
-    """What one node publishes on one topic.
+    """Publisher of one node on one topic.
 
     Attributes:
         name: The topic's name, without a leading slash.
@@ -80,7 +80,7 @@ class TopicPublisher(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """How many subscribe to the topic, those in other processes included."""
+        """Return how many subscribe to the topic, those in other processes included."""
         topic = self._topic
         if topic is None or topic.is_removed:
             topic = self._topic = self._world.topic(self.name, self.kind)
@@ -314,7 +314,7 @@ class World:
         return self._services.get(name) is not None
 
     def count_services(self, name: str) -> int:
-        """How many nodes here would answer that service in turn; another process counts as one."""
+        """Return how many nodes here answer that service in turn; another process counts as 1."""
         return self._services.count(name)
 
     def services(self) -> Mapping[str, Offer[Handler]]:

@@ -153,7 +153,7 @@ class DynamicCarrot(Node):
 def carrot_offset(
     stamp: Stamp, radius: float = 10.0, *, whole_seconds: bool = False
 ) -> tuple[float, float]:
-    """Where the dynamic carrot is at a moment: x and y in its parent's frame, in metres."""
+    """Return the dynamic carrot's x and y at a moment, in its parent's frame, in metres."""
     # Reduced as whole numbers: the seconds of a real clock are too large for an exact sine.
     turn = stamp % (2 * NANOSECONDS)
     if whole_seconds:

@@ -239,7 +239,7 @@ class JointStatePublisher(Node):
 
     @property
     def positions(self) -> dict[str, float]:
-        """Where every joint that moves is, those that mimic included; empty without a robot."""
+        """Return positions of all moving joints, mimicking ones too; empty without a robot."""
         return {} if self.robot is None else self.robot.positions(self._given)
 
     def move(self, joint: str, position: float) -> None:

@@ -259,7 +259,7 @@ class Player(Node):
         self.world.broadcast(transforms, sender, static=due.static)
 
     def _shift(self, moment: Stamp) -> Duration:
-        """How much later than it was recorded a moment is played."""
+        """Return how much later than it was recorded a moment is played."""
         wait = 0 if self.is_paused else round((moment - self._anchor) / self.rate)
         since = self._pace.now() if self.is_paused else self._since
         return since + wait - moment

@@ -1,4 +1,4 @@
-"""What a world's topics carry, handed to a recording as it comes."""
+"""Messages of a world's topics, handed to a recording as they arrive."""
 
 from collections.abc import Callable, Collection
 from functools import partial
@@ -23,7 +23,7 @@ FRAMES: Final = ("tf", "tf_static")
 
 
 class Taker(Protocol):
-    """What is given every message."""
+    """Receiver of every message."""
 
     def take(self, channel: Channel, log_time: int, payload: bytes, transforms: int = 0) -> None:
         """Take one message, and how many transforms are in it."""

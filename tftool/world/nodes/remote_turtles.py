@@ -39,7 +39,7 @@ _POSE: Final = "/pose"
 
 @dataclass(slots=True)
 class FarTurtle:
-    """What is known of a turtle elsewhere.
+    """Facts known about a turtle of another process.
 
     Attributes:
         name: Its name.

@@ -211,7 +211,7 @@ class FarDrawing:
         self._wipes = self._drawn = 0
 
     def request(self) -> Any:
-        """What asks for the strokes that are not here yet."""
+        """Return the request for the strokes that are missing here."""
         return KIND.Request(began=self._began, wipes=self._wipes, drawn=self._drawn)
 
     def take(self, told: Any) -> bool:

@@ -20,7 +20,7 @@ _SIDE = 2.0
 
 
 class State(Enum):
-    """What the square's driver is at."""
+    """State of the square's driver."""
 
     FORWARD = "forward"
     STOP_FORWARD = "stop forward"

@@ -44,7 +44,7 @@ class KeyPress:
 
 @dataclass(frozen=True, slots=True)
 class KeyMeaning:
-    """What a key does.
+    """Meaning of a key.
 
     Attributes:
         action: Drive, turn to a heading, give the turning up, or quit.

@@ -103,7 +103,7 @@ class Turtlesim(Node):
         return Color(r, g, b)
 
     def color_under(self, name: str) -> Color:
-        """What the colour sensor of a turtle reads at this moment.
+        """Return the reading of a turtle's colour sensor at this moment.
 
         Raises:
             KeyError: If there is no such turtle.
@@ -213,7 +213,7 @@ class Turtlesim(Node):
         return name
 
     def _refusal(self, name: str) -> str:
-        """Why there can be no further turtle of that name; empty when there can."""
+        """Return why there can be no further turtle of that name; empty when there can."""
         if len(self._turtles) >= MOST_TURTLES:
             return f"there are {MOST_TURTLES} already, kill one first"
         try:
