@@ -366,7 +366,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Waits:
-    """How long a listener waits for a topic's messages to be placed in a frame.
+    """Wait of a listener for a topic's messages to be placed in a frame.
 
     Attributes:
         waits: Nanoseconds after its arrival, shape (n,); NEVER for what never can be placed.

@@ -41,7 +41,7 @@ Places = npt.NDArray[np.int32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
-    """What is known of the frames: all that a diagnosis may look at.
+    """Evidence about the frames: all that a diagnosis may look at.
 
     Attributes:
         name: What it is called, for people.
@@ -275,7 +275,7 @@ def _cut_headers(headers: Headers, begin: Stamp, end: Stamp) -> Headers:
 
 
 def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
-    """What a buffer holds, in columns; everything in it counts as arrived at its stamp."""
+    """Return a buffer's samples in columns; each counts as arrived at its stamp."""
     parts: dict[tuple[str, str, bool], list[tuple[Records, Places]]] = {}
     logs: list[Stamps] = []
     senders: list[npt.NDArray[np.int32]] = []

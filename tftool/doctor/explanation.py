@@ -37,7 +37,7 @@ USUAL_WAIT = 0.1
 
 
 class Cause(Enum):
-    """Why a lookup is refused; WORKS where it is not."""
+    """Cause of a refused lookup; WORKS where it is answered."""
 
     LATE = "late"
     CLOCK_OFFSET = "clock-offset"
@@ -57,7 +57,7 @@ class Cause(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Remedy:
-    """What would let the lookup through.
+    """Cure that would let the lookup through.
 
     Attributes:
         kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher", "clock".
@@ -78,7 +78,7 @@ class Remedy:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TraceResult:
-    """What is known when a reason is looked for."""
+    """Facts in the search for a reason."""
 
     trace: LookupTrace
     way: list[Track] | None
@@ -100,7 +100,7 @@ class Reason:
 
 
 def misnamed(trace: LookupTrace) -> Reason | None:
-    """What is wrong with a name; None where both are known."""
+    """Return the fault of a name; None where both are known."""
     model = trace.model
     for name in (trace.question.target, trace.question.source):
         if name.startswith("/") or not name:
@@ -156,7 +156,7 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
 
 
 def no_join(known: TraceResult) -> Reason:
-    """Why nothing joins two frames that are known."""
+    """Return why nothing joins two known frames."""
     model, question = known.trace.model, known.trace.question
     ours, theirs = model.tree_of[question.source], model.tree_of[question.target]
     lesser, main = (ours, theirs) if len(ours.frames) <= len(theirs.frames) else (theirs, ours)
@@ -424,7 +424,7 @@ CHECK_OF = {
 
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """Why a lookup answers or refuses.
+    """Explanation of a lookup's answer or refusal.
 
     Attributes:
         target: The frame asked for.

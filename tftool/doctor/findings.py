@@ -1,4 +1,4 @@
-"""What the diagnosis of frames gives: frozen values, for people and for programs."""
+"""Findings of the diagnosis of frames: frozen values, for people and for programs."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -25,7 +25,7 @@ STALE_AFTER = 0.5
 
 
 class Severity(Enum):
-    """How bad a finding is, worst first."""
+    """Severity of a finding, worst first."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -38,7 +38,7 @@ class Severity(Enum):
 
 
 class Confidence(Enum):
-    """How sure a finding is: of a fact, of a rule that may err, of a guess."""
+    """Confidence of a finding: a fact, a rule that may err, a guess."""
 
     CERTAIN = "certain"
     LIKELY = "likely"
@@ -46,7 +46,7 @@ class Confidence(Enum):
 
 
 class Area(Enum):
-    """What a check looks at, in the order of the report."""
+    """Subject of a check, in the order of the report."""
 
     PUBLISHERS = "publishers"
     SHAPE = "shape"
@@ -59,7 +59,7 @@ class Area(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """What to do about a finding.
+    """Remedy of a finding.
 
     Attributes:
         text: A sentence.
@@ -132,7 +132,7 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Hit:
-    """What a check saw once; `judge` joins alike ones and adds the texts.
+    """Single observation of a check; `judge` joins alike ones and adds the texts.
 
     Attributes are those of `Finding`. `facts` also fill the texts of the catalogue.
     """

@@ -38,7 +38,7 @@ class ChainLink:
 
 @dataclass(frozen=True, slots=True)
 class ChainExplanation:
-    """Why a lookup between two links of a description answers or refuses.
+    """Explanation of a lookup between two links of a description.
 
     Attributes:
         target: The link asked for.

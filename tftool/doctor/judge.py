@@ -40,7 +40,7 @@ CHECKS: Mapping[str, Check] = {
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """What came of all checks.
+    """Outcome of all checks.
 
     Attributes:
         findings: By area, errors first; consequences directly behind their cause.
@@ -55,7 +55,7 @@ class Diagnosis:
     model: Model
 
     def count(self, severity: Severity) -> int:
-        """How many findings there are of a severity, consequences left out."""
+        """Return the number of findings of a severity, consequences left out."""
         return sum(f.severity is severity and f.because_of is None for f in self.findings)
 
     @property

@@ -1,4 +1,4 @@
-"""What the checks look at: columns and headers on one clock, in laps, as trees.
+"""Model the checks look at: columns and headers on one clock, in laps, as trees.
 
 Nothing here reads a file; see `evidence` for what was given.
 """

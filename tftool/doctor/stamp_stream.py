@@ -69,7 +69,7 @@ class Stream:
 
     @cached_property
     def latency(self) -> Stamps:
-        """How long after its stamp each arrived, nanoseconds."""
+        """Return the delay from each stamp to its arrival, nanoseconds."""
         return self.arrivals - self.stamps
 
     @cached_property
@@ -184,7 +184,7 @@ class Track(Stream):
 
     @cached_property
     def finite(self) -> Mask:
-        """Which have nothing but finite numbers, shape (n,)."""
+        """Return the samples with finite numbers only, shape (n,)."""
         if self.is_orderly:
             return np.ones(self.lap, dtype=np.bool_)
         finite = np.isfinite(self.translations).all(axis=1)
@@ -201,7 +201,7 @@ class Track(Stream):
 
     @cached_property
     def usable(self) -> Mask:
-        """Which tf2 would keep: finite, with a rotation, and a stamp unless static."""
+        """Return samples tf2 would store: finite, with a rotation, and a stamp unless static."""
         if self.is_orderly:
             return self.finite
         mask: Mask = self.finite & (self.squares > ZERO_QUATERNION)
@@ -370,7 +370,7 @@ def is_spatial(kind: str) -> bool:
 
 
 def unsorted_share(stamps: Stamps) -> int:
-    """How many stamps are older than one that came before."""
+    """Return how many stamps are older than one that arrived before."""
     if len(stamps) < 2:
         return 0
     return int(np.count_nonzero(stamps[1:] < np.maximum.accumulate(stamps)[:-1]))
@@ -399,5 +399,5 @@ def _falls(column: Stamps) -> bool:
 
 
 def last_part(name: str) -> str:
-    """What a name ends in, behind namespaces."""
+    """Return the last part of a name, behind namespaces."""
     return name.rsplit("/", 1)[-1]

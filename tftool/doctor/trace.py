@@ -24,7 +24,7 @@ MOST_SET = 200_000
 
 
 class LinkVerdict(Enum):
-    """What a link says to a question."""
+    """Verdict of a link on a question."""
 
     ANSWERS = "answers"
     FORWARD = "forward"
@@ -76,7 +76,7 @@ class TracedLink:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """What is asked, and by which listener.
+    """Question, and the listener that asks.
 
     Attributes:
         target: The frame to express things in.
@@ -203,7 +203,7 @@ class LookupTrace:
         return min(tracks, key=lambda track: int(np.abs(track.sorted_stamps - self.stamp).min()))
 
     def link(self, track: Track) -> TracedLink:
-        """What is held of one edge, and what it says to the question."""
+        """Return the samples held of one edge, and its verdict on the question."""
         held = self.held(track)
         verdict, short_by = self._verdict(track, held)
         if track.static and len(held):

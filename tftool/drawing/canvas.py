@@ -505,7 +505,7 @@ def _multiples(first: float, last: float, step: float) -> Iterator[float]:
 
 
 def _crossings(corners: Sequence[Point], row: float) -> tuple[float, float] | None:
-    """Where a row enters a convex shape and leaves it; None where it misses it."""
+    """Return where a row enters a convex shape and leaves it; None where it misses it."""
     found = []
     for (x0, y0), (x1, y1) in zip(corners, (*corners[1:], corners[0]), strict=True):
         if min(y0, y1) <= row < max(y0, y1):

@@ -16,7 +16,7 @@ Line: TypeAlias = list[Segment]
 
 
 class Cell(NamedTuple):
-    """What one cell of the screen shows. No ground colour: the field's own."""
+    """Content of one cell of the screen. No ground colour: the field's own."""
 
     text: str
     ink: Color | None = None

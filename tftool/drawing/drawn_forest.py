@@ -31,7 +31,7 @@ class Forest:
 
     @property
     def left_out(self) -> int:
-        """How many frames are not drawn."""
+        """Return the frames that are not drawn."""
         return len(self.info) - len(self.children)
 
 

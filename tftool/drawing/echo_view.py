@@ -104,7 +104,7 @@ def live_heading(target: str, source: str, age: Duration | None) -> "Text":
 
 
 def age_style(age: Duration) -> str:
-    """How an age is coloured: as views fade frames that get no news."""
+    """Return the colour of an age, as views fade frames that get no news."""
     if as_seconds(age) <= FRAME_TIMEOUT / 3:
         return "dim"
     return "yellow" if as_seconds(age) <= FRAME_TIMEOUT else "red"
@@ -126,7 +126,7 @@ def failure(now: Stamp, error: TransformException, frames: str) -> str:
 
 
 def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
-    """The same for programs: full precision, the exact stamp, NaN and infinity as null."""
+    """Return it for programs: full precision, the exact stamp, NaN and infinity as null."""
     pose = found.transform
     rpy = rpy_from_quaternion(pose.rotation)
     result: dict[str, Any] = {

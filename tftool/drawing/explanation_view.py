@@ -25,7 +25,7 @@ _WORDS = {
 
 
 def render(found: Explanation) -> "RenderableType":
-    """What was asked, what tf2 says, each link, why, what helps and what does not."""
+    """Views of an explanation: the question, tf2's answer, each link, the cause and the cures."""
     from rich.console import Group
     from rich.padding import Padding
     from rich.table import Table
@@ -179,7 +179,7 @@ def _exactly(stamp: Stamp) -> str:
 
 
 def as_object(found: Explanation) -> dict[str, Any]:
-    """The same as JSON has it; stamps are whole nanoseconds, names exactly as recorded."""
+    """Return it as JSON; stamps are whole nanoseconds, names exactly as recorded."""
     return {
         "schema": SCHEMA,
         "target": found.target,

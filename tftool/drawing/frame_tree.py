@@ -117,7 +117,7 @@ def advice(marks: Marks) -> str:
 def as_object(
     snapshot: Snapshot, moving: Collection[str] | None = None, marks: Marks = NO_MARKS
 ) -> dict[str, Any]:
-    """The same for programs; stamps in nanoseconds, no fact as null."""
+    """Return it for programs; stamps in nanoseconds, no fact as null."""
     if moving is not None:
         told = as_object(snapshot, marks=marks)
         for frame in told["frames"]:
@@ -179,7 +179,7 @@ def _plain(value: object) -> str:
 
 
 def facts(info: FrameInfo) -> tuple[str, ...]:
-    """What there is to say about one link, in the order of `HEADINGS` after the name."""
+    """Return the facts of one link, in the order of `HEADINGS` after the name."""
     if info.is_static:
         always = ("static", visible(info.authority or NONE))
         return (*always, *(NONE for _ in HEADINGS[3:]))
@@ -280,7 +280,7 @@ BROADCASTERS = (24, 16, 11)
 
 
 class TreeOrder(StrEnum):
-    """What decides which frame stands above which."""
+    """Return the key that sorts frames."""
 
     tree = "tree"
     name = "name"
@@ -519,7 +519,7 @@ class _Drawing:
         )
 
     def longest(self, guides: Guides) -> int:
-        """How many cells the longest name takes with what is before it."""
+        """Return the cells of the longest name with its guides."""
         return max(
             (
                 cell_len(self.names[one.info.frame])

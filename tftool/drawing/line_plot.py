@@ -44,7 +44,7 @@ _LIGHT: Final = (Color(175, 0, 0), Color(0, 115, 0), Color(0, 0, 215),
 
 @dataclass(frozen=True, slots=True)
 class PlotLook:
-    """How much room a plot has, and how it is painted.
+    """Size and paint of a plot.
 
     Attributes:
         width: Cells across.

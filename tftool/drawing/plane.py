@@ -101,7 +101,7 @@ class Drawn:
 
 @dataclass(frozen=True, slots=True)
 class PlanePicture:
-    """What there is to see at one moment, in one fixed frame.
+    """Scene at one moment, in one fixed frame.
 
     Attributes:
         fixed: The fixed frame; empty where there are no frames.

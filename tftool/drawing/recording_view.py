@@ -1,4 +1,4 @@
-"""What a recording holds, as text and as data."""
+"""Content of a recording, as text and as data."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -136,7 +136,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
 
 
 def as_object(recording: Recording, name: str | None = None) -> dict[str, Any]:
-    """The same for programs; moments and durations in nanoseconds."""
+    """Return it for programs; moments and durations in nanoseconds."""
     source, publishers = recording.source, _publishers(recording)
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
     return {

@@ -1,4 +1,4 @@
-"""What was found: as a table, as rows for programs, as a JUnit report."""
+"""Reports: as a table, as rows for programs, as a JUnit report."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -78,7 +78,7 @@ def summary(reports: Sequence[Report]) -> str:
 
 
 def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
-    """The same for programs: one mapping a report, with names exactly as they are."""
+    """Return it for programs: one mapping a report, with names exactly as they are."""
     return [
         {
             "scenario": report.name,
@@ -105,7 +105,7 @@ def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
 def as_junit(
     reports: Sequence[Report], command: str = "tftool check", whole: str = "plays to its end"
 ) -> str:
-    """The same as a JUnit XML document; times are those of the scenarios' own clocks.
+    """Return a JUnit XML document; times are those of the scenarios' own clocks.
 
     Args:
         reports: What came of each thing.

@@ -1,4 +1,4 @@
-"""What a robot description holds, as text and as data."""
+"""Content of a robot description, as text and as data."""
 
 from typing import Any
 
@@ -53,7 +53,7 @@ def as_text(name: str, robot: Robot, width: int | None = None) -> str:
 
 
 def as_object(name: str, robot: Robot) -> dict[str, Any]:
-    """The same for programs; radians, metres, kilograms."""
+    """Return it for programs; radians, metres, kilograms."""
     rest = robot.positions()
     return {
         "name": name,

@@ -1,4 +1,4 @@
-"""Who shares a session, in aligned columns."""
+"""Members of a session, in aligned columns."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime

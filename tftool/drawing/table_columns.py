@@ -36,7 +36,7 @@ class TableColumn:
 
     @property
     def width(self) -> int:
-        """How many cells it takes, within the first of its caps."""
+        """Return the cells it takes, within the first of its caps."""
         longest = max(map(cell_len, [self.heading, *(text for text, _ in self.cells)]))
         return min([longest, *self.caps[:1]])
 
@@ -65,7 +65,7 @@ class FittedColumns:
 
     @property
     def width(self) -> int:
-        """How many cells a line takes at most."""
+        """Return the cells of the longest line."""
         return self.room + sum(GAP + width for width in self.widths)
 
     def heading(self, first: str) -> Text:

@@ -1,4 +1,4 @@
-"""What arrives, how often and how late: tf2_monitor's lines, a table, an object."""
+"""Rates and delays of arriving transforms: tf2_monitor's lines, a table, an object."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -248,7 +248,7 @@ def _late(now: Stamp, series: Series, is_static: bool) -> str:
 
 
 def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[str, Any]:
-    """The same for programs: seconds and hertz, null where nothing can be measured."""
+    """Return it for programs: seconds and hertz, null where nothing can be measured."""
     result: dict[str, Any] = {"at_ns": now}
     if chain is not None:
         result |= {

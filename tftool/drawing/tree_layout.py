@@ -31,7 +31,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """Where an item stands: the middle of its breadth, and its level."""
+    """Place of an item: the middle of its breadth, and its level."""
 
     middle: float
     level: int
@@ -123,7 +123,7 @@ def _row(
 
 
 class _Outline:
-    """How far a subtree reaches to either side, level by level.
+    """Return the extent of a subtree to either side, level by level.
 
     The lists run from the deepest level up, so that a new top is appended and the common
     levels of two outlines are the ends of both; each list keeps a shift of its own, so

@@ -49,7 +49,7 @@ def default_folder() -> Path | None:
 
 
 def key_of(found: Found, *, any_size: bool = False) -> str:
-    """What a recording's columns are kept under; "" where they are not worth it.
+    """Return the cache key of a recording's columns; "" where caching is not worth it.
 
     Args:
         found: The recording.
@@ -89,7 +89,7 @@ def _files(found: Found) -> Iterator[Path]:
 
 
 def head_size(start: bytes) -> int:
-    """How many bytes stand before the columns of an entry, by its first bytes.
+    """Return the bytes before the columns of an entry, by its first bytes.
 
     Raises:
         ValueError: If it does not begin as an entry does.
@@ -101,7 +101,7 @@ def head_size(start: bytes) -> int:
 
 
 def parsed_head(data: bytes, key: str) -> dict[str, Any]:
-    """What an entry's head says.
+    """Head of an entry.
 
     Args:
         data: Its bytes before the columns.

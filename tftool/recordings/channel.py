@@ -28,7 +28,7 @@ class Channel:
     metadata: tuple[tuple[str, str], ...] = ()
 
     def extra(self, key: str) -> str:
-        """What the metadata has under a key; "" for nothing."""
+        """Return the metadata under a key; "" for nothing."""
         return dict(self.metadata).get(key, "")
 
 
@@ -37,7 +37,7 @@ class CopiedPiece(Protocol):
 
     @property
     def length(self) -> int:
-        """How many they are."""
+        """Return their number."""
 
     def copy_to(self, file: int, place: int, crc: int | None = None) -> int:
         """Copy them to a place in the file of a number, and go on with a CRC if there is one."""

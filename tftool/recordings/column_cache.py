@@ -43,7 +43,7 @@ class ColumnCache:
         self._most_bytes = most_bytes
 
     def load(self, key: str) -> Transforms | None:
-        """What is kept under a key; None where nothing is, or it is not as it was written."""
+        """Return the entry under a key; None where there is none, or it is damaged."""
         if not key:
             return None
         path = self.folder / f"{key}{SUFFIX}"

@@ -111,7 +111,7 @@ class _Column:
 
 
 def _wanted(needed: int, share: float, freely: int) -> int:
-    """How many rows to make room for.
+    """Return the rows to make room for.
 
     Args:
         needed: How many there must be room for.
@@ -198,7 +198,7 @@ class Growing:
     def room(
         self, first: tuple[int, int], last: int, count: int, share: float = 1.0
     ) -> tuple[Records, Indexes]:
-        """Where to write transforms, and the messages they come in.
+        """Return the rows to write transforms to, and the numbers of their messages.
 
         Args:
             first: The first of those messages, which are in order, and the place in it.
@@ -277,7 +277,7 @@ class Table:
 
     @property
     def spare(self) -> int:
-        """How many edges more there may be."""
+        """Return how many more edges there may be."""
         return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:

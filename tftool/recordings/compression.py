@@ -11,7 +11,7 @@ ZSTD_LEVEL: Final = 1
 
 
 def compressor(method: str) -> Callable[[bytes], bytes]:
-    """What packs pieces by a method: "", "none", "zstd", "lz4" or "bz2".
+    """Return the compressor of a method: "", "none", "zstd", "lz4" or "bz2".
 
     Raises:
         UsageError: If there is no such method, or what it takes is not installed.

@@ -1,4 +1,4 @@
-"""What each container gives its reader: streams of messages, in pieces of its bytes."""
+"""Interface of containers: streams of messages, in pieces of their bytes."""
 
 import os
 import re
@@ -60,7 +60,7 @@ def check_told(count: int) -> None:
 
 
 def offers_of(text: str) -> Offers:
-    """What a text of QoS profiles says: in numbers up to rosbag2's version 8, then in words."""
+    """Parse a text of QoS profiles: in numbers up to rosbag2's version 8, then in words."""
     found: dict[str, list[str]] = {"durability": [], "reliability": []}
     for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
         plain = word.strip("\"'")
@@ -124,7 +124,7 @@ class Container(Protocol):
 
     @property
     def damage(self) -> list[str]:
-        """What is wrong with it, as sentences; reading may add to them."""
+        """Return its damage, as sentences; reading may add to them."""
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None

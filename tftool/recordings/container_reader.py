@@ -110,7 +110,7 @@ class Recorded:
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """What is missing or wrong with the files, as sentences."""
+        """Return what is missing or wrong with the files, as sentences."""
         return (*self._container.damage, *self._notes)
 
     def _note(self, damage: str) -> None:
@@ -213,7 +213,7 @@ class Recorded:
         return {topic: heads.finished() for topic, heads in sorted(found.items())}
 
     def clock(self) -> tuple[Stamps, Stamps]:
-        """What `/clock` read and when it was received, nanoseconds, each of shape (n,)."""
+        """Return the readings of `/clock` and their reception, nanoseconds, each of shape (n,)."""
         read, received = array("q"), array("q")
         numbers = {
             number: stream
@@ -305,7 +305,7 @@ class _Heads:
 
 
 def _unpacked(batch: Batch) -> Iterator[Batch]:
-    """The same messages, each unpacked by itself, in pieces; empty where that fails."""
+    """Yield the messages, each unpacked by itself, in pieces; empty where that fails."""
     pieces: list[bytes] = []
     first = held = 0
     for number in range(len(batch)):
@@ -324,7 +324,7 @@ def _unpacked(batch: Batch) -> Iterator[Batch]:
 def _by_cutter(
     batch: Batch, of_stream: dict[int, AnyCutter]
 ) -> "Iterator[tuple[AnyCutter, slice | Stamps]]":
-    """Which of a batch's messages each cutter takes."""
+    """Return the messages of a batch that each cutter takes."""
     first = int(batch.senders[0])
     if (batch.senders == first).all():
         yield of_stream[first], slice(None)

@@ -1,4 +1,4 @@
-"""What every source of recorded frames gives, as values and columns.
+"""Values and columns that every source of recorded frames gives.
 
 A source is read, not waited for: it ends, and all of it is there. Moments are whole
 nanoseconds; *stamps* are what the publisher wrote into a header, *log times* when the
@@ -145,11 +145,11 @@ class Transforms:
         return sum(len(edge) for edge in self.edges)
 
     def log_times_of(self, edge: Edge) -> Stamps:
-        """When each transform of an edge was received, nanoseconds, shape (n,)."""
+        """Return the reception of each transform of an edge, nanoseconds, shape (n,)."""
         return self.log_times[edge.messages]
 
     def senders_of(self, edge: Edge) -> Indexes:
-        """Who published each transform of an edge: places in `publishers`, shape (n,)."""
+        """Return the publishers of an edge's transforms: indices into `publishers`, shape (n,)."""
         return self.senders[edge.messages]
 
 

@@ -203,7 +203,7 @@ class Ahead:
 
 
 def _processors() -> int:
-    """How many this process may use."""
+    """Return the processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
@@ -261,7 +261,7 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
 
 
 def most_of(packed: int) -> int:
-    """How many bytes so many packed ones may become: what is honest stays far below."""
+    """Return the most bytes a packed piece may become: honest files stay far below."""
     return MOST_GAIN * packed + _SLACK
 
 

@@ -1,4 +1,4 @@
-"""What a robot's description adds to a recording: the frames that tf lacks."""
+"""Frames that a robot's description adds to a recording, because tf lacks them."""
 
 import re
 from collections import Counter
@@ -23,7 +23,7 @@ DESCRIPTION: Final = "robot_description"
 
 @dataclass(frozen=True, slots=True)
 class DescribedFrames:
-    """What a description gave that tf did not.
+    """Frames a description gave and tf did not.
 
     Attributes:
         still: Frames that hold at all times.

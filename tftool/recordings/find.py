@@ -1,4 +1,4 @@
-"""Which kind of source a word on the command line names: decided by content, never by suffix.
+"""Kinds of sources that a word on the command line names: decided by content, never by suffix.
 
 Only names, sizes and the first bytes are looked at; what reads the source finds out more.
 """
@@ -57,7 +57,7 @@ _OTHERS = {
 
 
 class Kind(Enum):
-    """What a source is, in words."""
+    """Return the kind of a source in words."""
 
     SCENARIO = "scenario"
     DESCRIPTION = "robot description"
@@ -81,7 +81,7 @@ _RECORDINGS = (Kind.MCAP, Kind.SQLITE, Kind.ROS1, Kind.ZSTD)
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """What a word names.
+    """Source that a word names.
 
     Attributes:
         name: The word.
@@ -138,7 +138,7 @@ def _meant(path: Path) -> str:
 
 
 def find(word: str) -> Found:
-    """What a path or a glob names.
+    """Return the source that a path or a glob names.
 
     Raises:
         InputError: If there is nothing, or nothing we read; it says what is there instead.
@@ -213,7 +213,7 @@ _WRITTEN = {*_DESCRIBING, ".yaml", ".yml", ".xml", ".py"}
 
 
 def kind_of_file(path: Path) -> Kind:
-    """What one file is, by its first bytes.
+    """Return the kind of one file, by its first bytes.
 
     Raises:
         InputError: If it is empty, or nothing we read.
@@ -310,7 +310,7 @@ def _is_metadata(path: Path) -> bool:
 
 
 def _folder(word: str, path: Path) -> Found:
-    """What a folder holds: one recording of rosbag2, or several recordings."""
+    """Return the content of a folder: one recording of rosbag2, or several recordings."""
     if (path / METADATA).exists():
         return Found(word, Kind.ROSBAG2, (path,))
     entries = sorted(path.iterdir())
@@ -380,7 +380,7 @@ def _recordings(
 
 
 def refusal(path: Path, error: OSError) -> InputError:
-    """What to say of one file of several that the system does not open.
+    """Return the sentence for one file of several that the system does not open.
 
     Raises:
         OSError: The error itself, if it is none of this file: too many are open.

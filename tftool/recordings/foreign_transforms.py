@@ -31,7 +31,7 @@ _DOUBLE = struct.Struct("<d")
 
 
 def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decoder | None":
-    """How messages of a type become transforms; None where they do not.
+    """Return the conversion of a type's messages to transforms; None where there is none.
 
     Args:
         kind: The type, short.

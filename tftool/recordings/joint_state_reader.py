@@ -129,7 +129,7 @@ class _Template:
 
 
 class _Layout:
-    """How a JointState lies in bytes: after some bytes, with or without alignment."""
+    """Layout of a JointState in bytes: after some bytes, with or without alignment."""
 
     origin = 0
     stamp = 0

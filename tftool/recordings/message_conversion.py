@@ -29,7 +29,7 @@ _TO_ROS2: Final = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 
 
 class Conversion(NamedTuple):
-    """How a stream is written in another way.
+    """Conversion of a stream to another profile.
 
     Attributes:
         channel: The stream as it is written then.

@@ -164,12 +164,12 @@ class Recording:
 
     @property
     def publishers(self) -> tuple[Publisher, ...]:
-        """Who publishes what. Names of nodes stand in ROS 1 bags alone."""
+        """Return the publishers of topics. Only ROS 1 bags hold names of nodes."""
         return self.source.publishers
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """What could not be read, as sentences; reading on may find more."""
+        """Return what could not be read, as sentences; reading on may find more."""
         return (*self.source.damage, *self._read_damage())
 
     def _read_damage(self) -> tuple[str, ...]:
@@ -313,13 +313,13 @@ class Recording:
 
     @property
     def described(self) -> DescribedFrames | None:
-        """What the robot's description added to what tf holds; None without a description."""
+        """Return the frames the robot's description added to tf's; None without one."""
         _ = self.buffer
         return self._described
 
     @property
     def oddities(self) -> dict[str, int]:
-        """What the buffer left out or had to choose, as sentences, and how often."""
+        """Return what the buffer left out or had to choose, as sentences with counts."""
         _ = self.buffer
         return dict(self._oddities)
 

@@ -1,4 +1,4 @@
-"""What a recording holds, in numbers: edges with rates and clock offsets, trees, what is odd."""
+"""Figures of a recording: edges with rates and clock offsets, trees, oddities."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from tftool.recordings.recording import Recording
 
 @dataclass(frozen=True, slots=True)
 class Offset:
-    """How much later than its stamp a transform was received, nanoseconds."""
+    """Delays from the stamp of a transform to its reception, nanoseconds."""
 
     least: Duration
     median: Duration

@@ -196,7 +196,7 @@ def write_recording(
 
 
 def library_name() -> str:
-    """What we call ourselves in files."""
+    """Return our name in files."""
     # The package stands above every room: it is asked, not imported.
     version: str = sys.modules["tftool"].__version__
     return f"tftool {version}"

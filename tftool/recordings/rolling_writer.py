@@ -42,7 +42,7 @@ class Kept(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class RecordLimits:
-    """When a recording begins a new file, or forgets.
+    """Limits at which a recording begins a new file, or drops its oldest part.
 
     Attributes:
         size: Bytes of a file before the next one begins; 0 for one file.

@@ -196,7 +196,7 @@ def synced(path: Path) -> None:
 
 
 def failed(path: Path, error: OSError) -> InputError:
-    """What went wrong with a file that is written, as a sentence."""
+    """Return the error of a file that cannot be written, as a sentence."""
     if error.errno == errno.ENOSPC:
         return InputError(f"'{path}' cannot be written: the disk is full.")
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):

@@ -77,7 +77,7 @@ class PlayClock:
 
 @dataclass(frozen=True, slots=True)
 class Due:
-    """What is to be sent at one moment: the transforms of one message.
+    """Transforms of one message, to be sent at one moment.
 
     Attributes:
         moment: When, on the clock of the stamps.
@@ -141,7 +141,7 @@ class Timeline:
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def message(self, place: int) -> list[Due]:
-        """What a message has to send: its transforms, moving and static ones apart."""
+        """Return a message's transforms, moving and static ones apart."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
         publisher = self._transforms.publishers[int(sender)]
@@ -155,7 +155,7 @@ class Timeline:
         ]
 
     def known_at(self, moment: Stamp) -> list[Due]:
-        """What was known of every child at a moment: the last that had been received by then.
+        """Return the last transform of every child that had been received by a moment.
 
         A static that came later counts from the beginning on, as what it says holds at all
         times.

@@ -1,4 +1,4 @@
-"""What is changed in a recording, transform by transform and message by message."""
+"""Changes of a recording, transform by transform and message by message."""
 
 import struct
 from collections import Counter
@@ -34,7 +34,7 @@ _HEADER: Final = "std_msgs/msg/Header"
 
 @dataclass(frozen=True, slots=True)
 class Edits:
-    """What is to be changed; names are those in the recording.
+    """Changes to make; names are those in the recording.
 
     Attributes:
         drop: Links to leave out.
@@ -141,7 +141,7 @@ def carries_statics(channel: Channel) -> bool:
 
 
 class Window:
-    """Which moments are kept.
+    """Span of the moments that are kept.
 
     Attributes:
         start: First log time of messages without a stamp of their own.

@@ -40,7 +40,7 @@ def _row_of(sample: TransformStamped) -> TransformRow:
 
 
 class StaticHeads:
-    """What every file of a result begins with: the statics, for readers that start there.
+    """Statics at the beginning of every file of a result, for readers that start there.
 
     Attributes:
         wanted: Whether the files begin so; a recording that is only changed does not.

@@ -160,7 +160,7 @@ def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) ->
 
 
 def _metadata(folder: Path) -> Mapping[str, Any] | None:
-    """What a folder's metadata says; None where it says nothing we can read."""
+    """Return a folder's metadata; None where it cannot be read."""
     import yaml
 
     from tftool.base import yaml_guard

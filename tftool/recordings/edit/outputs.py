@@ -134,7 +134,7 @@ class EditedFile:
     def _conversion(
         self, source: int, number: int, channel: Channel, tape: Tape
     ) -> Conversion | None:
-        """How a channel is written here; None where it cannot be."""
+        """Return the channel as it is written here; None where it cannot be."""
         key = source, number
         if key not in self._conversions:
             try:

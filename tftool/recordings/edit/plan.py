@@ -77,7 +77,7 @@ def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] 
 
 
 def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
-    """What is kept of the time; None where all is."""
+    """Return the span that is kept; None for all of it."""
     if not edits.cuts:
         return None
     low = edits.start if edits.start is not None else 0

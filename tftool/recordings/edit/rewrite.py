@@ -43,7 +43,7 @@ _AHEAD: Final = 3  # chunks that are examined before they are wanted
 
 @dataclass(slots=True)
 class EditReport:
-    """What editing did.
+    """Outcome of editing.
 
     Attributes:
         messages: How many the result has.
@@ -187,7 +187,7 @@ class _Job:
     # The runs
 
     def tried(self) -> EditReport:
-        """What would be done."""
+        """Plan of an edit that is not made."""
         self._heads.collect()
         done = 0
         for source, tape in enumerate(self._tapes):
@@ -323,7 +323,7 @@ class _Job:
         self._changer.counts = Counter()
 
     def _path_in(self, part: Path, number: int) -> Path:
-        """Where a file of the result is written."""
+        """Place of a file of the result."""
         if not self._is_folder:
             return part
         suffix = {"mcap": ".mcap", "db3": ".db3", "bag": ".bag"}[self._container]
@@ -507,7 +507,7 @@ class _Job:
             report.files = [self._path.name]
 
     def _old_names(self) -> Iterator[str]:
-        """Which topics go on using names that were changed."""
+        """Return the topics that still use names that were changed."""
         for recording in self._recordings:
             for topic, headers in recording.source.headers().items():
                 old = [self._edits.name(name) != name and bool(name) for name in headers.names]

@@ -35,7 +35,7 @@ class Taken(NamedTuple):
 def described(
     messages: list[Taken], channels: Mapping[int, Channel], file: ChunkedFile
 ) -> list[Taken]:
-    """Those of some messages of which the file tells on which topic they are."""
+    """Return the messages whose channel is known."""
     found = [one for one in messages if one.channel in channels]
     if len(found) < len(messages):
         file.note("Messages are left out of which nothing tells on which topic they are.")
@@ -67,7 +67,7 @@ class Block(Protocol):
 
 @dataclass(slots=True)
 class Extras:
-    """What a file holds beside messages.
+    """Content of a file beside messages.
 
     Attributes:
         attachments: MCAP's attachments, which stay in their file.

@@ -1,4 +1,4 @@
-"""What stands in an MCAP file: its records, the chunks its index tells of, and their messages.
+"""Records of an MCAP file, the chunks in its index, and their messages.
 
 Source: the MCAP format specification, version 0.
 """
@@ -170,7 +170,7 @@ class SingleMessages:
 
 
 def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Where the payloads of a channel's messages begin, their lengths, and their log times.
+    """Offsets, lengths and log times of the payloads of a channel's messages.
 
     Args:
         data: A chunk's records.
@@ -285,5 +285,5 @@ def text_at(
 
 
 def reason_of(error: Exception) -> str:
-    """Why a record cannot be read, in words."""
+    """Return why a record cannot be read."""
     return "a record is cut" if isinstance(error, struct.error) else str(error)

@@ -108,7 +108,7 @@ class Mcap:
 
     @property
     def bytes_read(self) -> int:
-        """How many bytes of the file have been read so far."""
+        """Return the bytes of the file that have been read so far."""
         return self._file.read
 
     def close(self) -> None:
@@ -337,7 +337,7 @@ class Mcap:
     # Messages
 
     def expected(self, wanted: Collection[int]) -> int:
-        """How many messages some streams have, by what the file tells."""
+        """Return the messages of some streams, as the file counts them."""
         return sum(self.counts[number] for number in wanted)
 
     def batches(

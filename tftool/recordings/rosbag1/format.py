@@ -1,4 +1,4 @@
-"""What stands in a ROS 1 bag: its records, and the messages that a chunk's index tells of.
+"""Records of a ROS 1 bag, and the messages in a chunk's index.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -55,7 +55,7 @@ def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int
 
 
 class ChunkInfo(NamedTuple):
-    """What a bag's index tells of a chunk: where it begins, its times, messages by connection."""
+    """Chunk in a bag's index: its offset, its times, its messages by connection."""
 
     position: int
     start: Stamp
@@ -96,7 +96,7 @@ def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
 
 
 def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Where a connection's messages begin, their lengths, and their log times.
+    """Offsets, lengths and log times of a connection's messages.
 
     Args:
         data: A chunk's records.
@@ -196,7 +196,7 @@ def time_of(raw: bytes) -> Stamp:
 
 
 def reason_of(error: Exception) -> str:
-    """Why a record cannot be read, in words."""
+    """Return why a record cannot be read."""
     if isinstance(error, KeyError):
         return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
     return "a record is cut" if isinstance(error, struct.error) else str(error)

@@ -249,7 +249,7 @@ class Rosbag1:
     # Messages
 
     def expected(self, wanted: Collection[int]) -> int:
-        """How many messages some streams have, by what the file tells."""
+        """Return the messages of some streams, as the file counts them."""
         return sum(self.counts[number] for number in wanted)
 
     def batches(

@@ -16,7 +16,7 @@ VERSION: Final = 9
 
 @dataclass(frozen=True, slots=True)
 class FileFacts:
-    """What the metadata tells of one file.
+    """Entry of one file in the metadata.
 
     Attributes:
         name: Its name in the folder.
@@ -39,7 +39,7 @@ def metadata_text(
     compression: tuple[str, str] = ("", ""),
     old: Mapping[str, Any] | None = None,
 ) -> str:
-    """What metadata.yaml says.
+    """Return the content of metadata.yaml.
 
     Args:
         storage: "mcap" or "sqlite3".

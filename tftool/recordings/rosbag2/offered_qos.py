@@ -1,4 +1,4 @@
-"""What a publisher offered its subscribers, as rosbag2 writes it beside a topic."""
+"""Quality of service that a publisher offered, as rosbag2 writes it beside a topic."""
 
 import re
 from typing import Final
