@@ -467,7 +467,7 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     ),
 )
 def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Find a stamp sent twice: TF_REPEATED_DATA in ROS 1."""
+    """The same stamp twice: TF_REPEATED_DATA in ROS 1."""
     for track in model.dynamic:
         places = track.by_stamp
         if track.is_orderly:
