@@ -147,10 +147,25 @@ def write(
         UsageError: If the extra `plot` is not installed.
     """
     made = _needed("matplotlib.figure").Figure
-    figure = _figure(found, start, quantities, xy, dark, made)
+    _save(_figure(found, start, quantities, xy, dark, made), file, form)
+
+
+def write_panels(
+    drawn: Sequence[PlotPanel], title: str, file: BinaryIO, form: str, *, dark: bool = False
+) -> None:
+    """Write some panels under a title as a figure, in one of `FORMATS`.
+
+    Raises:
+        UsageError: If the extra `plot` is not installed.
+    """
+    made = _needed("matplotlib.figure").Figure
+    _save(_figure_of_panels(drawn, title, (), dark, made), file, form)
+
+
+def _save(figure: "Figure", file: BinaryIO, form: str) -> None:
+    # No date: the same plot is the same file.
     metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}[form]
-    matplotlib = _needed("matplotlib")
-    with matplotlib.rc_context(_COMMON):
+    with _needed("matplotlib").rc_context(_COMMON):
         figure.savefig(file, format=form, dpi=150, metadata=metadata)
 
 
@@ -169,31 +184,50 @@ def _figure(
     dark: bool,
     make: Any,
 ) -> "Figure":
-    matplotlib = _needed("matplotlib")
-    colours = _DARK if dark else _LIGHT
-    drawn = [] if xy else panels(found, start, quantities)
-    height = 6.0 if xy else 1.0 + 1.7 * len(drawn)
-    # pyplot's first figure also sets up its backend, which must outlast the settings below:
-    # a notebook would show no later figure of anyone's.
-    ground = colours["figure.facecolor"]
+    title = ", ".join(f"{one.source} in {one.target}" for one in found[:4])
+    title += " …" if len(found) > 4 else ""
+    if not xy:
+        drawn = panels(found, start, quantities)
+        return _figure_of_panels(drawn, title, shades(found, start), dark, make, len(found) == 1)
+    figure = _empty_figure(6.0, dark, make)
+    with _needed("matplotlib").rc_context(_settings(dark)):
+        figure.suptitle(_plain(title), fontsize=11)
+        _draw_path(figure.subplots(), found, dark)
+    return figure
+
+
+def _settings(dark: bool) -> dict[str, object]:
+    return {**_COMMON, **(_DARK if dark else _LIGHT)}
+
+
+def _empty_figure(height: float, dark: bool, make: Any) -> "Figure":
+    # pyplot's first figure also sets up its backend, which must outlast our settings: with them
+    # in force, a notebook would show no later figure of anyone's.
+    ground = (_DARK if dark else _LIGHT)["figure.facecolor"]
     figure: Figure = make(figsize=(8.0, height), layout="constrained", facecolor=ground)
-    with matplotlib.rc_context({**_COMMON, **colours}):
-        title = ", ".join(f"{one.source} in {one.target}" for one in found[:4])
-        figure.suptitle(_plain(title + (" …" if len(found) > 4 else "")), fontsize=11)
-        if xy:
-            _draw_path(figure.subplots(), found, dark)
-            return figure
-        shaded = shades(found, start)
+    return figure
+
+
+def _figure_of_panels(
+    drawn: Sequence[PlotPanel],
+    title: str,
+    shaded: Sequence[RefusedSpan],
+    dark: bool,
+    make: Any,
+    named: bool = True,
+) -> "Figure":
+    """Draw panels one above the other; `named` if each has curves of its own to name."""
+    figure = _empty_figure(1.0 + 1.7 * len(drawn), dark, make)
+    with _needed("matplotlib").rc_context(_settings(dark)):
+        figure.suptitle(_plain(title), fontsize=11)
         axes = figure.subplots(len(drawn), 1, sharex=True, squeeze=False)[:, 0]
         for one, panel in zip(axes, drawn, strict=True):
-            # Of several pairs the same curves are in all panels.
-            named = len(found) == 1 or one is axes[0]
-            _draw_panel(one, panel, shaded, dark, named=named)
+            _draw_panel(one, panel, shaded, dark, named=named or one is axes[0])
         axes[-1].set_xlabel("time, s")
         if shaded:
             figure.supxlabel(_plain_lines(reasons(shaded)), x=0.01, ha="left", fontsize=7)
         figure.align_ylabels(axes)
-        return figure
+    return figure
 
 
 def _draw_panel(

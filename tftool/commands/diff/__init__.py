@@ -1,14 +1,27 @@
 """`tftool diff`: what differs between two sets of frames."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from tftool.commands.shared.declaration import declare
-from tftool.commands.shared.options import OUTPUT, Json, RunFor, not_negative, option
+from tftool.commands.shared.options import (
+    OUTPUT,
+    Force,
+    Json,
+    Pairs,
+    RunFor,
+    not_negative,
+    option,
+    output_file,
+)
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
+
+TRAJECTORIES = "Trajectories"
+"""Heading of the help under which the options of --ape and --rpe are listed."""
 
 
 @declare(descriptions=True, urdf=True)
@@ -50,11 +63,46 @@ def diff(
     everything: Annotated[
         bool, option("List links that do not differ, too.", "--all", panel=OUTPUT)
     ] = False,
+    ape: Annotated[
+        bool,
+        option("Measure the absolute pose error of trajectory B.", "--ape", panel=TRAJECTORIES),
+    ] = False,
+    rpe: Annotated[
+        bool,
+        option("Measure its relative pose error.", "--rpe", panel=TRAJECTORIES),
+    ] = False,
+    pairs: Pairs = None,
+    fit: Annotated[
+        Literal["none", "first", "se3", "sim3"],
+        option(
+            "Align B with A: by its first pose, rigidly (se3), or with a scale (sim3).",
+            panel=TRAJECTORIES,
+        ),
+    ] = "none",
+    match: Annotated[
+        Literal["nearest", "interpolate"],
+        option(
+            "Take A's nearest pose within 10 ms, or interpolate A at B's stamps.",
+            panel=TRAJECTORIES,
+        ),
+    ] = "nearest",
+    per: Annotated[
+        str,
+        option(
+            "Length over which --rpe is taken: frames (1), metres (10m) or degrees (5deg).",
+            metavar="LENGTH",
+            panel=TRAJECTORIES,
+        ),
+    ] = "1",
     lasting: RunFor = None,
     for_programs: Json = False,
     markdown: Annotated[
         bool, option("Print it for an issue on the web.", "--markdown", panel=OUTPUT)
     ] = False,
+    output: Annotated[
+        Path | None, output_file("Draw the errors of --ape and --rpe: .svg, .pdf or .png.")
+    ] = None,
+    force: Force = False,
 ) -> None:
     """Say what differs between two sets of frames, link by link.
 
@@ -63,7 +111,11 @@ def diff(
     square, worst, and when. Exit status 1 when anything differs by more than 1 mm or 0.1°,
     or by --mm, --deg, --rate-percent.
 
+    With --ape or --rpe, two trajectories are compared instead, A as the reference: the only
+    chain of each, or --pair TARGET:SOURCE, given twice where A and B name it differently.
+
     tftool diff monday.mcap robot.urdf
     tftool diff calibrated.launch.py session --mm 0.5
     tftool diff run1.mcap run2.mcap --align start --json
+    tftool diff truth.tum estimate.tum --ape --rpe --fit se3
     """

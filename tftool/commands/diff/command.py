@@ -2,9 +2,11 @@
 
 import json
 import sys
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
-from tftool.base.errors import LinkError
+from tftool.base.errors import LinkError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration
@@ -12,10 +14,16 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import WHOLE, listen_from, open_from
+from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width
 from tftool.drawing import difference_view as view
+from tftool.drawing import figure
+from tftool.drawing import trajectory_error_view as error_view
 from tftool.frames.diff import side_of
 from tftool.frames.differences import Allowance, Side, compare
+from tftool.frames.export.trajectory_files import whole_file
+from tftool.frames.trajectory_errors import Fit, Match, Pair, Step, trajectory_errors
+from tftool.recordings.target import refuse_existing
 from tftool.world.link.heard_frames import NOTHING_RUNS
 
 SESSION = "session"
@@ -32,9 +40,17 @@ def run(
     rate_percent: float | None,
     align: Literal["start"] | None,
     everything: bool,
+    ape: bool,
+    rpe: bool,
+    pairs: list[str] | None,
+    fit: Fit,
+    match: Match,
+    per: str,
     lasting: Duration | None,
     for_programs: bool,
     markdown: bool,
+    output: Path | None,
+    force: bool,
 ) -> ExitStatus:
     """Run `tftool diff`; the parameters are its options."""
     refuse(
@@ -47,6 +63,15 @@ def run(
             "The session that runs is one: name what it is compared with.",
         ),
     )
+    errors = ErrorOptions.of(ape, rpe, pairs, fit, match, per, output, force)
+    if errors is not None:
+        refuse(
+            (markdown, "--markdown does not go with --ape and --rpe: --json does."),
+            (align is not None, "--align does not go with --ape and --rpe."),
+        )
+        sides = _side(connection, first, lasting), _side(connection, second, lasting)
+        errors.measure(*sides, for_programs=for_programs)
+        return ExitStatus.DONE
     found = compare(
         _side(connection, first, lasting),
         _side(connection, second, lasting),
@@ -77,3 +102,85 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
     if frames is None:
         raise LinkError(NOTHING_RUNS)
     return side_of(frames, word)
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorOptions:
+    """Options of --ape and --rpe.
+
+    Attributes:
+        kinds: "ape", "rpe", or both.
+        pairs: Target and source in A, and in B; None for the only chain.
+        fit: Alignment of B with A.
+        match: Rule by which poses are matched.
+        step: Length of the pieces of the relative error.
+        output: Picture to write; None for none.
+        force: Whether it may replace a file.
+    """
+
+    kinds: tuple[str, ...]
+    pairs: tuple[Pair | None, Pair | None]
+    fit: Fit
+    match: Match
+    step: Step
+    output: Path | None
+    force: bool
+
+    @classmethod
+    def of(
+        cls,
+        ape: bool,
+        rpe: bool,
+        words: list[str] | None,
+        fit: Fit,
+        match: Match,
+        per: str,
+        output: Path | None,
+        force: bool,
+    ) -> "ErrorOptions | None":
+        """Check the options; None where neither --ape nor --rpe is given.
+
+        Raises:
+            UsageError: If one is given that they do not use, or is no such value.
+        """
+        if not ape and not rpe:
+            used = words or output or force or (fit, match, per) != ("none", "nearest", "1")
+            if used:
+                raise UsageError(
+                    "--pair, --fit, --match, --per, -o and --force go with --ape or --rpe: add one."
+                )
+            return None
+        pairs, _ = pairs_and_place([], words or [])
+        if len(pairs) > 2:
+            raise UsageError("--pair is given once for both files, or twice: for A, then for B.")
+        if output is not None:
+            if output.suffix.lower().removeprefix(".") not in figure.FORMATS:
+                raise UsageError(f"cannot draw to '{output}': end it in .svg, .pdf or .png.")
+            refuse_existing(output, force=force)
+        kinds = tuple(name for name, wanted in (("ape", ape), ("rpe", rpe)) if wanted)
+        asked = (pairs[0], pairs[-1]) if pairs else (None, None)
+        return cls(kinds, asked, fit, match, Step.read(per), output, force)
+
+    def measure(self, first: Side, second: Side, *, for_programs: bool) -> None:
+        """Measure the errors, print them, and draw them if that is asked for."""
+        found = trajectory_errors(
+            first.buffer,
+            second.buffer,
+            self.pairs,
+            kinds=self.kinds,
+            fit=self.fit,
+            match=self.match,
+            step=self.step,
+        )
+        names = first.name, second.name
+        if self.output is not None:
+            form = self.output.suffix.lower().removeprefix(".")
+            title = f"errors of {second.name} against {first.name}"
+            with whole_file(self.output, force=self.force) as file:
+                figure.write_panels(error_view.panels(found), title, file, form)
+            notice(visible(f"Drew {found.matched} matched poses to {self.output}."))
+        if for_programs:
+            written = json.dumps(error_view.as_object(found, names), indent=2, allow_nan=False)
+            sys.stdout.write(written + "\n")
+        else:
+            sys.stdout.write(error_view.lines(found, names, line_width()))
