@@ -49,6 +49,7 @@ def open_frames(
     urdf: "str | os.PathLike[str] | None" = None,
     with_odometry: bool = False,
     no_cache: bool = False,
+    tf_topics: Sequence[str] = (),
     frames: str | None = None,
     pose_rate: float | None = None,
     pose_format: str | None = None,
@@ -79,6 +80,7 @@ def open_frames(
         urdf: The description of the robot in a recording that has none inside.
         with_odometry: Whether odometry and poses of a recording count as transforms.
         no_cache: Whether to read a recording anew, and keep no columns for the next time.
+        tf_topics: Topics of transforms of a recording, in place of all; see `open_recording`.
         frames: Names of parent and child in a pose file: "odom:base_link".
         pose_rate: Poses in a second, for a pose file without stamps.
         pose_format: Format of a pose file; decided by content if None.
@@ -109,10 +111,11 @@ def open_frames(
                 urdf=urdf,
                 with_odometry=with_odometry,
                 no_cache=no_cache,
+                tf_topics=tf_topics,
                 progress=progress,
             )
     robot = RobotOptions(joints or {}, arguments or {}, Path(urdf) if urdf else None)
-    recording = RecordingOptions(no_cache, with_odometry)
+    recording = RecordingOptions(no_cache, with_odometry, tuple(tf_topics))
     if place is None:
         refuse_options_of_files(robot, recording, None)
         from tftool.world.link.heard_frames import join_to_listen, listened

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.base.errors import DescriptionError, InputError, without_frames
-from tftool.base.near_names import near_names
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.buffer import Buffer
 from tftool.frames.frames import Frames
@@ -25,6 +24,7 @@ from tftool.recordings.contract import (
 )
 from tftool.recordings.description_frames import description_topics, read_description
 from tftool.recordings.joint_state_reader import joint_state_topics, read_joint_states
+from tftool.recordings.tf_topics import transforms_on
 from tftool.robots.robot_model import Robot, load_urdf
 
 if TYPE_CHECKING:
@@ -168,10 +168,16 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
         InputError: If it cannot be read, has none of the topics, or nothing in that time.
     """
     source, scope = recording.source, scope or Scope()
-    transforms = recording.transforms
     if scope.tf_topics:
-        transforms = source.transforms(_with_statics(source, scope.tf_topics))
-    evidence = _evidence_of_source(source, transforms, scope.described)
+        transforms, names = transforms_on(source, scope.tf_topics)
+        evidence = _evidence_of_source(source, transforms, scope.described)
+        headers = {
+            topic: replace(one, names=tuple(names.named(topic, frame) for frame in one.names))
+            for topic, one in evidence.headers.items()
+        }
+        evidence = replace(evidence, headers=headers)
+    else:
+        evidence = _evidence_of_source(source, recording.transforms, scope.described)
     if scope.begin is None and scope.end is None:
         return evidence
     begin = evidence.start if scope.begin is None else scope.begin.stamp(evidence.start)
@@ -209,19 +215,6 @@ def _evidence_of_source(
         start=source.start,
         end=source.end,
     )
-
-
-def _with_statics(source: Source, names: tuple[str, ...]) -> list[str]:
-    """The topics of these names, and the static one that goes with each."""
-    known = {topic.name for topic in source.topics if topic.transforms}
-    found = []
-    for name in names:
-        if name not in known:
-            near = near_names(name, sorted(known)) or sorted(known)[:5]
-            hint = f"; there is {', '.join(near)}" if near else ""
-            raise InputError(f"'{source.name}' has no transforms on '{name}'{hint}.")
-        found += [one for one in (name, f"{name}_static") if one in known]
-    return list(dict.fromkeys(found))
 
 
 def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:

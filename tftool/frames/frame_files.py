@@ -34,6 +34,7 @@ def _read_recording(
         robot=robot,
         cache=None if folder is None else ColumnCache(folder),
         with_odometry=reading.with_odometry,
+        tf_topics=reading.tf_topics,
     )
     try:
         _ = recording.transforms

@@ -44,10 +44,12 @@ class RecordingOptions:
     Attributes:
         no_cache: Whether its columns are read again, and not kept.
         with_odometry: Whether odometry and poses count as transforms.
+        tf_topics: Topics of transforms, in place of all.
     """
 
     no_cache: bool = False
     with_odometry: bool = False
+    tf_topics: tuple[str, ...] = ()
 
     def refuse(self, what: str) -> None:
         """Refuse what changes the answer for a FROM that is no recording.
@@ -60,3 +62,5 @@ class RecordingOptions:
         """
         if self.with_odometry:
             raise UsageError(f"{what}: leave out --with-odometry.")
+        if self.tf_topics:
+            raise UsageError(f"{what}: leave out --tf-topic.")

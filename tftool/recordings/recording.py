@@ -2,7 +2,7 @@
 
 import os
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Final
@@ -52,6 +52,7 @@ from tftool.recordings.joint_state_reader import (
 )
 from tftool.recordings.odometry import implying, joined
 from tftool.recordings.rosbag2.folder import open_found
+from tftool.recordings.tf_topics import transforms_on
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import UnexpandedXacro
 
@@ -98,6 +99,7 @@ class Recording:
         robot: Robot | None = None,
         kept: KeptColumns | None = None,
         with_odometry: bool = False,
+        tf_topics: Sequence[str] = (),
     ) -> None:
         """Take a source.
 
@@ -107,8 +109,10 @@ class Recording:
             robot: What the recorded robot is, in place of a description in the recording.
             kept: Where its columns are kept from one question to the next.
             with_odometry: Whether odometry and poses count as transforms.
+            tf_topics: Topics of transforms, in place of all.
         """
         self.source = source
+        self._tf_topics = tf_topics
         self._with_odometry = with_odometry
         self._kept = kept
         self._robot = robot
@@ -178,17 +182,22 @@ class Recording:
     @cached_property
     def transforms(self) -> Transforms:
         """Every transform, in columns per edge."""
+        if self._tf_topics:
+            chosen, names = transforms_on(self._readable, self._tf_topics, self._progress)
+            if names.colliding:
+                self._oddities[str(names)] += 1
+            return self._with_odometry_of(chosen)
         found = None if self._kept is None else self._kept.load()
         if found is None:
             found = self._readable.transforms(progress=self._progress)
             # A damaged file is read again, and its damage reported again.
             if self._kept is not None and not self.source.damage and not found.damage:
                 self._kept.store(found)
-        topics = self.odometry
-        if topics:
-            names = [topic.name for topic in topics]
-            found = joined(found, self._readable.transforms(names, self._progress))
-        return found
+        return self._with_odometry_of(found)
+
+    def _with_odometry_of(self, found: Transforms) -> Transforms:
+        names = [topic.name for topic in self.odometry]
+        return joined(found, self._readable.transforms(names, self._progress)) if names else found
 
     @cached_property
     def odometry(self) -> tuple[RecordedTopic, ...]:
@@ -491,6 +500,7 @@ def open_recording(
     robot: Robot | None = None,
     cache: ColumnCache | None = None,
     with_odometry: bool = False,
+    tf_topics: Sequence[str] = (),
 ) -> Recording:
     """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of several.
 
@@ -506,6 +516,9 @@ def open_recording(
         with_odometry: Whether messages of type Odometry, PoseStamped and
             PoseWithCovarianceStamped count as transforms, of frames that no transform was sent
             of. A pose names no frame: its topic does.
+        tf_topics: Topics of transforms to read in place of all, such as "/r1/tf", "/r2/tf"; the
+            static one beside each goes with it. Frame names that several of these robots use
+            get the namespace as prefix.
 
     Raises:
         InputError: If nothing can be read.
@@ -519,7 +532,8 @@ def open_recording(
         # The options of a pose file change its columns.
         is_kept = cache is not None and found.kind is not Kind.POSES
         kept = KeptColumns(cache, found) if is_kept and cache is not None else None
-        return Recording(Recorded(name, open_found(found)), progress, robot, kept, with_odometry)
+        source = Recorded(name, open_found(found))
+        return Recording(source, progress, robot, kept, with_odometry, tf_topics)
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error
     except (InputError, ValueError, ArithmeticError, LookupError) as error:

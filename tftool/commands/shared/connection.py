@@ -85,6 +85,7 @@ class FileOptions(TypedDict):
     urdf: Path | None
     with_odometry: bool
     no_cache: bool
+    tf_topics: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +169,7 @@ class Connection:
             "urdf": self.robot.urdf,
             "with_odometry": self.recording.with_odometry,
             "no_cache": self.recording.no_cache,
+            "tf_topics": self.recording.tf_topics,
         }
 
     @property
@@ -240,6 +242,7 @@ def read(
     urdf: Path | None = None,
     with_odometry: bool = False,
     no_cache: bool = False,
+    tf_topic: list[str] | None = None,
     **reach: Any,
 ) -> Connection:
     """Put the options together; `reach` has those of the middlewares.
@@ -265,7 +268,7 @@ def read(
             dict(_argument(word) for word in argument or ()),
             urdf,
         ),
-        RecordingOptions(no_cache, with_odometry),
+        RecordingOptions(no_cache, with_odometry, tuple(tf_topic or ())),
         providers,
     )
 

@@ -93,6 +93,16 @@ RECORDING_OPTIONS: dict[str, Any] = {
             panel=RECORDING,
         ),
     ],
+    "tf_topic": Annotated[
+        list[str] | None,
+        option(
+            "Read these transforms alone, /r1/tf; again for more robots, whose equal frame names "
+            "get the namespace as prefix.",
+            "--tf-topic",
+            metavar="TOPIC",
+            panel=RECORDING,
+        ),
+    ],
     "no_cache": Annotated[
         bool,
         option(

@@ -1,0 +1,118 @@
+"""Transforms of chosen topics, with the frames of several robots told apart.
+
+Robots in namespaces publish the same frame names on topics of their own: /r1/tf, /r2/tf.
+"""
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from tftool.base.counts import count
+from tftool.base.errors import InputError
+from tftool.base.near_names import near_names
+from tftool.recordings.contract import Edge, Progress, Source, Transforms
+
+SHARED_ROOTS: Final = frozenset({"earth", "map", "world"})
+"""Fixed frames that REP 105 lets several robots share; odom belongs to one robot."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotNames:
+    """Frame names of several robots, told apart by their namespaces.
+
+    Attributes:
+        robots: Namespaces without slashes around them; empty for topics without one.
+        colliding: Frame names that several of them use for frames of their own.
+    """
+
+    robots: tuple[str, ...]
+    colliding: frozenset[str]
+
+    def named(self, topic: str, frame: str) -> str:
+        """Return the name of a frame that a message on a topic names."""
+        robot = next((one for one in self.robots if one and topic.startswith(f"/{one}/")), "")
+        return f"{robot}/{frame}" if robot and frame in self.colliding else frame
+
+    def __str__(self) -> str:
+        """Return a sentence about the frames that got a prefix; empty if none did."""
+        if not self.colliding:
+            return ""
+        some = ", ".join(sorted(self.colliding)[:3]) + (" …" if len(self.colliding) > 3 else "")
+        prefixes = ", ".join(f"'{robot}/'" for robot in self.robots if robot)
+        frames = count(len(self.colliding), "frame")
+        return f"{frames} of several robots ({some}) got the prefix {prefixes}"
+
+
+def transforms_on(
+    source: Source, topics: Sequence[str], progress: Progress | None = None
+) -> tuple[Transforms, RobotNames]:
+    """Read the transforms of some topics, each with the static one beside it.
+
+    Topics of one namespace belong to one robot. A frame name that several robots use gets the
+    namespace as prefix, unless it is a root that they share (`SHARED_ROOTS`).
+
+    Args:
+        source: The recording.
+        topics: Names of topics that carry transforms.
+        progress: Called with how many bytes of how many are read, once through for each robot.
+
+    Returns:
+        The transforms, and the names that were changed in them.
+
+    Raises:
+        InputError: If one of the topics is not in the recording, or carries none.
+    """
+    robots: dict[str, list[str]] = {}
+    for name in _with_statics(source, topics):
+        robots.setdefault(name.rpartition("/")[0].strip("/"), []).append(name)
+    parts = {robot: source.transforms(names, progress) for robot, names in robots.items()}
+    names = RobotNames(tuple(parts), _colliding([part.edges for part in parts.values()]))
+    edges: list[Edge] = []
+    first = 0
+    for robot, part in parts.items():
+        topic = f"/{robot}/"
+        edges += [
+            replace(
+                edge,
+                parent=names.named(topic, edge.parent),
+                child=names.named(topic, edge.child),
+                messages=(edge.messages + first).astype(np.int32),
+            )
+            for edge in part.edges
+        ]
+        first += len(part.log_times)
+    whole = Transforms(
+        tuple(edges),
+        np.concatenate([part.log_times for part in parts.values()]),
+        # Each part numbers all publishers of the recording.
+        np.concatenate([part.senders for part in parts.values()]),
+        next(iter(parts.values())).publishers,
+        tuple(dict.fromkeys(text for part in parts.values() for text in part.damage)),
+    )
+    return whole, names
+
+
+def _with_statics(source: Source, names: Iterable[str]) -> list[str]:
+    """Return the topics of these names, and the static one that goes with each."""
+    known = {topic.name for topic in source.topics if topic.transforms}
+    found = []
+    for name in names:
+        if name not in known:
+            near = near_names(name, sorted(known)) or sorted(known)[:5]
+            hint = f"; there is {', '.join(near)}" if near else ""
+            raise InputError(f"'{source.name}' has no transforms on '{name}'{hint}.")
+        found += [one for one in (name, f"{name}_static") if one in known]
+    return list(dict.fromkeys(found))
+
+
+def _colliding(robots: Sequence[Sequence[Edge]]) -> frozenset[str]:
+    """Return the frame names that mean another frame for each of several robots."""
+    used = Counter(
+        frame for edges in robots for frame in {one for e in edges for one in (e.parent, e.child)}
+    )
+    children = {edge.child for edges in robots for edge in edges}
+    shared = SHARED_ROOTS - children
+    return frozenset(frame for frame, times in used.items() if times > 1 and frame not in shared)
