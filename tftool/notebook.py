@@ -1,4 +1,4 @@
-"""How values look in a notebook: trees as pictures, poses and recordings as tables, frames in 3-D.
+"""Values in notebooks: trees as pictures, poses and recordings as tables, frames in 3-D.
 
 `import tftool` registers these where IPython runs. The classes are named, not imported: what a
 notebook does not show costs it nothing.
@@ -84,7 +84,7 @@ def _row(poses: "TransformArray", index: int | None) -> Sequence[str]:
 
 
 def recording_table(recording: "Recording") -> str:
-    """What a recording holds, as `tftool info` says it."""
+    """Return the content of a recording, as `tftool info` says it."""
     from tftool.drawing import recording_view as info
 
     return f"<pre>{escape(info.as_text(recording))}</pre>"

@@ -1,4 +1,4 @@
-"""What the shell offers when Tab is pressed: commands, options, frames, scenarios, packages.
+"""Words the shell offers when Tab is pressed: commands, options, frames, scenarios, packages.
 
 The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; what is
 printed is offered. Nothing is hosted or joined for it: the frames of the session that runs are
@@ -91,7 +91,7 @@ def _line(word: str, about: str, shell: str) -> str:
 
 
 def offers(words: Sequence[str]) -> list[Offer]:
-    """What fits behind the words typed so far, in the order to show it.
+    """Return the words that fit behind those typed so far, in the order to show them.
 
     Args:
         words: What stands after `tftool`; the last is the one that is being typed.
@@ -117,7 +117,7 @@ def _is_plain(word: str, current: str) -> bool:
 
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
-    """What one command takes next."""
+    """Return the words that one command takes next."""
     from tftool.app.help_layout import made
 
     params = made(name).params
@@ -148,7 +148,7 @@ def _takes_value(option: Any) -> bool:
 
 
 def _count(before: Sequence[str], options: dict[str, Any]) -> int:
-    """How many of the words stand for themselves, and are no option or its value."""
+    """Count the words that are neither an option nor its value."""
     words, is_value = 0, False
     for word in before:
         if is_value:
@@ -161,7 +161,7 @@ def _count(before: Sequence[str], options: dict[str, Any]) -> int:
 
 
 def _called(param: Any) -> str:
-    """What the help calls the value of an option or argument."""
+    """Return the help's name for the value of an option or argument."""
     return str(param.metavar or "")
 
 
@@ -201,7 +201,7 @@ def _frames(before: Sequence[str]) -> list[str]:
 
 
 def _words_behind() -> list[str]:
-    """What stands behind the word that is being typed: FROM often does."""
+    """Return the words behind the one that is being typed: FROM is often among them."""
     return os.environ.get(BEHIND, "").split("\n")
 
 

@@ -1,4 +1,4 @@
-"""How help is laid out: commands by what one wants, options by what they are about."""
+"""Layout of help: commands by purpose, options by subject."""
 
 import math
 import re

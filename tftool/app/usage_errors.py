@@ -1,4 +1,4 @@
-"""What is said of a command line that click refuses."""
+"""Sentences for a command line that click refuses."""
 
 import re
 from collections.abc import Sequence
@@ -21,7 +21,7 @@ UNLIKE = 0.5
 
 
 def sentence_of(error: Any, argv: Sequence[str] = ()) -> tuple[str, str]:
-    """Who refuses what was typed, and in which words: what click says, said plainly."""
+    """Return the refusing command, and click's reason in plain words."""
     context = getattr(error, "ctx", None)
     command = " ".join(["tftool", *(word for word in argv[:1] if word in COMMANDS)])
     if context is not None:
@@ -49,7 +49,7 @@ def sentence_of(error: Any, argv: Sequence[str] = ()) -> tuple[str, str]:
 
 
 def _nearest(written: str, near: list[str]) -> list[str]:
-    """Those of the near options that are about as near as the best, best first."""
+    """Return the near options that are about as near as the best, best first."""
 
     def likeness_of(one: str) -> float:
         # The first letter is the one that is seldom mistyped.

@@ -68,7 +68,7 @@ THICK_FROM: Final = 26
 
 @dataclass(frozen=True, slots=True)
 class _Pens:
-    """How a drawing was drawn, how much of it is there, and whether only its end is."""
+    """Cells of a drawing by pen, how much of it there is, and whether only its end is."""
 
     key: object = None
     done: int = 0
@@ -480,7 +480,7 @@ class Canvas:
 
 
 def axis_length(view: Viewport, rows: int) -> float:
-    """How long axes are drawn, in metres: about a tenth of the picture, and never a mere dot."""
+    """Return the length of drawn axes, metres: about a tenth of the picture, never a mere dot."""
     return view.per_row * min(4.0, max(1.6, rows / 10.0))
 
 

@@ -64,7 +64,7 @@ def line_of(cells: list[Cell]) -> Line:
 
 @lru_cache(maxsize=4096)
 def style_of(ink: Color | None, ground: Color | None, bold: bool) -> Style:
-    """How rich shows a cell: None for a colour that the terminal chooses."""
+    """Return rich's style for a cell: None for a colour that the terminal chooses."""
     return Style(
         color=None if ink is None else theme.hexadecimal(ink),
         bgcolor=None if ground is None else theme.hexadecimal(ground),

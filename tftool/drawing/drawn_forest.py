@@ -122,7 +122,7 @@ class Guides:
         return "".join(self.blank if last else self.past for last in branch.turns[:-1]) + own
 
     def width(self, depth: int) -> int:
-        """How many cells stand before the name of a frame so far below its root."""
+        """Return the cells before the name of a frame so far below its root."""
         return len(self.child) * depth + len(self.gap) if depth else 0
 
 
@@ -174,7 +174,7 @@ def branches(forest: Forest) -> Iterator[Branch]:
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """What is known of one link, as text; numbers lose trailing zeros as they do in rqt_tf_tree."""
+    """Facts about one link, as text; numbers lose trailing zeros as they do in rqt_tf_tree."""
 
     broadcaster: str
     rate: str

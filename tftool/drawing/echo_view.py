@@ -88,7 +88,7 @@ def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool 
 
 
 def live_heading(target: str, source: str, age: Duration | None) -> "Text":
-    """What is shown and how old it is; amber, then red, where it is not new any more.
+    """Return the pair and its age; amber, then red, where it is not new any more.
 
     Args:
         target: The frame looked up in.

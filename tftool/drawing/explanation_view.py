@@ -157,7 +157,7 @@ def _refusal(link: TracedLink) -> str:
 
 
 def _base(found: Explanation) -> Stamp:
-    """What times in the table count from: what --at does, and 0 in simulations."""
+    """Return the zero of the times in the table: that of --at, and 0 in simulations."""
     if found.stamp and found.stamp < SIMULATED_BELOW:
         return 0
     return found.epoch if found.epoch >= SIMULATED_BELOW else 0

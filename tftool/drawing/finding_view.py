@@ -1,4 +1,4 @@
-"""What a diagnosis found: for a terminal, a program, an issue, a build server."""
+"""Views of a diagnosis: for a terminal, a program, an issue, a build server."""
 
 from collections.abc import Sequence
 from textwrap import TextWrapper
@@ -98,7 +98,7 @@ def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
 
 
 def head(model: Model) -> str:
-    """What was read, in one line."""
+    """Return a line about the source that was read."""
     material = model.evidence
     facts = [material.kind]
     if material.end > material.start and material.timed:
@@ -112,7 +112,7 @@ def head(model: Model) -> str:
 
 
 def areas(diagnosis: Diagnosis) -> str:
-    """What was looked at and found in order, in one line."""
+    """Return a line about the areas that were looked at and found in order."""
     wrong = {finding.area for finding in diagnosis.findings}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -139,7 +139,7 @@ def _latencies(model: Model, area: Area) -> str:
 
 
 def summary(diagnosis: Diagnosis) -> str:
-    """How much was found, and where to read on; in one line."""
+    """Return a line with the number of findings, and where to read on."""
     counts = counted(diagnosis)
     if not counts:
         skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
@@ -165,7 +165,7 @@ def counted(diagnosis: Diagnosis) -> str:
 
 
 def brief(diagnosis: Diagnosis) -> str:
-    """What was found, in one line below what another command shows."""
+    """Return a line about findings, below another command's output."""
     told = [f for f in diagnosis.findings if f.because_of is None and f.severity is not _CALM]
     if not told:
         return "Doctor: nothing is wrong."

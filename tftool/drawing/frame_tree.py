@@ -109,7 +109,7 @@ def pieces(
 
 
 def advice(marks: Marks) -> str:
-    """Where to read on about what is wrong with frames."""
+    """Return where to read on about faults of frames."""
     first = next(iter(marks.values()))[0]
     return f"'tftool doctor --explain {first}' tells more."
 
@@ -135,7 +135,7 @@ def as_object(
 
 
 def as_yaml(snapshot: Snapshot) -> str:
-    """The same in the shape of tf2's `all_frames_as_yaml`, with every name quoted where YAML
+    """Return tf2's shape `all_frames_as_yaml`, with every name quoted where YAML
     would take it for something else, and `static` beside tf2's own facts.
     """
     links = [info for info in snapshot.frames if info.parent is not None]
@@ -383,7 +383,7 @@ def compact(
 
 
 def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
-    """The same frame; in a description nothing is sent, and a joint that moves counts."""
+    """Return the frame as part of a description: nothing is sent, and a moving joint counts."""
     info = branch.info
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 
@@ -394,7 +394,7 @@ def moment(stamp: Stamp) -> str:
 
 
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
-    """What the drawing is of, in few words."""
+    """Return the drawing's subject, in few words."""
     if moving is not None:
         return f"{len(moving)} of {len(snapshot.frames) - 1} joints move"
     if snapshot.at:
@@ -429,7 +429,7 @@ def _pruned(forest: Forest, kept: Collection[str]) -> Forest:
 
 
 def _key(info: FrameInfo, order: TreeOrder) -> tuple[object, ...]:
-    """What frames are sorted by: what is fast, or old, comes first, and statics last."""
+    """Return the sort key of a frame: fast or old ones first, statics last."""
     still = info.is_static or info.parent is None
     if order is TreeOrder.rate:
         return (still, -info.rate if info.samples > 1 else 0.0, info.frame)
@@ -455,7 +455,7 @@ def _link_columns(
     moving: Collection[str] | None,
     marks: Mapping[str, Sequence[str]],
 ) -> list[TableColumn]:
-    """What there is to say about each frame, beside its name."""
+    """Return the columns about each frame, beside its name."""
 
     def cells(told: Told, style: str = "") -> list[Cell]:
         return [

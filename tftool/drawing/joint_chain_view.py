@@ -13,7 +13,7 @@ from tftool.drawing.explanation_view import SCHEMA
 
 
 def render(found: ChainExplanation) -> RenderableType:
-    """What was asked, what tf2 says, each joint, why, and what helps."""
+    """Return the question, tf2's answer, each joint, the reason, and the remedy."""
     headline = Text(visible(f"{found.source} in {found.target}: "))
     if found.available:
         headline.append("answers", "green")
@@ -61,7 +61,7 @@ def _position(link: ChainLink) -> str:
 
 
 def as_object(found: ChainExplanation) -> dict[str, Any]:
-    """The same as JSON has it, in the schema of `tftool explain`; radians and metres."""
+    """Return JSON's form, in the schema of `tftool explain`; radians and metres."""
     return {
         "schema": SCHEMA,
         "target": found.target,

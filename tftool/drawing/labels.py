@@ -30,7 +30,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class PlacedLabel:
-    """Where a label stands: its first cell; and whether it is far off what it belongs to."""
+    """First cell of a label; and whether it is far from its frame."""
 
     label: Label
     column: int

@@ -65,7 +65,7 @@ class PlotLook:
 
     @property
     def bar(self) -> str:
-        """What stands between a label and its panel."""
+        """Return the text between a label and its panel."""
         return "|" if self.ascii_only else "│"
 
 
@@ -247,7 +247,7 @@ TITLED_FROM: Final = 4
 
 @dataclass(frozen=True, slots=True)
 class PlotSpan:
-    """Which seconds are drawn, and which moment is marked in them.
+    """Seconds that are drawn, and the moment that is marked in them.
 
     Attributes:
         first: The first moment.

@@ -227,7 +227,7 @@ class _Sheet:
         self._items_placed = (items, corners)
 
     def squareness(self) -> float:
-        """How far from the shape of a screen this is; 0 is just that."""
+        """Return the distance from the shape of a screen; 0 is just that."""
         return abs(math.log(self.width / self.height / 1.6))
 
     def _items(self) -> list[Item]:
@@ -262,7 +262,7 @@ class _Sheet:
         return math.ceil((subject.width + ACROSS_GAP) / self.pitch)
 
     def _below(self, name: str) -> list[tuple[_Card | _Group, str | None]]:
-        """What hangs from a frame: cards, and one group when there are many leaves."""
+        """Return the cards below a frame, and one group when there are many leaves."""
         children = [*self.forest.children[name]]
         if name in self.forest.hidden:
             children.append(_rest(name))

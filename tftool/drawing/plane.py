@@ -50,7 +50,7 @@ class PlaneFrame:
 
     @property
     def theta(self) -> float:
-        """Where its x axis points, radians."""
+        """Return the direction of its x axis, radians."""
         return math.atan2(self.axes[0][1], self.axes[0][0])
 
 
@@ -143,7 +143,7 @@ class PlanePicture:
 
 
 class Viewport(NamedTuple):
-    """Which part of a plane is shown: its lower left corner, and metres to a row of cells."""
+    """Visible part of a plane: its lower left corner, and metres to a row of cells."""
 
     left: float
     bottom: float

@@ -1,4 +1,4 @@
-"""Where a recording stands while it plays, in one line."""
+"""Position in a recording while it plays, as one line."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ _SHORTEST_BAR, _LONGEST_BAR = 8, 30
 
 @dataclass(frozen=True, slots=True)
 class Playback:
-    """Where a player stands.
+    """Position of a player in its recording.
 
     Attributes:
         done: How much is played, nanoseconds.

@@ -13,7 +13,7 @@ NOTHING = 5e-7
 
 
 def lines(parent: str, child: str, pose: Transform) -> str:
-    """What static_transform_publisher says it publishes, and the same in a sentence."""
+    """Return static_transform_publisher's words for a pose, and the same in a sentence."""
     x, y, z = pose.translation
     qx, qy, qz, qw = pose.rotation
     return (

@@ -111,7 +111,7 @@ def _topics(recording: Recording, topics: Sequence[RecordedTopic]) -> list[tuple
 
 
 def _publishers(recording: Recording) -> dict[str, list[Publisher]]:
-    """Those of each topic."""
+    """Return the publishers of each topic."""
     found: dict[str, list[Publisher]] = defaultdict(list)
     for one in recording.publishers:
         found[one.topic].append(one)

@@ -101,7 +101,7 @@ class _Writer:
 
     @staticmethod
     def heading(what: str, count: int) -> list[Text]:
-        """What comes, and how many of it."""
+        """Return the kind of entity, and how many there are."""
         return [Text(f"{what} ({count})", style="bold")]
 
     def rows(

@@ -1,4 +1,4 @@
-"""What a turtle looks like at any size: a drawn body when there is room, else an arrow.
+"""Pictures of a turtle at any size: a drawn body when there is room, else an arrow.
 
 A body is drawn with quadrant blocks: four pixels and two colours to a cell.
 """

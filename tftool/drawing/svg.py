@@ -178,7 +178,7 @@ def _table_row(info: FrameInfo, names: dict[str, str], marks: Marks) -> str:
 
 
 def _class(place: int, count: int, has_marks: bool) -> str:
-    """How a column is set: names may break, numbers stand right."""
+    """Return the class of a column: names may break, numbers are aligned right."""
     if place < 2:
         return ' class="frame"'
     return ' class="number"' if 4 <= place < count - has_marks else ""

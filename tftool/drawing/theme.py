@@ -71,7 +71,7 @@ def ink(color: Color, *, bold: bool = False) -> "Style":
 
 
 class Palette(NamedTuple):
-    """What a screen is painted with beside the field: its own colours, dark or light."""
+    """Colours of a screen beside the field, dark or light."""
 
     ground: Color
     panel: Color
@@ -133,7 +133,7 @@ def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool
 
 
 class PaperColors(NamedTuple):
-    """What is drawn on a ground: its colours for all that is no frame's own."""
+    """Colours of all that is no frame's own, on one ground."""
 
     ground: Color
     grid: Color

@@ -94,7 +94,7 @@ def table(
     height: int,
     ascii_only: bool = False,
 ) -> Text:
-    """The same to look at: frames, in the order of the chain where there is one, and senders.
+    """Return a table for people: frames, in the order of the chain where there is one, and senders.
 
     What is late, by the doctor's limits, is amber: dated long before it arrives, or not heard
     of for many periods; what has been silent for longer still is red.

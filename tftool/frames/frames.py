@@ -143,7 +143,7 @@ class Frames:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What is worth saying of them, as sentences: damage, gaps, joints at rest."""
+        """Return notes on them, as sentences: damage, gaps, joints at rest."""
         if self._recording is None:
             return self._notes
         from tftool.frames.notes import recording_notes

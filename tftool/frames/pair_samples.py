@@ -55,7 +55,7 @@ class Trajectory:
 
     @property
     def target(self) -> str:
-        """What the poses are expressed in."""
+        """Return the frame in which the poses are expressed."""
         return self.path.frame_id
 
     @property

@@ -82,7 +82,7 @@ def pytest_fixture_setup(fixturedef: Any) -> Iterator[None]:
 
 
 def _program_of_fixture() -> Any:
-    """Whose code a fixture is that uses rclpy before its tests have begun."""
+    """Return the owner of a fixture that uses rclpy before its tests have begun."""
     if not _set_up:
         return None
     from tftool.ros.testing import RosRuntime

@@ -1,4 +1,4 @@
-"""What `ros2 topic`, `service`, `param`, `node`, `action`, `interface` and `pkg` do, as a program.
+"""The programs `ros2 topic`, `service`, `param`, `node`, `action`, `interface` and `pkg`.
 
 It is a program of the world like any node: `tftool ros2 …` starts it, and launch files that
 execute `ros2` get it without a process of its own.
@@ -59,7 +59,7 @@ SESSIONLESS = ("interface", "pkg")
 
 
 def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[], None]:
-    """What runs `ros2 WORDS`, for a `Program`; it prints by `show`.
+    """Make the body that runs `ros2 WORDS`, for a `Program`; it prints by `show`.
 
     Raises:
         UsageError: If the words are no command, or a type they name is not known.
@@ -91,7 +91,7 @@ def _show_lines(text: str, show: Print) -> None:
 
 
 def _message(asked: argparse.Namespace) -> Any:
-    """What is to be sent, made of its YAML text.
+    """Make the message to send from its YAML text.
 
     Raises:
         UsageError: If it does not fit its type.
@@ -421,7 +421,7 @@ def _service_call(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _parameters(node: Node, name: str) -> AsyncParameterClient:
-    """What asks a node for its parameters.
+    """Return a client for the parameters of a node.
 
     Raises:
         UsageError: If the node does not answer.

@@ -194,7 +194,7 @@ def arguments_of(words: Sequence[str]) -> dict[str, str]:
 
 
 def show_arguments(path: Path, workspace: Workspace) -> str:
-    """What a launch file takes.
+    """Print the arguments of a launch file.
 
     Raises:
         InputError: If it cannot be read.
@@ -244,7 +244,7 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
 
 
 class Ending:
-    """How a run of a user's programs ended."""
+    """End of a run of a user's programs."""
 
     def __init__(self, world: World) -> None:
         self.world = world

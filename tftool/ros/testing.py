@@ -57,7 +57,7 @@ class RosRuntime:
             raise self._failure
 
     def _ended(self) -> BaseException:
-        """What the test is told that waits in a world that has ended: why it has."""
+        """Return the reason for a test that waits in a world that has ended."""
         failure = self.world.failure
         if failure is None:
             return EndedError("the world has ended")
@@ -132,6 +132,6 @@ class RosRuntime:
         )
 
     def log(self, node: str | None = None) -> list[str]:
-        """What was said so far, or what one node said."""
+        """Return the log so far, or that of one node."""
         records: Sequence[LogRecord] = list(self.world.log.records)
         return [record.text for record in records if node is None or record.node == node]

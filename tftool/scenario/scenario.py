@@ -157,7 +157,7 @@ class Outcome:
         return self.at is not None
 
     def judgement(self) -> Judgement:
-        """The same, fit for tables and test reports."""
+        """Return it in a form for tables and test reports."""
         return Judgement(
             subject=f"{self.when}: {self.expectation} {self.expected}",
             ok=self.ok,
@@ -193,6 +193,6 @@ class Verdict:
         return not self.failure and all(one.ok for one in self.outcomes if one.reached)
 
     def report(self) -> Report:
-        """The same, fit for tables and test reports."""
+        """Return it in a form for tables and test reports."""
         judgements = tuple(outcome.judgement() for outcome in self.outcomes)
         return Report(self.scenario, self.file, judgements, as_seconds(self.lasted), self.failure)

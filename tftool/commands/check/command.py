@@ -70,7 +70,7 @@ class _Kept:
         self._names: set[str] = set()
 
     def place(self, name: str) -> Path:
-        """Where a scenario's recording is kept: by its name, numbered where that is taken."""
+        """Return the path for a scenario's recording: by its name, numbered where that is taken."""
         plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
         number = 1
         while free in self._names:

@@ -75,7 +75,7 @@ class _Showing:
         return self._joined(found.session)
 
     def _until(self, world: World) -> Stamp | None:
-        """When it ends, counted from here: the screen takes a while to come up."""
+        """Return when it ends, counted from now: the screen takes a while to come up."""
         return None if self.lasting is None else world.clock.now() + self.lasting
 
     def _joined(self, session: Session) -> str | None:

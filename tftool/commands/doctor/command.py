@@ -31,7 +31,7 @@ Judged: TypeAlias = list[tuple[str, Diagnosis | str]]
 
 @dataclass(frozen=True, slots=True)
 class DoctorReport:
-    """How findings are reported.
+    """Form in which findings are reported.
 
     Attributes:
         for_programs: As JSON.
@@ -50,7 +50,7 @@ class DoctorReport:
 
 @dataclass(frozen=True, slots=True)
 class CheckSelection:
-    """Which checks run, and by which thresholds.
+    """Checks that run, and their thresholds.
 
     Attributes:
         select: These checks or areas alone; all where empty.
@@ -91,7 +91,7 @@ class CheckSelection:
 
 @dataclass(frozen=True, slots=True)
 class RowOptions:
-    """How many recordings become rows of a file.
+    """Options for many recordings as rows of a file.
 
     Attributes:
         output: The file; None to report instead.

@@ -58,7 +58,7 @@ def print_live(
 
 
 class LivePrinter:
-    """How answers are shown where each takes the place of the one before."""
+    """Printer for answers of which each replaces the one before."""
 
     def __init__(
         self, redrawing: Redrawing, pair: FramePair, precision: int, with_distance: bool

@@ -1,4 +1,4 @@
-"""How the answers of `tftool echo` are written to stdout."""
+"""Printing of the answers of `tftool echo` to stdout."""
 
 import json
 import sys
@@ -13,7 +13,7 @@ from tftool.drawing import echo_view as view
 
 @dataclass(frozen=True, slots=True)
 class Printer:
-    """How answers are written to stdout."""
+    """Printer of answers to stdout."""
 
     precision: int = 3
     with_distance: bool = False

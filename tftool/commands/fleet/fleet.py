@@ -107,7 +107,7 @@ def _results(
 def _worked(
     pool: Executor, sources: Sequence[str], workers: Workers, task: FleetTask
 ) -> Iterator[tuple[str, list[Row]]]:
-    """What comes of each, as it comes.
+    """Yield the outcome of each recording as soon as it is known.
 
     Raises:
         BrokenExecutor: If a process was ended; what others had finished came before.
@@ -137,7 +137,7 @@ def _worked(
 
 
 def _failure(error: Exception) -> str:
-    """Why a worker of a cluster failed with one recording.
+    """Return the reason why a worker of a cluster failed with one recording.
 
     Raises:
         UsageError: If it cannot do this work at all.

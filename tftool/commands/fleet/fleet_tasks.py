@@ -1,4 +1,4 @@
-"""What is asked of each of many recordings, as rows of a table."""
+"""Questions to each of many recordings, answered as rows of a table."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -68,11 +68,11 @@ UNREADABLE = "unreadable"
 
 
 class FleetTask(Protocol):
-    """What is done with each recording; it is sent to other processes."""
+    """Task for each recording; it is sent to other processes."""
 
     @property
     def columns(self) -> Mapping[str, ColumnKind]:
-        """What a row tells."""
+        """Return the columns of a row."""
 
     def rows(self, source: str, place: str) -> list[Row]:
         """The rows of one recording; what cannot be read is a row too, and raises nothing.
@@ -90,7 +90,7 @@ class FleetTask(Protocol):
         """The columns that `outcome` looks at."""
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """What came of a recording, in a word of `told`."""
+        """Return the outcome for a recording, as a word of `told`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ class Examination:
 
     @property
     def columns(self) -> Mapping[str, ColumnKind]:
-        """What a row tells."""
+        """Return the columns of a row."""
         return FINDINGS
 
     def rows(self, source: str, place: str) -> list[Row]:
@@ -190,11 +190,11 @@ class Inventory:
 
     @property
     def columns(self) -> Mapping[str, ColumnKind]:
-        """What a row tells."""
+        """Return the columns of a row."""
         return FACTS
 
     def rows(self, source: str, place: str) -> list[Row]:
-        """What one recording holds."""
+        """Return the rows of one recording."""
         return _told(self, source, place, partial(self._listed, source))
 
     @staticmethod
@@ -241,7 +241,7 @@ class Inventory:
 
 
 def _told(task: FleetTask, source: str, place: str, work: Callable[[str], list[Row]]) -> list[Row]:
-    """What a task found in a recording, wherever that is; what cannot be read is a row."""
+    """Run a task on a recording, wherever it is; an unreadable one becomes a row as well."""
     from tftool.recordings.remote_files import fetched
 
     try:

@@ -21,7 +21,7 @@ Row = dict[str, Any]
 
 
 class ColumnKind(Enum):
-    """What the cells of a column hold."""
+    """Kind of a column's cells."""
 
     TEXT = "text"
     TEXTS = "a list of texts"
@@ -171,7 +171,7 @@ class RowFile:
             ) from error
 
     def _make_parquet(self) -> None:
-        """What the table held before, and the rows beside it, as one table in place of both."""
+        """Replace the table and the rows beside it by one table with both."""
         arrow = _arrow()
         schema = arrow.schema([(name, _type(kind)) for name, kind in self._columns.items()])
         whole = self.path.with_name(f"{self.path.name}.tmp")

@@ -1,4 +1,4 @@
-"""Who works through many recordings: this process, several, or a cluster's."""
+"""Workers for many recordings: this process, several, or a cluster's."""
 
 import os
 import signal
@@ -19,7 +19,7 @@ _ON_CLUSTER = 512
 
 
 class Workers(Protocol):
-    """Where the work is done.
+    """Place where the work is done.
 
     Attributes:
         count: How many recordings are worked on at once.
@@ -116,7 +116,7 @@ class Cluster:
 
 
 def workers_of(processes: int, scheduler: str) -> Workers:
-    """Who works, by the options of a command.
+    """Return the workers that the options of a command choose.
 
     Raises:
         UsageError: If both say it.

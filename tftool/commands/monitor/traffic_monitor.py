@@ -30,7 +30,7 @@ ASK_EVERY = seconds(0.5)
 
 
 class ReportStyle(Enum):
-    """How a report is written."""
+    """Form in which a report is written."""
 
     TABLE = auto()
     LINES = auto()

@@ -67,7 +67,7 @@ def _span(
 
 @dataclass(frozen=True, slots=True)
 class _Playing:
-    """What is to be played, and how; the fields are those of `Player`."""
+    """Recording to play, and its options; the fields are those of `Player`."""
 
     recording: Recording
     timeline: Timeline

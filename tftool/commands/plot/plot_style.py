@@ -1,4 +1,4 @@
-"""How `tftool plot` paints pairs of frames in the terminal."""
+"""Drawing of pairs of frames in the terminal by `tftool plot`."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from tftool.frames.pair_series import chosen
 
 @dataclass(frozen=True, slots=True)
 class PlotStyle:
-    """What is plotted, and how it is painted.
+    """Quantities of a plot, and its appearance.
 
     Attributes:
         quantities: What is drawn over time.

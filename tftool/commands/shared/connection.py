@@ -30,7 +30,7 @@ HOME = "turtles"
 
 
 class Mode(Enum):
-    """What a command was told to do about the session that may run here."""
+    """A command's part in the session that may run here."""
 
     AUTO = auto()
     JOIN = auto()
@@ -38,7 +38,7 @@ class Mode(Enum):
 
 
 class Providers:
-    """What gives commands their real time and their links to other processes.
+    """Source of the commands' real time and of their links to other processes.
 
     A test derives from it, and hands its own to `app.main`.
     """
@@ -78,7 +78,7 @@ class Providers:
 
 
 class FileOptions(TypedDict):
-    """How files are read, as `open_frames` takes it."""
+    """Options for reading files, as `open_frames` takes them."""
 
     joints: Mapping[str, float]
     arguments: Mapping[str, str]
@@ -90,7 +90,7 @@ class FileOptions(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class Connection:
-    """How a command takes part in a session, as its options say.
+    """Part of a command in a session, as its options say.
 
     Use it in a `with`: at its end every link and file it opened is closed.
 
@@ -138,11 +138,11 @@ class Connection:
 
     @property
     def place(self) -> str:
-        """Where the others of its session are, in words, where that is not this machine."""
+        """Return where the others of its session are, in words; empty for this machine."""
         return self.reach.place(self.domain)
 
     def options(self) -> Options:
-        """The same as the link takes it."""
+        """Return the options in the form that the link takes."""
         # Among a robot's nodes, what only looks has nothing to write.
         read_only = self.read_only or (self.reach.is_robots and self.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
@@ -162,7 +162,7 @@ class Connection:
 
     @property
     def file_options(self) -> "FileOptions":
-        """How files are read, as `open_frames` takes it."""
+        """Return the options for reading files, as `open_frames` takes them."""
         return {
             "joints": self.robot.joints,
             "arguments": self.robot.arguments,

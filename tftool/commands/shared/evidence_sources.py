@@ -1,4 +1,4 @@
-"""What `doctor` and `explain` look at: a recording, a scenario, a session."""
+"""Evidence for `doctor` and `explain`: from a recording, a scenario, a session."""
 
 from dataclasses import replace
 

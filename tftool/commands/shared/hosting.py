@@ -40,7 +40,7 @@ HEAD_START = seconds(3)
 
 @dataclass(frozen=True, slots=True)
 class JoinDecision:
-    """What a command finds when it looks for others to share a world with.
+    """Result of looking for others to share a world with.
 
     Attributes:
         session: The session it has joined; None where it has to host.

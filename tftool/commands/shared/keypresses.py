@@ -94,7 +94,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
 
 def termios_error() -> type[BaseException]:
-    """What a terminal's settings raise; nothing that ever comes where there are none."""
+    """Return the exception of a terminal's settings; without them, one that is never raised."""
     try:
         import termios
     except ImportError:

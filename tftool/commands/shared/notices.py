@@ -1,4 +1,4 @@
-"""What a command says beside its results, and the log of its world: on stderr."""
+"""Notices of a command beside its results, and the log of its world: on stderr."""
 
 import os
 import re

@@ -108,7 +108,7 @@ def run_app(
 
 
 def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
-    """What takes the keys: the driver, but where its turtle is missing that is said."""
+    """Return the receiver of keys: the driver; a note where its turtle is missing."""
 
     def press(key: str) -> None:
         simulator, turtle = scene.simulator, driver.turtle

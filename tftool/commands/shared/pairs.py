@@ -59,7 +59,7 @@ class FramePair:
         )
 
     def why_not(self, buffer: Buffer, now: Stamp) -> str:
-        """Why it cannot be given, in tf2_echo's words."""
+        """Return the reason why it cannot be given, in tf2_echo's words."""
         if self.target == self.source and not buffer.frame_exists(self.target):
             return _unknown(self.target)
         then = self.moment(now)
@@ -136,7 +136,7 @@ def refuse_several_choices(*given: object) -> None:
 
 @dataclass(frozen=True, slots=True)
 class MomentOptions:
-    """Which moments of a span are asked for.
+    """Options that choose the moments of a span.
 
     Attributes:
         first: The first one; None for the beginning.
@@ -154,7 +154,7 @@ class MomentOptions:
 
     @property
     def choices(self) -> tuple[object, ...]:
-        """What chooses the moments between the first and the last; None is not given."""
+        """Return the options that choose moments within the span; None if not given."""
         return self.every, self.rate, self.stamps_of
 
     def moments(self, frames: Frames) -> "Moments":

@@ -1,4 +1,4 @@
-"""What a person sees of a recording that plays, and the keys that steer it."""
+"""Display of a recording that plays, and the keys that steer it."""
 
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""What commands share that run programs of users: their packages, and what they log."""
+"""Parts shared by commands that run programs of users: their packages and their log."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What `tftool record` does while it runs: write, watch for findings, show how it goes."""
+"""Loop of `tftool record`: write, watch for findings, show the progress."""
 
 import os
 import shutil
@@ -145,7 +145,7 @@ def recorded(world: World, path: Path, *, force: bool = False) -> Iterator[Rolli
 
 
 def heard(messages: list[Kept]) -> TransformLog:
-    """What some messages say, as the doctor hears it."""
+    """Return the content of some messages, in the form the doctor takes."""
     hearing = TransformLog()
     for channel, log_time, payload, _ in messages:
         if channel.type != "tf2_msgs/msg/TFMessage":

@@ -1,4 +1,4 @@
-"""What to tell a person whose frames come from more nodes than they should."""
+"""Notices about frames that several nodes publish."""
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING

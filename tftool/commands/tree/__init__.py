@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class TreeFormat(StrEnum):
-    """What a tree can be written as."""
+    """Form in which a tree is written."""
 
     tree = "tree"
     json = "json"

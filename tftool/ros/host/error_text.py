@@ -1,4 +1,4 @@
-"""What is said of an exception out of users' code."""
+"""Sentences about an exception from users' code."""
 
 import linecache
 
@@ -8,7 +8,7 @@ from tftool.ros.host.missing_names import missing_package
 
 
 def error_sentence(error: BaseException) -> str:
-    """What went wrong in users' code: file, line, function, the line, the error."""
+    """Return the error in users' code: file, line, function, the line, the error."""
     if isinstance(error, SyntaxError):
         return syntax_sentence(error)
     if isinstance(error, InputError | UsageError | StuckError):
@@ -22,7 +22,7 @@ def error_sentence(error: BaseException) -> str:
 
 
 def syntax_sentence(error: SyntaxError) -> str:
-    """Where a syntax error is, and the user's own line with a caret below it."""
+    """Return the place of a syntax error, and the user's own line with a caret below it."""
     where = f"{error.filename}:{error.lineno}:{error.offset}"
     sentence = f"{where}: {type(error).__name__}: {error.msg}"
     text = (error.text or "").rstrip("\n")

@@ -1,4 +1,4 @@
-"""What a package's executable is: a user's console script or file, or a node of ours."""
+"""Executables of packages: a user's console script or file, or a node of ours."""
 
 import shlex
 from collections.abc import Callable, Mapping, Sequence
@@ -41,7 +41,7 @@ class HasItsOwnCommand(UsageError):
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """How an executable of ours is to be started.
+    """Request to start an executable of ours.
 
     Attributes:
         world: Where it lives.
@@ -168,7 +168,7 @@ def _robot_of(asked: Asked) -> "Robot | None":
 
 
 def _joint_topics(asked: Asked) -> tuple[str, str]:
-    """Where joint states and the description travel for a node."""
+    """Return the topics of joint states and description for a node."""
     from tftool.world.nodes.joints import DESCRIPTION, JOINT_STATES
 
     joint_states, description = (

@@ -1,4 +1,4 @@
-"""Which module and which name of ROS 2 we answer to, and where ours is.
+"""Modules and names of ROS 2 that we answer to, and where ours are.
 
 A line is "their module: our module: the names", a name alone or `theirs=ours`; a module of
 ours with a slash is a package of interfaces. The classes of some modules are found in modules

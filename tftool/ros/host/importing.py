@@ -158,7 +158,7 @@ class _Finder(MetaPathFinder):
     def _tested(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """What the others find; a file in the tests' folder is loaded with our builtins."""
+        """Find as the others do; a file in the tests' folder is loaded with our builtins."""
         for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
             spec = finder.find_spec(fullname, path, target)
             if spec is None:

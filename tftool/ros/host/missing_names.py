@@ -1,4 +1,4 @@
-"""What is said of a name or a module of ROS 2 that we do not answer to."""
+"""Sentences about a name or a module of ROS 2 that we do not answer to."""
 
 from collections.abc import Iterable, Sequence
 
@@ -21,7 +21,7 @@ DEFINED = (
 
 
 def missing_name(module: str, name: str, known: Sequence[str]) -> str:
-    """What to say of a name that a module of ours has not.
+    """Return a sentence about a name that a module of ours lacks.
 
     Args:
         module: The module.
@@ -47,13 +47,13 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
 
 
 def undeclared(parameter: str, known: Iterable[str]) -> str:
-    """What to say of a parameter that was given and never declared, among those that were."""
+    """Return a sentence about a parameter that was given and never declared."""
     hint = did_you_mean(parameter, known)
     return f"parameter '{parameter}' was given, but the node declares none of that name{hint}"
 
 
 def missing_module(name: str) -> str:
-    """What to say of a module below one of ROS 2's packages that we answer to."""
+    """Return a sentence about a missing module of a ROS 2 package that we answer to."""
     package = name.partition(".")[0]
     known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
     near = near_names(name, known, alike=0.8)
@@ -62,7 +62,7 @@ def missing_module(name: str) -> str:
 
 
 def missing_package(name: str) -> str:
-    """What to say of a package that is neither installed nor one we answer to."""
+    """Return a sentence about a package that is neither installed nor answered by us."""
     packages = sorted(
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )

@@ -21,7 +21,7 @@ _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
 
 
 class Fault(NamedTuple):
-    """Why a name is none.
+    """Reason why a name is refused.
 
     Attributes:
         reason: What a name must be like.
@@ -33,7 +33,7 @@ class Fault(NamedTuple):
 
 
 def named_twice(name: str) -> str:
-    """What a node is told whose name a node of another process has already."""
+    """Return the warning for a node whose name a node of another process has already."""
     return (
         f"another process of this session has a node named '{name}': both publish and answer. "
         "End one, or give this one a name of its own: --ros-args -r __node:=…"
@@ -51,7 +51,7 @@ class Remap:
 
 @dataclass(slots=True)
 class RosOptions:
-    """What `--ros-args` asked for.
+    """Options after `--ros-args`.
 
     Attributes:
         name: A new name for the program's nodes (`__node:=`), if any.
@@ -105,7 +105,7 @@ _STRANGE_CHARACTER = "it must not contain characters other than letters, digits,
 
 
 def node_name_fault(name: str) -> Fault | None:
-    """Why ROS 2 refuses a node's name, None if it takes it."""
+    """Return the reason why ROS 2 refuses a node's name, None if it takes it."""
     strange = _STRANGE.search(name)
     if not name:
         return Fault("it must not be empty", 0)
@@ -117,7 +117,7 @@ def node_name_fault(name: str) -> Fault | None:
 
 
 def namespace_fault(namespace: str) -> Fault | None:
-    """Why ROS 2 refuses an absolute namespace, None if it takes it."""
+    """Return the reason why ROS 2 refuses an absolute namespace, None if it takes it."""
     if not namespace:
         return Fault("it must not be empty", 0)
     if not namespace.startswith("/"):
@@ -129,7 +129,7 @@ def namespace_fault(namespace: str) -> Fault | None:
 
 
 def topic_name_fault(name: str) -> Fault | None:
-    """Why ROS 2 refuses a relative, absolute or private topic's name, None if it takes it."""
+    """Return why ROS 2 refuses a relative, absolute or private topic name, None if it takes it."""
     strange = _STRANGE_IN_TOPIC.search(name)
     if not name:
         return Fault("it must not be empty", 0)
@@ -313,7 +313,7 @@ def yaml_value(text: str) -> Any:
 
 
 def strict_yaml_value(text: str) -> Any:
-    """The same, where what is no YAML is refused.
+    """Parse strictly: text that is no YAML is refused.
 
     Raises:
         ValueError: If it is no YAML.

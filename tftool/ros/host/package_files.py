@@ -1,4 +1,4 @@
-"""What a package's own files say of it, read and not run: package.xml, setup.py and their kin."""
+"""Facts from a package's own files, read and not run: package.xml, setup.py and their kin."""
 
 import ast
 import configparser
@@ -46,7 +46,7 @@ class Package:
         return None
 
     def place_of_script(self, name: str) -> Path:
-        """Where a console script would be, were the package installed where its sources are."""
+        """Return the path of a console script, were the package installed where its sources are."""
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
@@ -100,7 +100,7 @@ def _modules_of_cmake(path: Path) -> list[str]:
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
-    """What lands in the share directory elsewhere than where it lies."""
+    """Return the files installed into the share directory under another path."""
     for entry in data_files if isinstance(data_files, list) else ():
         if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
             continue
@@ -157,7 +157,7 @@ def _called(function: ast.expr) -> str:
 
 
 class _Literals:
-    """What expressions of a setup.py come to, as far as that is known without running it.
+    """Values of expressions in a setup.py, as far as known without running it.
 
     Literals, names, joined texts, and the two calls that name files: `glob` and `os.path.join`.
     """
@@ -203,7 +203,7 @@ class _Literals:
         return None
 
     def _files(self, pattern: Any, *, deep: bool) -> list[str]:
-        """What a pattern names in the package's own folder, and nowhere else."""
+        """Return the files of a pattern in the package's own folder, and nowhere else."""
         if not isinstance(pattern, str) or Path(pattern).is_absolute() or ".." in pattern:
             return []
         return sorted(glob.glob(pattern, root_dir=self._folder, recursive=deep))

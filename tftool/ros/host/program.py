@@ -132,7 +132,7 @@ class Program(Node):
 
     @property
     def turn(self) -> Phase:
-        """Where its timers come within an instant."""
+        """Return the turn of its timers within an instant."""
         return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
 
     # The loop's side.

@@ -24,7 +24,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """What `ros2 WORDS` asks for; `noun` and `verb` say which of the commands it is.
+    """Parse `ros2 WORDS`; `noun` and `verb` say which of the commands it is.
 
     Raises:
         UsageError: If there is no such command, or its words are wrong.

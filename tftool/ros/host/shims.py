@@ -1,4 +1,4 @@
-"""What users' files get instead of four standard modules.
+"""Replacements of four standard modules for users' files.
 
 In a user's own files `import time` gives a module whose `sleep` and clocks are the
 world's, `import threading` one whose threads take turns too and whose locks wait in the

@@ -14,7 +14,7 @@ from tftool.ros.host.shims import builtins_for_users
 
 
 def file_body(path: Path) -> Callable[[], None]:
-    """What runs a node's file as `python3 FILE` would.
+    """Make the body that runs a node's file as `python3 FILE` would.
 
     A file that defines `main`, does not call it and never comes to rclpy is made for a console
     script, as the tutorial's listings are: its `main` is called.
@@ -80,7 +80,7 @@ def compile_file(path: Path) -> Any:
 
 
 def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
-    """What runs a console script as its installed wrapper would, from its sources in `root`."""
+    """Make the body that runs a console script as its installed wrapper would, from `root`."""
 
     def body() -> None:
         target: Any = importing.import_fresh(module, root)

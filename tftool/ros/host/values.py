@@ -16,7 +16,7 @@ TF_TOPICS = ("tf", "tf_static")
 
 
 def carried(kind: type[Message], topic: str) -> type[Any]:
-    """What the world's topic carries where a user's node names a message class (full name)."""
+    """Return the class of the world's topic for a message class of a user's node (full name)."""
     if kind.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
         return TransformMessage
     plain = plain_name(kind.interface__)
@@ -29,7 +29,7 @@ def pack(message: Any, kind: type[Any]) -> Any:
 
 
 def unpack(value: Any, kind: type[Message]) -> Any:
-    """What a topic, a service or an action carries, as a new message of a class."""
+    """Convert the value of a topic, a service or an action to a new message of a class."""
     if isinstance(value, TransformMessage):
         return unpack_transforms(value)
     return kind() if value is None else recast(value, kind)

@@ -51,7 +51,7 @@ class Action(LaunchDescriptionEntity):
 
     @classmethod
     def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
-        """What makes the action of an element of XML or YAML, for actions of people's own.
+        """Parse an XML or YAML element into a maker of its action, for actions of people's own.
 
         Its condition is read by the launch, whatever class it is.
         """
@@ -62,5 +62,5 @@ class Action(LaunchDescriptionEntity):
         return None
 
     def describe(self) -> str:
-        """How it shows itself."""
+        """Return its text form."""
         return f"{type(self).__name__}()"

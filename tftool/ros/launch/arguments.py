@@ -78,7 +78,7 @@ def _mentions(path: Path, name: str) -> bool:
 
 
 def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
-    """What --show-args prints, laid out as `ros2 launch` does."""
+    """Return the output of --show-args, laid out as `ros2 launch` does."""
     lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
     if not arguments:
         lines += ["", "  No arguments."]

@@ -167,7 +167,7 @@ async def _chunk_of(stream: asyncio.StreamReader) -> bytes:
 
 
 async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
-    """What a command writes, line by line.
+    """Yield the output of a command, line by line.
 
     asyncio's own reader raises where a line is longer than 64 KiB.
     """

@@ -57,7 +57,7 @@ class ComposableNode:
 def get_composable_node_load_request(
     composable_node_description: ComposableNode, context: LaunchContext
 ) -> Any:
-    """What asks a container to load a node; None where its condition does not hold."""
+    """Return the request that loads a node; None where its condition does not hold."""
     node = composable_node_description
     condition = node.condition()
     if condition is not None and not condition.evaluate(context):
@@ -158,7 +158,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Why it is no program in Python; "" if it is."""
+        """Return the reason why it is no program in Python; "" if it is."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

@@ -23,7 +23,7 @@ class Condition:
         return self._predicate is not None and self._predicate(context)
 
     def describe(self) -> str:
-        """How it shows itself."""
+        """Return its text form."""
         return f"{type(self).__name__}()"
 
 

@@ -1,4 +1,4 @@
-"""What is known while a launch runs."""
+"""State of a running launch."""
 
 import os
 from collections import Counter
@@ -58,14 +58,14 @@ class LaunchContext:
 
     @property
     def workspace(self) -> Workspace:
-        """Where packages are looked for: here, unless that was said."""
+        """Return the folder where packages are looked for: this one unless another was given."""
         if self._workspace is None:
             self._workspace = Workspace(Path.cwd())
         return self._workspace
 
     @property
     def locals(self) -> SimpleNamespace:
-        """What is known here alone: the event that is being handled, and what was added."""
+        """Return the local values: the event that is being handled, and what was added."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
@@ -73,7 +73,7 @@ class LaunchContext:
         self._locals.update(extensions)
 
     def get_locals_as_dict(self) -> dict[str, Any]:
-        """What is known here alone, by name."""
+        """Return the local values by name."""
         known = {} if self.event is None else {"event": self.event}
         return {**known, **self._locals}
 

@@ -10,31 +10,31 @@ from tftool.ros.launch.substitutions import perform
 
 
 class LaunchDescriptionEntity:
-    """What a launch description may hold."""
+    """Entity of a launch description."""
 
     def visit(self, context: LaunchContext) -> Any:
         """Be carried out; what is to be done next."""
         return None
 
     def describe(self) -> str:
-        """How it shows itself."""
+        """Return its text form."""
         raise NotImplementedError
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """What is inside, for looking for arguments."""
+        """Return the entities inside, for looking for arguments."""
         return []
 
     def describe_conditional_sub_entities(self) -> Sequence[tuple[str, Sequence[Any]]]:
-        """What may be inside: under which condition, and what."""
+        """Return the conditional entities inside: under which condition, and which."""
         return []
 
     def get_asyncio_future(self) -> Any:
-        """What is done when it has ended; None where that is at once."""
+        """Return the future of its end; None where that is at once."""
         return None
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """What a launch consists of.
+    """Entities of a launch.
 
     Attributes:
         entities: Its actions.
@@ -56,7 +56,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self.deprecated_reason is not None
 
     def describe(self) -> str:
-        """How it shows itself."""
+        """Return its text form."""
         return f"{type(self).__name__}()"
 
     def describe_sub_entities(self) -> Sequence[Any]:
@@ -75,7 +75,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
 
 class LaunchDescriptionSource:
-    """Where a description comes from."""
+    """Source of a description."""
 
     def __init__(self, launch_description: Any = None, location: Any = "") -> None:
         self.description = launch_description

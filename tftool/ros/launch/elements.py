@@ -84,7 +84,7 @@ class Element:
         return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
 
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
-        """What is wrong here, and the nearest word that is known."""
+        """Return the mistake here, and the nearest known word."""
         hint = did_you_mean(word, known)
         return InputError(f"{self.where}: {what}{hint}")
 

@@ -47,7 +47,7 @@ SOONEST = 0.1
 
 
 class Launch(Node):
-    """What `ros2 launch` is: starts what a description says, and watches it.
+    """Launch as `ros2 launch` does it: starts what a description says, and watches it.
 
     Attributes:
         failed: Labels of programs that ended with another exit status than 0.
@@ -516,7 +516,7 @@ class Launch(Node):
         return f"{name}-{self._count}"
 
     def label_of(self, record: LogRecord) -> str:
-        """Which process a line of the log comes from."""
+        """Return the label of a process in the log."""
         if record.program:
             return record.program
         for node in self.world.nodes:

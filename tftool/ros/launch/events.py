@@ -99,7 +99,7 @@ class ShutdownProcess(Event):
 
 
 def matches_action(target_action: Any) -> Callable[[Any], bool]:
-    """What says whether an action is a certain one."""
+    """Return a matcher for one action."""
     return lambda action: action is target_action
 
 
@@ -150,7 +150,7 @@ class EventHandler:
         return self._matcher(event)
 
     def handle(self, event: Event, context: Any) -> Any:
-        """What is to be done."""
+        """Return the actions to do."""
         return _entities(self._given, event, context)
 
 
@@ -163,7 +163,7 @@ def _targets(action: Any, target: Any) -> bool:
 
 
 class OnProcessExit(EventHandler):
-    """When a process has ended."""
+    """Handler for the end of a process."""
 
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
         _require_target("OnProcessExit", target_action)
@@ -175,7 +175,7 @@ class OnProcessExit(EventHandler):
 
 
 class OnProcessStart(EventHandler):
-    """When a process has begun."""
+    """Handler for the start of a process."""
 
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
         _require_target("OnProcessStart", target_action)
@@ -187,7 +187,7 @@ class OnProcessStart(EventHandler):
 
 
 class OnProcessIO(EventHandler):
-    """When a process has written a line."""
+    """Handler for a line written by a process."""
 
     def __init__(
         self,
@@ -212,7 +212,7 @@ class OnProcessIO(EventHandler):
 
 
 class OnExecutionComplete(EventHandler):
-    """When an action is done: what it starts has ended, and is not started again.
+    """Handler for the end of an action: what it starts has ended, and is not started again.
 
     Attributes:
         target: The action, something that says whether one is meant, or None for any.
@@ -231,7 +231,7 @@ class OnExecutionComplete(EventHandler):
 
 
 class OnShutdown(EventHandler):
-    """When the launch ends."""
+    """Handler for the end of the launch."""
 
     def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
         super().__init__(matcher=lambda e: isinstance(e, Shutdown), entities=on_shutdown, **kwargs)

@@ -36,7 +36,7 @@ class Entity:
 
     @property
     def children(self) -> list["Entity"]:
-        """What is in it."""
+        """Return its child elements."""
         return [Entity(one, self) for one in self.element.all_inside()]
 
     def get_attr(
@@ -115,7 +115,7 @@ class Parser:
         return Entity(Element("launch", str(path), children=children)), cls()
 
     def parse_description(self, entity: Entity) -> LaunchDescription:
-        """What a launch file says, by its root."""
+        """Parse a launch file, given its root."""
         from tftool.ros.launch.frontend import actions_of
 
         return LaunchDescription(actions_of(entity.element.all_inside()))

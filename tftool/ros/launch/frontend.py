@@ -1,4 +1,4 @@
-"""What the elements of XML and YAML launch files mean: the actions of Python's."""
+"""Elements of XML and YAML launch files, as the actions of Python's."""
 
 import shlex
 from collections.abc import Callable, Iterable, Mapping
@@ -95,7 +95,7 @@ def _flag(element: Element, name: str, default: str) -> bool:
 
 
 def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
-    """What the children of one kind say, nothing in them left over."""
+    """Parse the children of one kind, with nothing in them left over."""
     found = []
     for child in element.inside(*tags):
         found.append(read(child))
@@ -118,7 +118,7 @@ def _arg(element: Element) -> Any:
 
 
 def _startable(element: Element) -> dict[str, Any]:
-    """What nodes and commands have in common."""
+    """Parse the attributes that nodes and commands have in common."""
     for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout"):
         element.get(name)
     on_exit = element.get("on_exit")

@@ -62,7 +62,7 @@ class StateTransition(Event):
 
 
 class OnStateTransition(EventHandler):
-    """When a node with a life cycle has gone from one state to another."""
+    """Handler for a change of state of a lifecycle node."""
 
     def __init__(
         self,
@@ -122,14 +122,14 @@ class LifecycleNode(Node):
 
 
 def change_state(node: str, transition: int) -> ExecuteProcess:
-    """What asks a node for a transition, as `ros2 lifecycle set` does."""
+    """Return a request for a transition, as `ros2 lifecycle set` makes it."""
     request = f"{{transition: {{id: {transition}}}}}"
     words = ["service", "call", f"{node}/change_state", "lifecycle_msgs/srv/ChangeState", request]
     return ExecuteProcess(cmd=["ros2", *words])
 
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
-    """What says whether an action is the node of a name."""
+    """Return a matcher for the node of a name."""
     full = make_namespace_absolute(node_name)
     return lambda action: getattr(action, "node_name", None) == full
 
@@ -180,7 +180,7 @@ _REACHED = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive"}
 
 
 class _After(EventHandler):
-    """When a node has come to the end of a transition."""
+    """Handler for the end of a node's transition."""
 
     def __init__(self, node: str, transition: int, entities: Any) -> None:
         def matches(event: Event) -> bool:

@@ -28,7 +28,7 @@ class _Screen(Handler):
 
 
 class LaunchConfig:
-    """What loggers say, how, and where."""
+    """Configuration of loggers: level, format, place."""
 
     def __init__(self) -> None:
         self._files: dict[str, Handler] = {}
@@ -69,7 +69,7 @@ class LaunchConfig:
 
     @property
     def log_handler_factory(self) -> Callable[..., Handler]:
-        """What makes the handler of a file, of its path."""
+        """Factory for a file's log handler, from its path."""
         return self._factory
 
     @log_handler_factory.setter
@@ -91,15 +91,15 @@ class LaunchConfig:
             handler.setFormatter(self._log_format)
 
     def get_screen_handler(self) -> Handler:
-        """What writes lines to the screen."""
+        """Return the handler that writes to the screen."""
         return self._screen
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
-        """Where a file is."""
+        """Return the path of a log file."""
         return os.path.join(self.log_dir, file_name)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> Handler:
-        """What writes lines to a file."""
+        """Return the handler that writes to a file."""
         if file_name not in self._files:
             Path(self.log_dir).mkdir(parents=True, exist_ok=True)
             made = self._factory(self.get_log_file_path(file_name), encoding="utf-8")

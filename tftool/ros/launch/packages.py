@@ -40,7 +40,7 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
-    """The same as a Path."""
+    """Return the share directory as a Path."""
     return Path(get_package_share_directory(package_name))
 
 

@@ -18,7 +18,7 @@ _SINGLE = (str, int, float, bool)
 
 
 class BadParameterError(UsageError, TypeError):
-    """What can be no parameter's value, as is known when the launch runs."""
+    """Value that no parameter can have, found while the launch runs."""
 
 
 class ParameterValue:
@@ -97,7 +97,7 @@ class ParameterFile:
         self._made: Path | None = None
 
     def read(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
-        """What it sets: (node, name, value).
+        """Return what it sets: (node, name, value).
 
         Raises:
             InputError: If it cannot be read, or is laid out otherwise.
@@ -186,7 +186,7 @@ def _normalized(value: Any) -> Any:
 
 
 def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Any, ...]:
-    """What normalized parameters are now: mappings from names to values, and paths.
+    """Evaluate normalized parameters: mappings from names to values, and paths.
 
     Raises:
         TypeError: If a text gives what can be no parameter's value.
@@ -206,7 +206,7 @@ def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tu
 def evaluate_parameter_dict(
     context: LaunchContext, parameters: Mapping[Any, Any]
 ) -> dict[str, Any]:
-    """What a normalized mapping of parameters is now.
+    """Evaluate a normalized mapping of parameters.
 
     Raises:
         TypeError: If a text gives what can be no parameter's value.
@@ -236,7 +236,7 @@ def _evaluated(context: LaunchContext, value: Any) -> Any:
 
 
 def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, str, Any]]:
-    """What normalized parameters set: (node, name, value)."""
+    """Return what normalized parameters set: (node, name, value)."""
     found: list[tuple[str, str, Any]] = []
     for one in given:
         if isinstance(one, ParameterFile):
@@ -253,7 +253,7 @@ def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, st
 
 
 def _typed(text: str, kind: Any) -> Any:
-    """What a text says, of some type; of any type a parameter may have when None."""
+    """Parse a text as some type; as any type a parameter may have when None."""
     if kind is str:
         return text
     value = names.strict_yaml_value(text)

@@ -33,7 +33,7 @@ _ESCAPED = tuple("$()'\"\\")
 
 
 def _end_of_quote(text: str, start: int) -> int:
-    """Where the quote that opens at `start` is closed; -1 for nowhere."""
+    """Return the end of the quote that opens at `start`; -1 if there is none."""
     at = start + 1
     while at < len(text) and text[at] != text[start]:
         at += 2 if text[at] == "\\" else 1

@@ -54,7 +54,7 @@ class Executable:
 
 
 class Startable(Action):
-    """What is started, ends some time, and may be started again."""
+    """Action that starts something, which ends some time and may be started again."""
 
     takes_time: ClassVar[bool] = True
 
@@ -196,7 +196,7 @@ class ExecuteProcess(Startable):
 
 
 def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
-    """What follows `ros2` in a command; None if it is another one, or a shell's script."""
+    """Return the words after `ros2` in a command; None for others and for a shell's script."""
     if shell:
         try:
             lexer = shlex.shlex(" ".join(words), posix=True, punctuation_chars=True)

@@ -1,4 +1,4 @@
-"""What holds for all of launch_ros's nodes of a scope: a namespace, remappings, parameters.
+"""Settings for all of launch_ros's nodes of a scope: a namespace, remappings, parameters.
 
 As in ROS 2 they are kept among the launch configurations, where a scope begins and ends them.
 """
@@ -92,7 +92,7 @@ def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tu
 
 
 def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
-    """What the scope sets: (node, name, value); "" is each node."""
+    """Return the scope's parameters: (node, name, value); "" is each node."""
     found: list[tuple[str, str, Any]] = []
     for kept in _kept(context, _PARAMETERS):
         if isinstance(kept, str):
@@ -108,7 +108,7 @@ def add_node_name(context: LaunchContext, node_name: str) -> None:
 
 
 def get_node_name_count(context: LaunchContext, node_name: str) -> int:
-    """How many nodes of a full name were started."""
+    """Return how many nodes of a full name were started."""
     return context.node_names[node_name]
 
 

@@ -58,7 +58,7 @@ class LaunchService:
         return self._launch
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """The same beside other coroutines; who cancels it ends the launch."""
+        """Run it beside other coroutines; a cancellation ends the launch."""
         launch = self._begin()
         self._loops.add(asyncio.get_running_loop())
         try:
@@ -99,4 +99,4 @@ def _loop() -> asyncio.AbstractEventLoop | None:
 
 
 async def _nothing() -> None:
-    """What is asked of a launch is asked at once."""
+    """Do nothing: requests to a launch take effect at once."""

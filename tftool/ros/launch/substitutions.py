@@ -34,7 +34,7 @@ class Substitution:
         raise NotImplementedError
 
     def describe(self) -> str:
-        """How it shows itself."""
+        """Return its text form."""
         return f"{type(self).__name__}()"
 
     def __truediv__(self, other: Any) -> "PathJoinSubstitution":
@@ -61,7 +61,7 @@ def perform(context: LaunchContext, value: Any) -> str:
 
 
 def describe(value: Any) -> str:
-    """How anything that may be text shows itself before it is known."""
+    """Return the text form of anything that may be text, before it is known."""
     if isinstance(value, Substitution):
         return value.describe()
     if isinstance(value, Sequence) and value and not isinstance(value, str):
@@ -70,7 +70,7 @@ def describe(value: Any) -> str:
 
 
 def is_true(text: str) -> bool:
-    """What launch takes for true.
+    """Return launch's truth of a text.
 
     Raises:
         UsageError: If it is neither true nor false.
@@ -157,7 +157,7 @@ class EnvironmentVariable(Substitution):
 
 
 class LocalSubstitution(Substitution):
-    """What is known at a place alone: 'event.reason' in what an event's handler does."""
+    """Value known at one place alone: 'event.reason' in what an event's handler does."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
         self.expression = expression
@@ -212,7 +212,7 @@ class StringJoinSubstitution(Substitution):
 
 
 class PythonExpression(Substitution):
-    """What an expression of Python gives; it is the launch file's own code."""
+    """Value of a Python expression; it is the launch file's own code."""
 
     def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
         self.expression = expression
@@ -318,7 +318,7 @@ class FindExecutable(Substitution):
 
 
 class FileContent(Substitution):
-    """What stands in a text file."""
+    """Content of a text file."""
 
     def __init__(self, path: Any) -> None:
         self.path = path
@@ -352,7 +352,7 @@ class ExecutableInPackage(Substitution):
 
 
 def _expanded(words: list[str]) -> str:
-    """What `xacro FILE NAME:=VALUE …` writes, without ROS.
+    """Return the output of `xacro FILE NAME:=VALUE …`, without ROS.
 
     Raises:
         SubstitutionFailure: If it is no such command line, or the file cannot be expanded.
@@ -373,7 +373,7 @@ def _expanded(words: list[str]) -> str:
 
 
 class Command(Substitution):
-    """What a command writes."""
+    """Output of a command."""
 
     def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
         """Prepare to run a command.

@@ -18,7 +18,7 @@ from tftool.world.topics import new_goal_id
 
 
 class _Result:
-    """What get_result answers: a status number and the result message."""
+    """Answer of get_result: a status number and the result message."""
 
     def __init__(self, status: int, result: Any) -> None:
         self.status = status
@@ -26,7 +26,7 @@ class _Result:
 
 
 class _Feedback:
-    """What a feedback callback is given."""
+    """Argument of a feedback callback."""
 
     def __init__(self, goal_id: Any, feedback: Any) -> None:
         self.goal_id = goal_id

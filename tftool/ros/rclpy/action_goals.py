@@ -1,4 +1,4 @@
-"""What both ends of an action know of a goal."""
+"""Facts about a goal that both ends of an action know."""
 
 from enum import IntEnum
 
@@ -6,7 +6,7 @@ from tftool.world.action_parts import ENDED
 
 
 class GoalStatus(IntEnum):
-    """How far a goal is, as action_msgs numbers it."""
+    """Status of a goal, as action_msgs numbers it."""
 
     STATUS_UNKNOWN = 0
     STATUS_ACCEPTED = 1

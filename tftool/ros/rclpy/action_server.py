@@ -25,14 +25,14 @@ from tftool.world.topics import Status
 
 
 class GoalResponse(IntEnum):
-    """What a server says to a goal."""
+    """Answer of a server to a goal."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(IntEnum):
-    """What a server says to a cancellation."""
+    """Answer of a server to a cancellation."""
 
     REJECT = 1
     ACCEPT = 2
@@ -67,7 +67,7 @@ class ServerGoalHandle:
 
     @property
     def status(self) -> int:
-        """How far it is, as a number of GoalStatus."""
+        """Return its status, as a number of GoalStatus."""
         if self._status is not None:
             return int(STATUS[self._status])
         if self._canceling:
@@ -293,5 +293,5 @@ class ActionServer(WorkQueue):
 
 
 async def _outcome(value: Any) -> Any:
-    """What a callback gave; of a coroutine, what that gives."""
+    """Return the result of a callback; of a coroutine, that of awaiting it."""
     return await value if inspect.isawaitable(value) else value

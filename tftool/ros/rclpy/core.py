@@ -30,7 +30,7 @@ __all__ = [
 
 
 class InitContextManager:
-    """What `rclpy.init` returns: usable with `with`."""
+    """Result of `rclpy.init`: usable with `with`."""
 
     def __init__(self, context: Context) -> None:
         self.context = context

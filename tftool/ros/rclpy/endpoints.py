@@ -16,7 +16,7 @@ from tftool.world.endpoints import PUBLISHER, Endpoint
 
 
 class TopicEndpointTypeEnum(IntEnum):
-    """Which end of a topic."""
+    """End of a topic."""
 
     INVALID = 0
     PUBLISHER = 1
@@ -56,7 +56,7 @@ def _unknown() -> QoSProfile:
 
 @dataclass(slots=True)
 class TopicEndpointInfo:
-    """Who publishes or subscribes a topic, and how."""
+    """Publisher or subscription of a topic, with its quality of service."""
 
     node_name: str = ""
     node_namespace: str = ""

@@ -1,4 +1,4 @@
-"""What a node has that can become ready.
+"""Entities of a node that can become ready.
 
 Each thing keeps what arrived until an executor takes it. `ready` and `take` run on
 the loop's thread; what `take` returns runs on the fiber that spins.
@@ -21,7 +21,7 @@ MOST_WAITING: Final = 1000
 
 
 class RequiredHandle:
-    """What a `with` block holds a thing by, once it is seen to be there."""
+    """Handle for the `with` block of an entity, once it is seen to be there."""
 
     def __init__(self, require: Callable[[], object]) -> None:
         self._require = require
@@ -52,7 +52,7 @@ class NodeEntity:
         return False
 
     def take(self) -> Work:
-        """What to do next."""
+        """Return the next thing to do."""
         raise NotImplementedError
 
     def withdraw(self) -> None:
@@ -64,7 +64,7 @@ class NodeEntity:
 
     @property
     def handle(self) -> RequiredHandle:
-        """What raises InvalidHandle once it is destroyed."""
+        """Return a handle that raises InvalidHandle once it is destroyed."""
         return RequiredHandle(lambda: self.seat.require_of(self))
 
     def __enter__(self) -> Self:

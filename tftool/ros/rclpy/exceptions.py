@@ -1,4 +1,4 @@
-"""What rclpy raises."""
+"""Exceptions of rclpy."""
 
 from collections.abc import Iterable
 

@@ -47,7 +47,7 @@ class Executor:
 
     @property
     def context(self) -> Context:
-        """Whose shutdown ends it."""
+        """Return the context whose shutdown ends it."""
         return self._context
 
     def __enter__(self) -> "Executor":

@@ -9,7 +9,7 @@ from typing import Any
 
 
 class _Stepping(threading.local):
-    """Which task of asyncio an executor's task is carried on by, in each thread."""
+    """Task of asyncio that carries an executor's task on, in each thread."""
 
     beneath: "asyncio.Task[Any] | None" = None
 

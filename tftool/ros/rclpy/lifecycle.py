@@ -101,7 +101,7 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
 
 
 def _telling(callback: str) -> Any:
-    """What a node does in a transition unless its class says otherwise."""
+    """Make the default behaviour of a node in a transition."""
 
     def tell(self: "LifecycleNodeMixin", state: LifecycleState) -> TransitionCallbackReturn:
         for entity in list(self._managed_entities):
@@ -116,7 +116,7 @@ def _telling(callback: str) -> Any:
 
 
 class LifecycleNodeMixin(ManagedEntity):
-    """What makes a node a lifecycle node."""
+    """Parts that make a node a lifecycle node."""
 
     on_configure = _telling("on_configure")
     on_cleanup = _telling("on_cleanup")

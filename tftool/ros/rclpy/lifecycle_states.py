@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class TransitionCallbackReturn(IntEnum):
-    """What a callback says of its transition."""
+    """Answer of a callback to its transition."""
 
     SUCCESS = 97
     FAILURE = 98
@@ -85,7 +85,7 @@ GRAPH = _REQUESTS + tuple(
 
 
 class StateMachine:
-    """Where a lifecycle node is."""
+    """State of a lifecycle node."""
 
     def __init__(self) -> None:
         self.state = LifecycleState("unconfigured", STATES["unconfigured"])

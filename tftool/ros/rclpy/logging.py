@@ -13,7 +13,7 @@ from tftool.world.log import Level
 
 
 class LoggingSeverity(IntEnum):
-    """How much a line matters."""
+    """Severity of a line."""
 
     UNSET = 0
     DEBUG = 10
@@ -186,7 +186,7 @@ class _Call:
 
 
 def _rosout_of(owner: program.Program, logger: str) -> Any:
-    """What publishes a logger's lines: that of the node whose logger is the nearest above it."""
+    """Return the publisher of a logger's lines: of the node with the nearest logger above it."""
     told = [seat.rosout for seat in owner.nodes if seat.rosout is not None]
     return max((one for one in told if one.speaks_for(logger)), key=_depth, default=None)
 
@@ -251,7 +251,7 @@ def clear_config() -> None:
 
 
 def get_logging_directory() -> Path:
-    """Where ROS 2 writes its logs: `ROS_LOG_DIR`, else `log` in `ROS_HOME`, else `~/.ros/log`."""
+    """Return ROS 2's folder of logs: `ROS_LOG_DIR`, else `log` in `ROS_HOME`, else `~/.ros/log`."""
     told = os.environ.get("ROS_LOG_DIR")
     home = os.environ.get("ROS_HOME") or "~/.ros"
     return Path(told).expanduser() if told else Path(home).expanduser() / "log"

@@ -109,11 +109,11 @@ class Cache(SimpleFilter):
         return [msg for stamp, msg in kept if fits(stamp)]
 
     def getLastestTime(self) -> Time | None:  # noqa: N802
-        """When the newest message was made; ROS 2 spells it so."""
+        """Return the time of the newest message; ROS 2 spells it so."""
         return self.cache_times[-1] if self.cache_times else None
 
     def getOldestTime(self) -> Time | None:  # noqa: N802
-        """When the oldest message was made."""
+        """Return the time of the oldest message."""
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:  # noqa: N802

@@ -144,7 +144,7 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def handle(self) -> RequiredHandle:
-        """What raises InvalidHandle once it is destroyed."""
+        """Return a handle that raises InvalidHandle once it is destroyed."""
         return RequiredHandle(self._tftool.require)
 
     def __enter__(self) -> "Node":

@@ -1,4 +1,4 @@
-"""What a node can ask about the others."""
+"""Questions of a node about the others."""
 
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
@@ -22,7 +22,7 @@ class NodeNameNonExistentError(Exception):
 
 
 class NodeGraph:
-    """What a node has to do with the graph."""
+    """A node's methods for the graph."""
 
     _tftool: NodeSeat
 
@@ -46,7 +46,7 @@ class NodeGraph:
         return [(name, f"/{namespace}") for namespace, _, name in parted]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
-        """The same, with the enclave: there is only one."""
+        """Return names, namespaces and the only enclave there is."""
         return [(*one, "/") for one in self.get_node_names_and_namespaces()]
 
     def __nodes(self) -> list[str]:
@@ -75,13 +75,13 @@ class NodeGraph:
         return _listed((name, kind) for name, kinds in found.items() for kind in kinds)
 
     def count_publishers(self, topic_name: str) -> int:
-        """How many publish a topic."""
+        """Count the publishers of a topic."""
         full = self._tftool.full(topic_name)
         endpoints = self._tftool.world.endpoints
         return self.__look(lambda: len(endpoints.of(full, PUBLISHER)))
 
     def count_subscribers(self, topic_name: str) -> int:
-        """How many listen to a topic."""
+        """Count the subscriptions of a topic."""
         full = self._tftool.full(topic_name)
         endpoints = self._tftool.world.endpoints
         return self.__look(lambda: len(endpoints.of(full, SUBSCRIPTION)))
@@ -89,13 +89,13 @@ class NodeGraph:
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Which ROS nodes publish a topic, and how."""
+        """Return the ROS nodes that publish a topic, with their quality of service."""
         return self.__ends(topic_name, PUBLISHER)
 
     def get_subscriptions_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Which ROS nodes listen to a topic, and how."""
+        """Return the ROS nodes that listen to a topic, with their quality of service."""
         return self.__ends(topic_name, SUBSCRIPTION)
 
     def __ends(self, topic_name: str, role: Role) -> list[TopicEndpointInfo]:
@@ -115,12 +115,12 @@ class NodeGraph:
                 yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
-        """How many serve a service; of another process's, one or none."""
+        """Count the servers of a service; of another process's, one or none."""
         full = self._tftool.full(service_name, is_service=True)
         return self.__look(lambda: self._tftool.world.count_services(full))
 
     def count_clients(self, service_name: str) -> int:
-        """How many ROS nodes of this process have a client of a service."""
+        """Count the ROS nodes of this process with a client of a service."""
         full = self._tftool.full(service_name, is_service=True)
         return self.__look(
             lambda: sum(client.full == full for client in self.__clients(lambda node: True))
@@ -134,7 +134,7 @@ class NodeGraph:
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """What a ROS node publishes."""
+        """Return the topics that a ROS node publishes."""
         return _of_node(
             self._tftool, node_name, node_namespace, lambda full: self.__held(full, PUBLISHER)
         )
@@ -142,7 +142,7 @@ class NodeGraph:
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """What a ROS node listens to."""
+        """Return the topics that a ROS node listens to."""
         return _of_node(
             self._tftool, node_name, node_namespace, lambda full: self.__held(full, SUBSCRIPTION)
         )
@@ -150,7 +150,7 @@ class NodeGraph:
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
-        """What a node serves."""
+        """Return the services of a node."""
         return _of_node(
             self._tftool,
             node_name,
@@ -161,7 +161,7 @@ class NodeGraph:
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
-        """What a ROS node of this process asks others."""
+        """Return the services that a ROS node of this process calls."""
 
         def asked(full: str) -> Iterator[tuple[str, str]]:
             return (
@@ -231,7 +231,7 @@ def _node_names(seat: NodeSeat) -> list[str]:
 
 
 def _entities(seat: NodeSeat, of: Callable[[str], bool]) -> Iterator[Any]:
-    """What the ROS nodes of this process hold, of those whose full names `of` accepts."""
+    """Return the entities of this process's ROS nodes whose full names `of` accepts."""
     for program in seat.world.nodes:
         for other in program.nodes if isinstance(program, Program) else ():
             if of(other.authority):
@@ -250,7 +250,7 @@ def _of_node(
     namespace: str,
     find: Callable[[str], Iterable[tuple[str, str]]],
 ) -> NamesAndTypes:
-    """What `find` finds of a node, by its full name."""
+    """Return what `find` finds of a node, by its full name."""
     full = f"{namespace.strip('/')}/{name}".strip("/")
 
     def found() -> NamesAndTypes:

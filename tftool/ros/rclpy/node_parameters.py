@@ -24,7 +24,7 @@ Setter = Callable[[list[Parameter]], Any]
 
 
 class NodeParameters:
-    """What a node has to do with parameters."""
+    """A node's methods for parameters."""
 
     def _start_parameters(
         self,
@@ -415,7 +415,7 @@ def unused_parameters(node: NodeParameters) -> list[str]:
 
 
 def set_result(successful: bool, reason: str) -> Any:
-    """What setting parameters answers."""
+    """Make the answer to setting parameters."""
     kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
     return kind(successful=successful, reason=reason)
 

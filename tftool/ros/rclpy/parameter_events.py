@@ -15,7 +15,7 @@ TOPIC = "parameter_events"
 
 
 def teller(seat: NodeSeat) -> Callable[..., None]:
-    """What tells everybody of a node's parameters; it is one of the topic's publishers at once."""
+    """Publisher of a node's parameter events; it is one of the topic's publishers at once."""
     kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
     publisher: Publisher = seat.keep(
         lambda: Publisher(seat, kind, f"/{TOPIC}", TOPIC, qos_profile_parameter_events)

@@ -1,4 +1,4 @@
-"""What rclpy's nodes answer when others get, set, list and describe their parameters."""
+"""Services through which others get, set, list and describe a node's parameters."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -11,7 +11,7 @@ from tftool.ros.host import names
 
 
 class ParameterType(IntEnum):
-    """What a parameter may hold."""
+    """Type of a parameter."""
 
     NOT_SET = 0
     BOOL = 1
@@ -83,17 +83,17 @@ class Parameter:
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """Return its name."""
         return self._name
 
     @property
     def type_(self) -> ParameterType:
-        """What it holds."""
+        """Return its type."""
         return self._type
 
     @property
     def value(self) -> Any:
-        """What it is set to."""
+        """Return its value."""
         return self._value
 
     def __repr__(self) -> str:

@@ -25,7 +25,7 @@ class _Policy(IntEnum):
 
 
 class HistoryPolicy(_Policy):
-    """How many messages wait."""
+    """Number of messages that wait."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
@@ -63,7 +63,7 @@ class DurabilityPolicy(_Policy):
 
 
 class LivelinessPolicy(_Policy):
-    """How a publisher says it is alive."""
+    """Way in which a publisher asserts that it is alive."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -79,7 +79,7 @@ QoSLivelinessPolicy = LivelinessPolicy
 
 
 class QoSPolicyKind(IntEnum):
-    """Which setting of a profile something is about."""
+    """Setting of a profile that something is about."""
 
     INVALID = 1
     DURABILITY = 2
@@ -140,7 +140,7 @@ class QoSProfile:
 
 
 def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
-    """What of a profile decides who hears whom, and what is kept.
+    """Return the part of a profile that decides who hears whom, and what is kept.
 
     Args:
         profile: The profile.

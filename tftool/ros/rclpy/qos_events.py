@@ -24,7 +24,7 @@ class UnsupportedEventTypeError(Exception):
 
 
 class QoSPublisherEventType(IntEnum):
-    """What a publisher can be told of."""
+    """Event of a publisher."""
 
     RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
     RCL_PUBLISHER_LIVELINESS_LOST = 1
@@ -34,7 +34,7 @@ class QoSPublisherEventType(IntEnum):
 
 
 class QoSSubscriptionEventType(IntEnum):
-    """What a subscription can be told of."""
+    """Event of a subscription."""
 
     RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0
     RCL_SUBSCRIPTION_LIVELINESS_CHANGED = 1
@@ -45,14 +45,14 @@ class QoSSubscriptionEventType(IntEnum):
 
 
 class QoSCountInfo(NamedTuple):
-    """How often something has happened, and how often since it was last told."""
+    """Count of an event, and its change since the last report."""
 
     total_count: int = 0
     total_count_change: int = 0
 
 
 class QoSLivelinessChangedInfo(NamedTuple):
-    """How many publishers are alive, and are not."""
+    """Number of publishers that are alive, and that are not."""
 
     alive_count: int = 0
     not_alive_count: int = 0
@@ -61,7 +61,7 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSIncompatibleInfo(NamedTuple):
-    """How many other ends do not fit, and by which policy the last one does not."""
+    """Number of other ends that do not fit, and the policy that the last one violates."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -69,7 +69,7 @@ class QoSIncompatibleInfo(NamedTuple):
 
 
 class QoSMatchedInfo(NamedTuple):
-    """How many other ends there have been, and are now."""
+    """Number of other ends there have been, and that there are."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -82,7 +82,7 @@ Told = Callable[[Any], object] | None
 
 @dataclass(slots=True)
 class PublisherEventCallbacks:
-    """What a publisher's node wants to be told of."""
+    """Events a publisher's node wants."""
 
     incompatible_qos: Told = None
     liveliness: Told = None
@@ -94,7 +94,7 @@ class PublisherEventCallbacks:
 
 @dataclass(slots=True)
 class SubscriptionEventCallbacks:
-    """What a subscription's node wants to be told of."""
+    """Events a subscription's node wants."""
 
     incompatible_qos: Told = None
     liveliness: Told = None

@@ -16,14 +16,14 @@ class InvalidQosOverridesError(Exception):
 
 @dataclass(slots=True)
 class QosCallbackResult:
-    """What a callback says of a profile."""
+    """Answer of a callback about a profile."""
 
     successful: bool = False
     reason: str = ""
 
 
 class QoSOverridingOptions:
-    """Which policies of a topic may be set by parameters, and who looks at the outcome."""
+    """Policies of a topic that parameters may set, and the callback that checks the outcome."""
 
     def __init__(
         self,

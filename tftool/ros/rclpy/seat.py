@@ -174,7 +174,7 @@ class NodeSeat:
         return self.program.clock.now()
 
     def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
-        """What a latched subscription gets at once from this process, and from whom."""
+        """Return what a latched subscription gets at once from this process, and from whom."""
         if full == "tf_static":
             transforms = self.world.static_transforms()
             return [(TransformMessage(transforms, ""), None)] if transforms else []

@@ -22,7 +22,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class ServiceIntrospectionState(IntEnum):
-    """What of its requests and answers a service publishes."""
+    """Requests and answers that a service publishes."""
 
     OFF = 0
     METADATA = 1
@@ -30,7 +30,7 @@ class ServiceIntrospectionState(IntEnum):
 
 
 class _Introspected:
-    """What a service and its clients have to do with introspection."""
+    """Introspection of a service and its clients."""
 
     def configure_introspection(self, clock: Any, qos: Any, state: int) -> None:
         """Take note; the requests and answers themselves are not published here."""

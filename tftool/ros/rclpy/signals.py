@@ -7,7 +7,7 @@ from tftool.ros.rclpy.context import context_of
 
 
 class SignalHandlerOptions(IntEnum):
-    """Which signals rclpy would handle."""
+    """Signals that rclpy would handle."""
 
     NO = 0
     ALL = 1
@@ -16,6 +16,6 @@ class SignalHandlerOptions(IntEnum):
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """Which signals are handled: ROS 2's answer, all while the context is started."""
+    """Return the signals that are handled: ROS 2's answer, all while the context is started."""
     started = context_of(program.current()).ok()
     return SignalHandlerOptions.ALL if started else SignalHandlerOptions.NO

@@ -20,7 +20,7 @@ _FOR_EVER = 10**18
 
 
 class ClockType(IntEnum):
-    """Which clock a time belongs to."""
+    """Clock of a time."""
 
     UNINITIALIZED = 0
     ROS_TIME = 1
@@ -131,7 +131,7 @@ class Time:
 
     @property
     def clock_type(self) -> ClockType:
-        """Whose time it is."""
+        """Return the clock of the time."""
         return self._clock_type
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
@@ -209,7 +209,7 @@ class Clock:
 
     @property
     def clock_type(self) -> ClockType:
-        """Which clock it stands for."""
+        """Return the kind of clock."""
         return self._clock_type
 
     @property
@@ -395,7 +395,7 @@ class ROSClock(Clock):
 
 
 class ClockChange(IntEnum):
-    """How a clock's source of time changed."""
+    """Change of a clock's source of time."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2

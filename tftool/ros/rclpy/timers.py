@@ -11,7 +11,7 @@ from tftool.ros.rclpy.time import Clock, ClockType, Duration, Time
 
 
 class TimerInfo:
-    """When a timer was due, and when it was called."""
+    """Time at which a timer was due, and at which it was called."""
 
     def __init__(
         self,

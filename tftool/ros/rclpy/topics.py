@@ -90,7 +90,7 @@ class Publisher(NodeEntity):
         self._topic.publish(value, self._endpoint)
 
     def get_subscription_count(self) -> int:
-        """How many listen."""
+        """Count the subscriptions."""
         return int(self.seat.program.ask(lambda: self._topic.subscribers))
 
     def assert_liveliness(self) -> None:
@@ -123,7 +123,7 @@ class Publisher(NodeEntity):
 
 
 class MessageInfo(TypedDict):
-    """What a callback with two arguments is told about its message; stamps in nanoseconds."""
+    """Facts about a message, for a callback with two arguments; stamps in nanoseconds."""
 
     source_timestamp: int
     received_timestamp: int
@@ -186,7 +186,7 @@ class Subscription(NodeEntity):
         return self._endpoint
 
     def get_publisher_count(self) -> int:
-        """How many publish what it listens to."""
+        """Count the publishers of its topic."""
         ends = self.seat.world.endpoints
         return int(self.seat.program.ask(lambda: len(ends.of(self.full, PUBLISHER))))
 
@@ -240,7 +240,7 @@ class Subscription(NodeEntity):
 
 
 def _room(profile: QoSProfile) -> int | None:
-    """How many messages a profile keeps; None for all of them."""
+    """Return how many messages a profile keeps; None for all of them."""
     return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)
 
 

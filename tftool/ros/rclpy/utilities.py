@@ -30,5 +30,5 @@ def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
 
 
 def get_rmw_implementation_identifier() -> str:
-    """What carries the messages: nothing but this process."""
+    """Return the middleware's name: messages stay in this process."""
     return "tftool"

@@ -27,7 +27,7 @@ from tftool.world.clock import Phase
 
 
 class Buffer(BufferCore, BufferInterface):
-    """What a node knows of frames; filled by a `TransformListener`."""
+    """Frames as a node knows them; filled by a `TransformListener`."""
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
         BufferCore.__init__(self, cache_time)
@@ -129,7 +129,7 @@ class Buffer(BufferCore, BufferInterface):
         return self._promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
-        """The same between two moments."""
+        """Do as `wait_for_transform_async`, between two moments."""
         return self._promise(full_question(*asked, **named))
 
     def _promise(self, asked: LookupRequest | FullLookupRequest) -> Future:

@@ -17,7 +17,7 @@ from tftool.ros.tf2.lookup_requests import (
 
 
 class BufferCore:
-    """What is known of frames.
+    """Frames and the transforms between them.
 
     The methods that end in `_core` take what the waiting ones of `Buffer` take, but for
     the timeout, and refuse at once.

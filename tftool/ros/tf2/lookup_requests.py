@@ -1,4 +1,4 @@
-"""What can be asked of a buffer, as values: at one moment, or between two."""
+"""Questions to a buffer, as values: at one moment, or between two."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +14,7 @@ from tftool.world.clock import Clock
 
 @dataclass(frozen=True, slots=True)
 class LookupRequest:
-    """Where is source in target, at one moment?"""
+    """Question: where is source in target, at one moment?"""
 
     target: str
     source: str
@@ -25,7 +25,7 @@ class LookupRequest:
         return frames.lookup_transform(self.target, self.source, self.time)
 
     def why_not(self, frames: Frames) -> str:
-        """Why it cannot be answered; "" if it can."""
+        """Return the reason why it cannot be answered; "" if it can."""
         return frames.why_not(self.target, self.source, self.time)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:
@@ -35,7 +35,7 @@ class LookupRequest:
 
 @dataclass(frozen=True, slots=True)
 class FullLookupRequest:
-    """Where is source at one moment in target at another, through a fixed frame?"""
+    """Question: where is source at one moment in target at another, through a fixed frame?"""
 
     target: str
     target_time: Stamp
@@ -48,7 +48,7 @@ class FullLookupRequest:
         return frames.lookup_transform_full(*self._asked)
 
     def why_not(self, frames: Frames) -> str:
-        """Why it cannot be answered; "" if it can."""
+        """Return the reason why it cannot be answered; "" if it can."""
         return frames.why_not_full(*self._asked)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:

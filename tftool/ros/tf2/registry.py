@@ -67,15 +67,15 @@ class ConvertRegistration:
         _convert[key] = callback
 
     def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Who makes a type from a message."""
+        """Return the function that makes a type from a message."""
         return _of(_from_msg, key)
 
     def get_to_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Who makes a message of a type."""
+        """Return the function that makes a message of a type."""
         return _of(_to_msg, key)
 
     def get_convert(self, key: tuple[Any, Any]) -> Callable[[Any], Any]:
-        """Who converts one type to another."""
+        """Return the function that converts one type to another."""
         return _of(_convert, key)
 
 

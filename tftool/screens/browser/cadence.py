@@ -1,4 +1,4 @@
-"""When to take the next snapshot, so that many of them leave time for everything else."""
+"""Pace of snapshots, so that many of them leave time for everything else."""
 
 from tftool.base.stamps import Duration, Stamp, seconds
 

@@ -46,7 +46,7 @@ class Poses:
 
 @dataclass(frozen=True, slots=True)
 class SharedMoment:
-    """What pages that look at the same moment are all sent."""
+    """Data sent to all pages that look at the same moment."""
 
     snapshot: Snapshot
     tree: TreeMessage

@@ -77,7 +77,7 @@ class LiveDisplays:
 
     @property
     def blocks(self) -> dict[str, bytes]:
-        """What was told last of every topic, for a page that opens."""
+        """Return the last message of every topic, for a page that opens."""
         return {topic: one.block for topic, one in self._heard.items() if one.block}
 
     def latest(self, most: int) -> list[DrawnTopic]:

@@ -1,4 +1,4 @@
-"""What the page marks on its ruler of time: where links have no data, and what the doctor found."""
+"""Marks on the page's ruler of time: links without data, and the doctor's findings."""
 
 from typing import Any, Final
 

@@ -1,4 +1,4 @@
-"""Where the meshes of a robot lie: names in a description to files, inside of known folders alone.
+"""Files of a robot's meshes: names in a description to files, inside of known folders alone.
 
 What a description names is a stranger's text. Only files inside the folders that were given
 or found are ever served: no absolute path, no `file://`, nothing reached by `..` or a
@@ -206,7 +206,7 @@ class MeshFolders:
 
 
 def package_name(folder: Path) -> str:
-    """What the package in a folder calls itself; empty if there is none."""
+    """Return the name in a folder's package.xml; empty if there is none."""
     try:
         raw = (folder / "package.xml").read_bytes()
         if len(raw) > 1 << 20 or b"<!DOCTYPE" in raw or b"<!ENTITY" in raw:

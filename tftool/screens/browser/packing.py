@@ -41,7 +41,7 @@ Progress = Callable[[int, int], object]
 
 
 class TooLarge(Exception):
-    """What was packed is larger than was allowed."""
+    """The packed data is larger than allowed."""
 
 
 class PackedBlock:

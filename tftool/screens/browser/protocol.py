@@ -1,4 +1,4 @@
-"""What the page and its server say to each other, as bytes and text.
+"""Messages between the page and its server, as bytes and text.
 
 Server to page:
   text   {"type": "frames", ...}  the frames' names and parents, whenever they change
@@ -247,7 +247,7 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
 
 
 def chosen(snapshot: Snapshot) -> list[int]:
-    """Which frames are shown when there are too many: those nearest to their roots."""
+    """Choose the frames to show when there are too many: those nearest to their roots."""
     if len(snapshot.frames) <= MOST_FRAMES:
         return list(range(len(snapshot.frames)))
     kept = grow(snapshot, most=MOST_FRAMES).children
@@ -431,5 +431,5 @@ def _finite(values: Iterable[float]) -> list[float | None]:
 
 
 def names_key(frames: Sequence[FrameInfo]) -> tuple[tuple[str, str | None, bool, str | None], ...]:
-    """What has to change before the names are sent again."""
+    """Return a key that changes whenever the names have to be sent again."""
     return tuple((frame.frame, frame.parent, frame.is_static, frame.authority) for frame in frames)

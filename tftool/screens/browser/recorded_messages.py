@@ -31,7 +31,7 @@ MILLIMETRE: Final = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """How much is drawn.
+    """Limits of drawing.
 
     Attributes:
         points: Points of one message.
@@ -69,7 +69,7 @@ class DrawnTopic:
 
 
 def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
-    """What of a recording is drawn."""
+    """Return the tracks of a recording that are drawn."""
     found: list[DrawnTopic] = []
     for topic in recording.topics:
         name = topic.type.replace("/msg/", "/").replace("/", "/msg/", 1)
@@ -82,7 +82,7 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
 
 
 def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
-    """What is drawn of a recording, which is opened for it: callable from any thread."""
+    """Return the drawn tracks of a recording, opened for it: callable from any thread."""
     with open_recording(name) as recording:
         return recorded_tracks(recording, limits)
 

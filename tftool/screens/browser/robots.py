@@ -51,7 +51,7 @@ class ShownRobot:
 
     @property
     def missing(self) -> list[str]:
-        """Why meshes and textures are not shown, as sentences."""
+        """Return sentences about meshes and textures that are not shown."""
         found: list[str] = json.loads(self.as_text())["missing"]
         return found
 
@@ -105,7 +105,7 @@ class ShownRobot:
         ]
 
     def _motion(self) -> list[dict[str, Any]]:
-        """What a page needs to move the joints by itself; see `page/kinematics.js`."""
+        """Return the data a page needs to move the joints by itself; see `page/kinematics.js`."""
         if self.rest is None:
             return []
         told: list[dict[str, Any]] = []

@@ -72,16 +72,16 @@ _LOGGER.propagate = False
 
 
 class ShownWorld(Protocol):
-    """What is shown: a clock and a buffer. Every `World` is one."""
+    """A clock and a buffer to show. Every `World` is one."""
 
     @property
     def clock(self) -> Clock:
-        """Whose time the frames live in."""
+        """Return the clock of the frames."""
         ...
 
     @property
     def buffer(self) -> Buffer:
-        """Where the frames are."""
+        """Return the buffer of the frames."""
         ...
 
 
@@ -172,7 +172,7 @@ class PageServer:
 
     @property
     def url(self) -> str:
-        """Where a browser finds the page; it holds the secret, so no log may have it."""
+        """Return the address of the page; it holds the secret, so no log may have it."""
         return self.address("/")
 
     def address(self, path: str) -> str:

@@ -35,7 +35,7 @@ _LARGEST_REFERENCE: Final = 64 * 1024 * 1024
 
 @dataclass(frozen=True, slots=True)
 class StandaloneData:
-    """What a page shows that has no server.
+    """Data of a page without a server.
 
     Attributes:
         name: Whose frames they are, in sentences: "recording 'run.mcap'".
@@ -144,7 +144,7 @@ def _digest(script: str) -> str:
 
 
 def _inert(text: str) -> str:
-    """What stands inside of an element as it is: it must not end it."""
+    """Return a text that cannot end the element it is put into."""
     assert not re.search(r"</(script|style)|<!--", text, re.IGNORECASE)
     return text
 

@@ -22,12 +22,12 @@ class _Entry:
     forgotten: int = 0
 
     def times(self, until: Stamp) -> int:
-        """How often it had been said by a moment."""
+        """Return how often it had been logged by a moment."""
         later = sum(1 for stamp in self.stamps if stamp > until)
         return 0 if later == len(self.stamps) else self.forgotten + len(self.stamps) - later
 
     def last(self, until: Stamp) -> Stamp:
-        """When it had been said last by a moment."""
+        """Return when it had been logged last by a moment."""
         return max((stamp for stamp in self.stamps if stamp <= until), default=0)
 
 
@@ -112,7 +112,7 @@ class Journal:
         return line
 
     def _told(self, until: Stamp) -> list[_Entry]:
-        """What had been said by a moment, in the order in which each was said last."""
+        """Return the lines logged by a moment, in the order of each one's last time."""
         told = [entry for entry in self._entries if entry.times(until)]
         return sorted(told, key=lambda entry: entry.last(until))
 

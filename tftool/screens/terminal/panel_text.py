@@ -106,7 +106,7 @@ def tree(
 
 
 def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
-    """What the picture is, and in which frame: "Frames in world"."""
+    """Return the picture's subject and its frame: "Frames in world"."""
     fixed = moment.picture.fixed
     if not fixed:
         return "Field"
@@ -114,7 +114,7 @@ def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
 
 
 class _Columns(NamedTuple):
-    """How wide the columns of the tree are; the sender's is 0 where there is no room."""
+    """Widths of the tree's columns; the sender's is 0 where there is no room."""
 
     name: int
     rate: int

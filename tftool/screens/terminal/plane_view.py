@@ -195,7 +195,7 @@ class PlaneView:
         return rows
 
     def _notes(self, picture: PlanePicture, width: int, height: int, look: Look) -> list[Line]:
-        """What is not to be seen, in words."""
+        """Return notes about everything that is out of sight."""
         words = []
         shown = max(1, width // INSET_WIDTH) if height >= WITH_INSETS else 0
         hidden = picture.apart[shown:]

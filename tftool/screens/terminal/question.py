@@ -1,4 +1,4 @@
-"""What a screen shows of its scene: which pair of frames, at which moment."""
+"""The pair of frames and the moment that a screen shows of its scene."""
 
 from dataclasses import replace
 

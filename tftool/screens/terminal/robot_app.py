@@ -259,7 +259,7 @@ class RobotApp(PanelApp):
         self._put(what, all_of_them=True)
 
     def action_one(self, what: str) -> None:
-        """The same with the chosen joint."""
+        """Reset the chosen joint alone."""
         self._put(what, all_of_them=False)
 
     def _put(self, what: str, *, all_of_them: bool) -> None:

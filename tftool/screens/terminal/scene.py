@@ -1,4 +1,4 @@
-"""What a screen shows of a world at one moment, now or as far back as the buffer reaches."""
+"""State of a world at one moment, now or as far back as the buffer reaches."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -76,11 +76,11 @@ class SimulatedTurtle(Protocol):
 
     @property
     def wall_hits(self) -> int:
-        """How often it met the wall."""
+        """Return how often it met the wall."""
 
 
 class Simulator(Protocol):
-    """Who draws turtles: the simulator itself, or what is seen of one elsewhere."""
+    """Source of turtles: the simulator itself, or what is seen of one elsewhere."""
 
     trail: Trail
     revision: int
@@ -95,7 +95,7 @@ class Simulator(Protocol):
 
 
 class _SeenTurtle(NamedTuple):
-    """Where a turtle stood on the field: metres, radians."""
+    """Place of a turtle on the field: metres, radians."""
 
     name: str
     x: float
@@ -105,7 +105,7 @@ class _SeenTurtle(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """What only the simulator knows of the field at `stamp`: the trail by its length."""
+    """Facts only the simulator knows of the field at `stamp`: the trail by its length."""
 
     stamp: Stamp
     turtles: tuple[_SeenTurtle, ...]
@@ -212,7 +212,7 @@ class Scene:
             return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """The same moment with another pair; it need not be in the buffer any more."""
+        """Return this moment with another pair; it need not be in the buffer any more."""
         snapshot, pair = moment.snapshot, (target, source)
         wanted = self._fixed(snapshot, pair, fixed)
         if moment.picture.fixed != wanted:

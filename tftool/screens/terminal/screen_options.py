@@ -1,4 +1,4 @@
-"""What a screen is asked to be, what its terminal can show, and who gets how much of it."""
+"""Options of a screen, abilities of its terminal, and the division of its room."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ from tftool.drawing import theme
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """What the terminal can show, and what is asked for.
+    """Abilities of the terminal, and options of the screen.
 
     Attributes:
         title: What runs, for the top line.

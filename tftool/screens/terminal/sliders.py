@@ -18,7 +18,7 @@ FINE = 10
 
 
 class Positions(Protocol):
-    """Where joints are, and what puts them elsewhere: `nodes.joints.JointStatePublisher`."""
+    """Positions of joints, and their setter: `nodes.joints.JointStatePublisher`."""
 
     @property
     def positions(self) -> Mapping[str, float]:
@@ -48,7 +48,7 @@ class Slider:
 
     @property
     def share(self) -> float | None:
-        """Where it is between its limits, from 0 to 1; None where that means nothing."""
+        """Return its place between its limits, from 0 to 1; None where that means nothing."""
         lower, upper = self.range
         if self.position is None or upper <= lower:
             return None

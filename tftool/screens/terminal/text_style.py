@@ -1,4 +1,4 @@
-"""How the text of a screen is painted and broken into lines."""
+"""Painting of a screen's text, and breaking into lines."""
 
 from typing import NamedTuple
 
@@ -12,14 +12,14 @@ from tftool.drawing import theme
 
 
 class Look(NamedTuple):
-    """How a screen paints: its palette, and whether it may use more than ASCII."""
+    """Palette of a screen, and whether it may use more than ASCII."""
 
     palette: theme.Palette = theme.DARK
     ascii_only: bool = False
 
     @property
     def more(self) -> str:
-        """What stands for text that was left out."""
+        """Return the sign for text that was left out."""
         return "~" if self.ascii_only else "…"
 
     def ink(self, color: Color, *, bold: bool = False) -> Style:

@@ -22,7 +22,7 @@ Marks = Mapping[str, Sequence[str]]
 
 @dataclass(slots=True)
 class TreeWindow:
-    """What of a tree is to be seen: the part, the order, the frames.
+    """Visible part of a tree: its root, the order, the frames.
 
     Attributes:
         first: The row at the top.

@@ -27,7 +27,7 @@ from tftool.world.stopper import leave_screen
 
 
 def input_events(sent: str) -> Iterable[Message]:
-    """What a terminal sends, as the keys and mouse moves that Textual makes of it.
+    """Return a terminal's input as the keys and mouse moves that Textual makes of it.
 
     The one place that knows where Textual keeps its parser, which it does not promise: where a
     version has moved it, nothing is made.
@@ -227,7 +227,7 @@ class PanelApp(WorldApp):
 
     @property
     def look(self) -> Look:
-        """How the panels paint."""
+        """Return the style of the panels."""
         palette = theme.LIGHT if self._light else theme.DARK
         return Look(palette, self.setting.ascii_only)
 

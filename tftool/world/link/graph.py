@@ -1,4 +1,4 @@
-"""Who is there: processes, nodes, and what they publish, subscribe and serve."""
+"""Graph of a session: processes, nodes, and what they publish, subscribe and serve."""
 
 import re
 from collections.abc import Iterable
@@ -49,7 +49,7 @@ class GraphEntity:
 
 
 class Role(StrEnum):
-    """What a tftool is to the others of its session.
+    """Role of a tftool for the others of its session.
 
     Attributes:
         HOST: It runs the world that others look at.
@@ -87,7 +87,7 @@ class Process:
 
 
 class Graph:
-    """What all other processes show.
+    """Entities of all other processes.
 
     Attributes:
         own: This process's session, of which nothing is entered.
@@ -139,7 +139,7 @@ class Graph:
         return gone
 
     def get(self, key: str) -> GraphEntity | Process | None:
-        """What is entered under a key; None where nothing is."""
+        """Return the entry under a key; None if there is none."""
         return self._entities.get(key) or self._processes.get(key)
 
     @property
@@ -182,7 +182,7 @@ class Graph:
         return any(one.session not in guests for one in self._entities.values())
 
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
-        """Who sent a message: by its gid, else the only one it can be; None if that is unclear."""
+        """Return the sender of a message: by its gid, else the only candidate; None if unclear."""
         unknown = []
         for one in self.entities(PUBLISHER, name=topic):
             if one.gid == gid:
@@ -193,7 +193,7 @@ class Graph:
 
 
 def hosts(processes: Iterable[Process]) -> list[Process]:
-    """Those among some processes that run a world."""
+    """Return those of some processes that run a world."""
     return [one for one in processes if one.role is Role.HOST]
 
 

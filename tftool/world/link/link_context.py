@@ -1,4 +1,4 @@
-"""What topics, services and actions on their way out and in need of the link they belong to.
+"""The link's side of topics, services and actions on their way in and out.
 
 The link makes them and they ask it; this narrow part between the two leaves one direction.
 """
@@ -21,7 +21,7 @@ UNKNOWN: Final = Quality(is_latched=True)
 
 
 class LinkContext:
-    """What the parts of a link share: the middleware, the world, and what went wrong.
+    """State shared by the parts of a link: the middleware, the world, and its faults.
 
     Attributes:
         options: How the process takes part.
@@ -58,7 +58,7 @@ class LinkContext:
 
     @property
     def unanswering(self) -> str:
-        """Which processes of this machine do not answer, and what to do, as a sentence; or ""."""
+        """Return the processes here that do not answer, and what to do, as a sentence; or ""."""
         found = [str(pid) for pid in self.middleware.unanswering]
         if not found:
             return ""
@@ -137,5 +137,5 @@ class LinkContext:
 
 
 def _unnamed(gid: bytes) -> str:
-    """What a publisher is called whose node is not known."""
+    """Return a name for a publisher whose node is not known."""
     return f"publisher_{gid[:4].hex() or 'unknown'}"

@@ -1,4 +1,4 @@
-"""How a process takes part in a session, whatever carries it."""
+"""Options of a process in a session, whatever the middleware."""
 
 import os
 from collections.abc import Mapping
@@ -50,7 +50,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a process takes part.
+    """Options of a process in a session.
 
     Attributes:
         command: What it is called for: "demo", "echo".

@@ -1,4 +1,4 @@
-"""What each middleware declares of itself: its options, what contradicts them, and its words.
+"""Declarations of each middleware: its options, their contradictions, and its words.
 
 A middleware derives from `Reach` in its folder, as `zenoh/reach.py` does; one line in
 `link_options.MIDDLEWARES` adds it. Commands know no middleware by its name.
@@ -31,7 +31,7 @@ class LinkOption:
 
 
 class Reach:
-    """What a link of one middleware opens beyond this machine's own processes.
+    """Reach of a link of one middleware beyond this machine's own processes.
 
     Derived as frozen data; made without arguments it opens nothing that was not asked for.
     """

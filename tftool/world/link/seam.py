@@ -1,4 +1,4 @@
-"""What a link needs of a middleware: a ROS graph, and messages and questions as CDR.
+"""Interface of a middleware to a link: a ROS graph, and messages and questions as CDR.
 
 A middleware is a folder beside `zenoh/` with a class that has the methods of `Middleware`, a
 `Reach` that declares its options and joins a session, and one line in
@@ -30,7 +30,7 @@ class Arrived(NamedTuple):
 
 
 class WirePublisher(Protocol):
-    """Where messages of one topic go out, shown in the graph."""
+    """Publisher of one topic on the wire, shown in the graph."""
 
     @property
     def is_wanted(self) -> bool:
@@ -78,7 +78,7 @@ class WireClient(Protocol):
 
 
 class Watcher(Protocol):
-    """What a middleware reports to its link."""
+    """Receiver of a middleware's reports to its link."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
         """Something came or went; None where only another domain was heard of."""

@@ -57,7 +57,7 @@ class Session:
     tell: "Callable[[LogRecord], object]" = _keep_silent
 
     def departures(self) -> int:
-        """How many of the other processes have left by now that transforms came from."""
+        """Count the other processes with transforms that have left by now."""
         return 0 if self.link is None else self.link.departures
 
     def abandon(self) -> None:
@@ -86,7 +86,7 @@ class Session:
     async def along(
         self, work: Coroutine[Any, Any, T], on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """The same as `run`, inside a loop that runs."""
+        """Do as `run`, inside a loop that runs."""
         stop_telling = self.world.log.listen(self.tell, "console")
         try:
             return await beside(self._after_head_start(work), self._living(), on_interrupt)

@@ -136,7 +136,7 @@ class TopicBridge:
             self._inbound = None
 
     def _read(self, message: Arrived) -> tuple[Any, Endpoint] | None:
-        """What a message says and who sent it; None for one that is refused."""
+        """Decode a message and its sender; None for one that is refused."""
         try:
             value = self._codec.decode(message.payload)
         except MalformedMessage as refusal:

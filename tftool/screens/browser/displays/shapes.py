@@ -1,4 +1,4 @@
-"""What every display gives: places in one frame at one moment."""
+"""Result of every display: places in one frame at one moment."""
 
 from dataclasses import dataclass
 from typing import Any

@@ -38,7 +38,7 @@ REFUSED: Final = (
 
 
 class ServicePart:
-    """What both sides of services need.
+    """Parts that both sides of services need.
 
     Attributes:
         participant: Ours.

@@ -131,7 +131,7 @@ _OURS = re.compile(
 
 
 class Part(NamedTuple):
-    """What a DDS topic is to ROS.
+    """Role of a DDS topic in ROS.
 
     Attributes:
         prefix: One of `TOPIC`, `REQUEST`, `REPLY`.
@@ -151,7 +151,7 @@ def dds_type(ros_type: str) -> str:
 
 
 def ros_part(topic: str, type_name: str) -> Part | None:
-    """What a DDS topic is to ROS; None where its names are not of ROS's making."""
+    """Return the role of a DDS topic in ROS; None where its name is not of ROS's making."""
     found = _TYPE.fullmatch(type_name)
     prefix, name = topic[:3], topic[3:]
     if found is None or prefix not in (TOPIC, REQUEST, REPLY) or not name:
@@ -172,12 +172,12 @@ def hash_shown(user_data: bytes) -> str:
 
 
 def vendor(gid: bytes) -> str:
-    """Which library an endpoint or participant is of, by its GUID."""
+    """Return the library of an endpoint or participant, by its GUID."""
     return VENDORS.get(gid[:2], "another DDS library")
 
 
 def process_data(process: Process) -> bytes:
-    """What is written beside the participant of a tftool."""
+    """Return the user data beside the participant of a tftool."""
     ours = f"tftool={process.role},{process.pid},{process.since},{process.command};"
     return f"{ENCLAVE}{ours}".encode()
 

@@ -1,4 +1,4 @@
-"""Who is there, as DDS tells: its built-in topics, and what ROS 2's nodes say of themselves.
+"""Discovery in DDS: its built-in topics, and what ROS 2's nodes publish about themselves.
 
 DDS knows participants and their endpoints; which node an endpoint belongs to is written on
 `ros_discovery_info`, of which every participant of ROS 2 sends its own.
@@ -79,7 +79,7 @@ class Information:
         return Types(self._interfaces).raw(INFO)
 
     def encode(self, participant: bytes, nodes: dict[str, tuple[set[bytes], set[bytes]]]) -> bytes:
-        """What a participant says.
+        """Encode what a participant announces.
 
         Args:
             participant: Its GUID.
@@ -93,7 +93,7 @@ class Information:
         return self._codec.encode(said)
 
     def decode(self, payload: bytes) -> tuple[bytes, dict[bytes, str], list[str]]:
-        """What a participant says: its GUID, nodes by the GUIDs of endpoints, all its nodes.
+        """Decode a participant's announcement: GUID, nodes by the GUIDs of endpoints, all nodes.
 
         Raises:
             MalformedMessage: If it is none of this form.
@@ -183,7 +183,7 @@ class Discovery:
 
     @property
     def participants(self) -> int:
-        """How many participants are there."""
+        """Return the number of participants."""
         return len(self._names)
 
     @property
@@ -291,7 +291,7 @@ class Discovery:
         self._exchange(_key(key), replace(found.entity, node=node))
 
     def _node_of(self, participant: bytes) -> str:
-        """What stands for the node of a participant that says nothing of nodes."""
+        """Return a name for the node of a participant that announces no nodes."""
         only = self._nodes.get(participant, ({}, []))[1]
         if len(only) == 1:
             return only[0]

@@ -95,7 +95,7 @@ _DOMAINS: Final = Domains()
 
 
 class Participant:
-    """What is open in one domain.
+    """Everything that is open in one domain.
 
     Attributes:
         entity: The library's participant.
@@ -270,7 +270,7 @@ class TopicReader:
 
     @property
     def writers(self) -> int:
-        """How many writers it is matched with."""
+        """Return the number of matched writers."""
         return 0 if self._made is None else len(self._made.get_matched_publications())
 
 
@@ -291,7 +291,7 @@ class TopicWriter:
 
     @property
     def readers(self) -> int:
-        """How many readers it is matched with."""
+        """Return the number of matched readers."""
         return int(self._made.get_publication_matched_status().current_count)
 
     def put(self, payload: bytes) -> None:

@@ -1,4 +1,4 @@
-"""How far a link over DDS goes: its options, and what contradicts them."""
+"""Reach of a link over DDS: its options and their contradictions."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ NO_WHEEL: Final = (
 
 @dataclass(frozen=True, slots=True)
 class DdsReach(Reach):
-    """Where DDS goes beyond the loopback; nowhere unless asked.
+    """Reach of DDS beyond the loopback; none unless asked.
 
     Attributes:
         places: Interfaces to use and addresses to go to.

@@ -1,4 +1,4 @@
-"""Where DDS goes: ROS 2's environment and the command line, as Cyclone's configuration.
+"""Network of DDS: ROS 2's environment and the command line, as Cyclone's configuration.
 
 Nothing here sends anything. Without a word from the user all of it stays on the loopback
 of this machine; the library's own defaults would send to the whole network at once.
@@ -27,7 +27,7 @@ _RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
 @dataclass(frozen=True, slots=True)
 class Network:
-    """Where a participant looks for others.
+    """Network in which a participant looks for others.
 
     Attributes:
         interfaces: Names or own addresses of the interfaces it uses; none for those by which
@@ -78,7 +78,7 @@ class Network:
 
 
 def network(places: Iterable[str], environment: Mapping[str, str] | None = None) -> Network:
-    """Where to look for others.
+    """Return where to look for others.
 
     Args:
         places: What the user named: interfaces and addresses.
@@ -233,12 +233,12 @@ def other_domains(domain: int) -> list[int]:
 
 
 def participants_here(domain: int) -> int:
-    """How many participants of this machine listen in a domain, ours too (Linux only)."""
+    """Count the participants of this machine that listen in a domain, ours too (Linux only)."""
     return _listening().get(domain, 0)
 
 
 def _listening() -> dict[int, int]:
-    """How many participants listen in each domain of this machine; none where it is not told."""
+    """Count the participants listening in each domain of this machine; none if unknown."""
     ports: set[int] = set()
     for table in ("/proc/net/udp", "/proc/net/udp6"):
         try:

@@ -37,7 +37,7 @@ _STEP = 0.005
 
 
 class Opening:
-    """What a process holds once it is in a session.
+    """Resources of a process in a session.
 
     Attributes:
         wire: What carries everything.
@@ -146,7 +146,7 @@ class Opening:
 
 
 def _no_answer_at(reach: ZenohReach) -> str:
-    """What to look for where no process answers; a refusal of certificates looks the same."""
+    """Return advice where no process answers; a refusal of certificates looks the same."""
     protocols = {protocol_of(endpoint) for endpoint in reach.connect}
     text = (
         f"no process answers at {', '.join(reach.connect)} within {REACHING:g} s; "

@@ -1,4 +1,4 @@
-"""What things are called in zenoh: types and their hashes, keys, tokens, attachments.
+"""Names in zenoh: types and their hashes, keys, tokens, attachments.
 
 The names are those of ROS 2 over zenoh (`rmw_zenoh`), so that a ROS 2 node can be
 at the other end.
@@ -123,7 +123,7 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
 
 
 def any_hash_key(domain: int, name: str, ros_type: str) -> str:
-    """The same for reading: Humble writes no hash, and hashes of other releases may differ."""
+    """Return the key for reading: Humble writes no hash, those of other releases may differ."""
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 
@@ -203,7 +203,7 @@ class Token:
 
 
 def parse_token(key: str) -> GraphEntity | Process | None:
-    """What a token tells; None when it is not one that we can read."""
+    """Parse a token; None when it is not one that we can read."""
     if key.startswith(f"{OURS}/"):
         return _parse_process(key)
     parts = key.split("/")
@@ -264,7 +264,7 @@ def _unmangle(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Attachment:
-    """What travels beside a payload.
+    """Metadata beside a payload.
 
     Attributes:
         sequence: Number of the message, or of the question that is answered.
@@ -287,7 +287,7 @@ _NAMED = (b"\x0fsequence_number", b"\x10source_timestamp", b"\x0asource_gid")
 
 
 def parse_attachment(raw: bytes) -> Attachment:
-    """What stands beside a payload, in today's form or in the named one of early Jazzy.
+    """Parse the metadata of a payload, in today's form or in the named one of early Jazzy.
 
     Raises:
         MalformedMessage: If it is neither.

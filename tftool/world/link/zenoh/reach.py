@@ -1,4 +1,4 @@
-"""How far a link over zenoh goes: its options, and what contradicts them."""
+"""Reach of a link over zenoh: its options and their contradictions."""
 
 import re
 from collections.abc import Mapping
@@ -74,7 +74,7 @@ class Certificates:
 
 @dataclass(frozen=True, slots=True)
 class ZenohReach(Reach):
-    """What a link opens beyond this machine's own processes; nothing unless asked.
+    """Reach of a link beyond this machine's own processes; none unless asked.
 
     Attributes:
         listen: Endpoints where other machines may come in, "tcp/0.0.0.0:7448".
@@ -165,7 +165,7 @@ class ZenohReach(Reach):
 
 
 def protocol_of(endpoint: str) -> str:
-    """How an endpoint begins."""
+    """Return the protocol of an endpoint."""
     return endpoint.partition("/")[0]
 
 

@@ -1,4 +1,4 @@
-"""Where the processes of one machine find each other: a folder only its owner may enter.
+"""Meeting place of one machine's processes: a folder only its owner may enter.
 
 Every member of a session has a socket there, named after itself. Who comes later
 connects to all that answer and sweeps away those whose process is gone, so there is
@@ -106,7 +106,7 @@ def frames_known(domain: int, home: Path | None = None) -> list[str]:
 
 
 def _member(path: Path) -> str:
-    """Whose file it is, or whose socket."""
+    """Return the member whose file or socket it is."""
     return path.name.partition(".")[0]
 
 
@@ -343,7 +343,7 @@ def _port_in(path: Path) -> int:
 
 
 def _text_of(path: Path) -> str:
-    """What a small file holds."""
+    """Return the text of a small file."""
     return _content_of(path, _LONGEST_TEXT).decode("ascii", "replace").strip()
 
 

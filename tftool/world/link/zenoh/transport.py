@@ -51,7 +51,7 @@ class Query:
 
 
 class KeyPublisher:
-    """Where messages of one key go out."""
+    """Publisher of the messages of one key."""
 
     def __init__(self, publisher: Any, outbox: Outbox, *, keeps: bool) -> None:
         self._publisher = publisher
@@ -80,7 +80,7 @@ class KeyPublisher:
 
 @dataclass(frozen=True, slots=True)
 class Local:
-    """Where a process meets the others of its machine.
+    """Meeting place of a process with the others of its machine.
 
     Attributes:
         endpoint: Where it listens for them, "" for nowhere.
@@ -403,7 +403,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, local: Local) -> Any:
 
 
 def settings(reach: ZenohReach, local: Local) -> dict[str, Any]:
-    """What we tell zenoh, by its own names; its defaults would listen on every interface."""
+    """Return zenoh's settings by its own names; its defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router passes on between this machine's processes, which know each other

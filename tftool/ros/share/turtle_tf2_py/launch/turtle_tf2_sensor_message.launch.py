@@ -6,7 +6,7 @@ from launch_ros.actions import Node
 
 
 def generate_launch_description() -> LaunchDescription:
-    """What the message filter listens to; the filter itself is started by hand."""
+    """Describe the message filter's inputs; the filter itself is started by hand."""
     package = "turtle_tf2_py"
     return LaunchDescription(
         [
