@@ -4,12 +4,13 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from tests.doctor.judged import found, ids, turned
-from tests.doctor.robots import LASTS, NO_TURN, START, Robot, robot, stands
+from tests.doctor.robots import LASTS, NO_TURN, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
-from tftool.doctor.findings import Severity
+from tftool.doctor.findings import Confidence, Severity
 from tftool.doctor.judge import CHECKS
 from tftool.doctor.model import Settings
 from tftool.doctor.shape_checks import loop
@@ -72,6 +73,44 @@ def test_two_unknown_publishers_are_seen_from_the_values():
     assert "teleport" not in ids(made)
 
 
+@pytest.mark.parametrize("jitter", [0.0, 0.004])
+@pytest.mark.parametrize("speed", [3.0, 14.0, 40.0, -25.0])
+def test_a_fast_wheel_has_one_publisher(speed, jitter):
+    # Radians a second, at 51 ms: up to two thirds of a turn from sample to sample.
+    made = robot()
+    noise = np.random.default_rng(3)
+    for tick in range(150):
+        at = tick * 0.051 + float(noise.uniform(-jitter, jitter))
+        made.sent("base_link", "wheel", at, (0.0, 0.1, 0.0, *turned(speed * at, 1)))
+    assert ids(made) == []
+
+
+@pytest.mark.parametrize("speed", [0.0, 2.0, 14.0])
+def test_two_publishers_of_a_wheel_at_equal_rates_half_a_period_apart(speed):
+    made = robot()
+    for tick in range(150):
+        for begin, angle in ((0.0, 0.0), (0.025, 1.5)):
+            at = tick * 0.05 + begin
+            made.sent("base_link", "wheel", at, (0.0, 0.1, 0.0, *turned(speed * at + angle, 1)))
+    conflict = found(made, "publisher-conflict")
+    assert conflict.edges == (("base_link", "wheel"),)
+    # 1.5 rad apart, and what it turns in half a period.
+    assert conflict.facts["turned"] == pytest.approx(1.5, abs=0.026 * speed + 1e-6)
+    assert "85.9°" in conflict.evidence[0] or speed
+
+
+def test_two_values_at_one_stamp_are_two_publishers_however_near():
+    made = robot(odometry=False)
+    for tick in range(80):
+        made.sent("odom", "base_link", tick * 0.1, drives(tick * 0.1))
+        if tick % 8 == 0:
+            x = 0.05 * tick + 0.04
+            made.sent("odom", "base_link", tick * 0.1, (x, 0.0, 0.0, *NO_TURN))
+    conflict = found(made, "publisher-conflict")
+    assert conflict.facts["apart"] == pytest.approx(0.04)
+    assert conflict.confidence is Confidence.LIKELY
+
+
 @pytest.mark.parametrize("speed", [15.0, 40.0])
 def test_what_is_merely_fast_has_one_publisher(speed):
     made = robot(odometry=False)
@@ -110,14 +149,53 @@ def test_a_static_that_is_repeated_is_fine():
     assert ids(made, notes=True) == []
 
 
-def test_a_constant_on_tf_is_a_note_unless_the_robot_is_at_rest():
-    made = robot()
-    made.moving("base_link", "camera", hz=10, pose=stands)
-    assert found(made, "static-on-tf").edges == (("base_link", "camera"),)
+def long_drive(child: str = "gps_link", parent: str = "base_link") -> Robot:
+    """A minute's drive, and something on it that never moves and is sent on /tf."""
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=10, end=61.0)
+    made.moving(parent, child, hz=10, pose=stands, end=61.0)
+    return made
+
+
+def test_a_constant_on_tf_is_possibly_a_mount_where_a_minute_long_nothing_says_it_moves():
+    finding = found(long_drive(), "static-on-tf")
+    assert finding.edges == (("base_link", "gps_link"),)
+    assert finding.confidence is Confidence.GUESS
 
     rests = robot(odometry=False)
-    rests.moving("odom", "base_link", pose=stands)
+    rests.moving("odom", "base_link", pose=stands, end=61.0)
     assert ids(rests, notes=True) == []
+
+
+def test_a_short_recording_does_not_tell_a_mount_from_what_rests():
+    made = robot()
+    made.moving("base_link", "camera", hz=10, pose=stands)
+    assert ids(made, notes=True) == []
+
+
+def test_what_could_move_and_rests_is_no_constant():
+    # Beside another wheel that moves.
+    wheels = long_drive("wheel_left")
+    wheels.moving("base_link", "wheel_right", hz=10, pose=drives, end=61.0)
+    # In the odometry.
+    named = long_drive()
+    told = Robot()
+    told.moving("base_link", "gps_link", topic="/odom", hz=10, end=1.0)
+    named.odometry = told
+    # With the stamps of the joint states.
+    states = long_drive()
+    states.hears("/joint_states", "", 10.0, "sensor_msgs/JointState", end=61.0)
+    # In one message with what moves.
+    together = long_drive()
+    (key, mount), (_, base) = list(together.records.items())[::-1][:2]
+    together.records[key] = [
+        (stamp, pose, message)
+        for (stamp, pose, _), (_, _, message) in zip(mount, base, strict=True)
+    ]
+    # Above all that moves.
+    lowest = long_drive("dock", parent="hall")
+    for made in (wheels, named, states, together, lowest):
+        assert "static-on-tf" not in ids(made, notes=True)
 
 
 def test_a_circle_is_named_and_is_no_split_tree():

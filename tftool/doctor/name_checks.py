@@ -9,13 +9,10 @@ from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.shape_checks import base_of, quoted, static_publisher
-from tftool.doctor.stamp_stream import Heard, last_part
+from tftool.doctor.stamp_stream import Heard, family, last_part
 
 check = checks_of(Area.NAMES)
 
-_FAMILY = re.compile(
-    r"\d+|(?<![a-z])(?:left|right|front|rear|back|upper|lower|top|bottom|fl|fr|rl|rr|[lrxyz])(?![a-z])"
-)
 _YAML = re.compile(
     r"(?:on|off|yes|no|y|n|true|false|null|~|[-+]?\.?\d[\d_]*(?:\.\d*)?(?:e[-+]?\d+)?|0x[\da-f]+"
     r"|[-+]?\.(?:inf|nan))\Z",
@@ -260,7 +257,7 @@ class _Spelled:
         self.name = name
         self.last_part = last_part(name)
         self.bare = _bare(name)
-        self.family = _FAMILY.sub("#", name.lower())
+        self.family = family(name)
 
 
 def _bare(name: str) -> str:

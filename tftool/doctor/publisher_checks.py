@@ -10,8 +10,9 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
+from tftool.doctor.motion_errors import RADIAN, motion_errors
 from tftool.doctor.shape_checks import quoted
-from tftool.doctor.stamp_stream import Places, Track, last_part, rate
+from tftool.doctor.stamp_stream import Places, Track, family, last_part, rate
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import Floats, unit
 
@@ -88,14 +89,16 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "publisher-conflict",
     Severity.ERROR,
     rule="two publishers with at least {least:g} samples each overlap in time and are more "
-    "than {metres:g} m and one step apart; or, where publishers are unknown, samples "
-    "continue (within {reach:g} + {speed:g} m a second) two tracks by turns, each with "
+    "than {metres:g} m (or {degrees:g}°) and one step apart; or, where publishers are unknown, "
+    "{samples:g} stamps or more carry two values that far apart, or samples continue (within "
+    "{reach:g} + {speed:g} m a second, a radian as half a metre) two tracks by turns, each with "
     "at least {samples:g} samples and a share of {share:g}, the owner changing "
-    "{changes:g} times or more",
+    "{changes:g} times or more, and motion at constant velocity explains all of them together "
+    "{worse:g} times worse than each track alone",
     headline="{edge} is published by {first} and {second} with different values{seen}",
     detail="{first} and {second}: {rates[0]:.3g} and {rates[1]:.3g} Hz, latencies "
-    "{latencies[0]:span} and {latencies[1]:span}, {apart:m} apart (median), {worst:m} "
-    "at most",
+    "{latencies[0]:span} and {latencies[1]:span}, {apart:m} and {turned:deg} apart (median), "
+    "{worst:m} and {most_turned:deg} at most",
     consequence="{child} jumps to and fro in {parent}, and everything below it",
     causes=(
         "a controller or simulator plug-in and a filter publish the odometry",
@@ -112,14 +115,17 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     limits={
         "least": 3,
         "metres": 0.01,
+        "degrees": 1.0,
         "reach": 0.05,
         "speed": 3.0,
         "samples": 5,
         "share": 0.1,
         "changes": 6,
+        "worse": 2.0,
     },
     why="a thing that moves continues where it was, while two opinions alternate; so much "
-    "speed tells two opinions apart, and leaves fast robots and relocalisations alone",
+    "speed tells two opinions apart, and leaves fast robots and relocalisations alone; a fast "
+    "wheel turns far between two samples, and always by the same angle",
 )
 def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
@@ -127,7 +133,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     named = len({one.node for one in model.evidence.transforms.publishers if one.node}) > 1
     for track in model.dynamic:
         hit = _named_conflict(model, track, limits) if named else None
-        hit = hit or _unnamed_conflict(track, limits)
+        hit = hit or _values_at_one_stamp(track, limits) or _unnamed_conflict(track, limits)
         if hit is not None:
             yield hit
 
@@ -157,12 +163,33 @@ def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
         after = np.clip(np.searchsorted(others, stamps), 1, len(others) - 1)
         nearer = np.abs(others[after] - stamps) < np.abs(others[after - 1] - stamps)
         nearest = theirs[np.where(nearer, after, after - 1)]
-        apart = track.apart(mine, nearest)
+        apart, turned = track.apart(mine, nearest), track.turned(mine, nearest)
         step = float(np.median(track.apart(mine[1:], mine[:-1]))) if len(mine) > 1 else 0.0
-        if float(np.median(apart)) > limits["metres"] + step:
+        spin = float(np.median(track.turned(mine[1:], mine[:-1]))) if len(mine) > 1 else 0.0
+        if (
+            float(np.median(apart)) > limits["metres"] + step
+            or float(np.median(turned)) > np.radians(limits["degrees"]) + spin
+        ):
             names = (publishers[first].node, publishers[second].node)
-            return _conflict(track, names, (mine, theirs), apart, Confidence.CERTAIN)
+            return _conflict(track, names, (mine, nearest), Confidence.CERTAIN)
     return None
+
+
+def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
+    """Two opinions of single moments: stamps that come twice, with different values."""
+    if len(track.steps) == len(track.by_stamp) - 1:
+        return None
+    # A stamp that comes more than twice stands still: that is another fault.
+    _, firsts, counts = np.unique(track.sorted_stamps, return_index=True, return_counts=True)
+    again = firsts[counts == 2]
+    mine, theirs = track.by_stamp[again], track.by_stamp[again + 1]
+    differ = (track.apart(mine, theirs) > limits["metres"]) | (
+        track.turned(mine, theirs) > np.radians(limits["degrees"])
+    )
+    if np.count_nonzero(differ) < max(limits["samples"], 1):
+        return None
+    owned = (mine[differ], theirs[differ])
+    return _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
 
 
 def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
@@ -177,14 +204,34 @@ def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     ):
         return None
     times = track.stamps[places] / NANOSECONDS
-    jumps = apart + 0.5 * track.turned(places[1:], places[:-1])
+    jumps = apart + RADIAN * track.turned(places[1:], places[:-1])
     # Who never leaves its own track needs no following.
     leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
     if np.count_nonzero(leaves) < limits["changes"]:
         return None
-    owners = _follow(track, places, limits)
-    changes = int(np.count_nonzero(np.diff(owners)))
-    if changes < limits["changes"] or changes <= limits["share"] * (len(owners) - 1):
+    together = motion_errors(track, places)
+    # Two publishers of one rate alternate strictly, however far each turns in a period.
+    for owners in (_follow(track, places, limits), np.arange(len(places)) % 2):
+        owned = _alternating(track, places, owners, together, limits)
+        if owned is not None:
+            return _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
+    return None
+
+
+def _alternating(
+    track: Track, places: Places, owners: Places, together: Floats, limits: Limits
+) -> tuple[Places, Places] | None:
+    """Return the samples of two tracks that take turns; None where one motion explains both.
+
+    Args:
+        track: The samples.
+        places: Rows of the track by stamp, shape (n,).
+        owners: The number of the track that each belongs to, shape (n,).
+        together: The errors of all of them as one motion, shape (n,).
+        limits: The thresholds.
+    """
+    turns = np.flatnonzero(np.diff(owners)) + 1
+    if len(turns) < limits["changes"] or len(turns) <= limits["share"] * (len(owners) - 1):
         return None
     counts = np.bincount(owners, minlength=3)
     enough = np.flatnonzero(
@@ -192,11 +239,19 @@ def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     )
     if len(enough) < 2:
         return None
+    alone = np.full(len(places), np.nan)
+    for owner in enough.tolist():
+        alone[owners == owner] = motion_errors(track, places[owners == owner])
+    judged = turns[np.isfinite(together[turns]) & np.isfinite(alone[turns])]
+    if len(judged) < max(limits["samples"], 1):
+        return None
+    error = float(np.median(together[judged]))
+    if error <= max(limits["worse"] * float(np.median(alone[judged])), limits["reach"]):
+        return None
     first, second = enough[np.argsort(-counts[enough], kind="stable")][:2].tolist()
     mine, theirs = places[owners == first], places[owners == second]
     near = np.clip(np.searchsorted(track.stamps[theirs], track.stamps[mine]), 0, len(theirs) - 1)
-    apart = track.apart(mine, theirs[near])
-    return _conflict(track, ("A", "B"), (mine, theirs), apart, Confidence.LIKELY)
+    return mine, theirs[near]
 
 
 def _follow(track: Track, places: Places, limits: Limits) -> Places:
@@ -223,28 +278,36 @@ def _follow(track: Track, places: Places, limits: Limits) -> Places:
 
 def _pose_distance(a: list[float], b: list[float]) -> float:
     away = math.dist(a[:3], b[:3])
-    return away + 0.5 * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
+    return away + RADIAN * angle_between((a[3], a[4], a[5], a[6]), (b[3], b[4], b[5], b[6]))
 
 
 def _conflict(
-    track: Track,
-    names: tuple[str, str],
-    owned: tuple[Places, Places],
-    apart: Floats,
-    confidence: Confidence,
+    track: Track, names: tuple[str, str], owned: tuple[Places, Places], confidence: Confidence
 ) -> Hit:
+    """Return the finding about two publishers.
+
+    Args:
+        track: What both publish.
+        names: What the two are called.
+        owned: Rows of the one, and for each the row of the other to compare it with, shape (n,).
+        confidence: How sure it is that they are two.
+    """
     rates, late = [], []
-    for places in owned:
+    for places in (owned[0], np.unique(owned[1])):
         stamps = track.stamps[places]
         span = int(stamps[-1] - stamps[0])
         rates.append((len(stamps) - 1) * NANOSECONDS / span if span else 0.0)
         late.append(int(np.median(track.latency[places])))
     known = confidence is Confidence.CERTAIN
+    apart, turned = track.apart(*owned), track.turned(*owned)
+    seen = "" if known else " (seen from the values, publishers unknown)"
+    if not known and len(track.nodes) == 1 and len(track.publishers) == 1:
+        seen = f" (seen from the values; both by {track.nodes[0]}, which two sources may feed)"
     return Hit(
         edges=(track.edge,),
-        publishers=names if known else (),
+        publishers=names if known else track.nodes,
         since=int(max(track.logs[places].min() for places in owned)),
-        count=min(len(owned[0]), len(owned[1])),
+        count=min(len(owned[0]), len(np.unique(owned[1]))),
         confidence=confidence,
         facts={
             "edge": track.name,
@@ -255,8 +318,10 @@ def _conflict(
             "rates": rates,
             "latencies": late,
             "apart": float(np.median(apart)),
+            "turned": float(np.median(turned)),
             "worst": float(np.max(apart)),
-            "seen": "" if known else " (seen from the values, publishers unknown)",
+            "most_turned": float(np.max(turned)),
+            "seen": seen,
         },
         fixes=(_switches_off(track),),
         alone=True,
@@ -398,38 +463,75 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
 @check(
     "static-on-tf",
     Severity.NOTE,
-    rule="{samples:g} samples or more on a dynamic topic are all equal while other frames move",
+    rule="{samples:g} samples or more on a dynamic topic are all equal, in a recording of "
+    "{seconds:g} s or more in which what carries them moves; not where joint states, the robot "
+    "description, odometry, another edge of the same messages or a moving frame of like name "
+    "say that it could move",
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
-    detail="{edge}: {rate:.3g} Hz",
-    consequence="lookups through it wait for its next sample: up to its period, and for nothing",
+    detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
+    consequence="if it is a mount, lookups through it wait for its next sample, up to its period, "
+    "for nothing",
     fixes=(
-        Fix("send it once on /tf_static: tf2's static_transform_publisher, use_tf_static: true"),
+        Fix(
+            "if it cannot move, send it once on /tf_static: tf2's static_transform_publisher, "
+            "use_tf_static: true"
+        ),
     ),
     causes=("the static publisher of the old tf package",),
     links=threads("orbbec/ros_astra_camera#89"),
-    limits={"samples": 20},
-    why="a static sent at 10 Hz lets every lookup wait for up to 100 ms",
+    limits={"samples": 20, "seconds": 60.0},
+    needs=("recording",),
+    why="a static sent at 10 Hz lets every lookup wait for up to 100 ms; a joint at rest looks "
+    "the same, and a short recording cannot tell them apart",
     because_of=(("child", "static-and-dynamic"),),
 )
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     """A constant on /tf that could be static."""
-    if not any(track.moves for track in model.dynamic):
+    moving = [track for track in model.dynamic if track.moves]
+    if not moving or model.end - model.start < limits["seconds"] * NANOSECONDS:
         return
     carried = _by_child(model.dynamic)
+    families = {family(track.child) for track in moving}
+    shared = np.unique(np.concatenate([track.messages for track in moving]))
     for track in model.dynamic:
-        if track.is_localisation or track.moves or len(track.stamps) < limits["samples"]:
+        if track.is_localisation or track.moves or len(track.by_stamp) < max(limits["samples"], 1):
             continue
-        joint = model.joint_above.get(track.child)
-        if joint is not None and joint.moves:
-            continue  # it could move, and rests
-        if track.child in carried:
-            continue  # it is moved from one parent to another
+        if track.child in carried or family(track.child) in families:
+            continue  # it changes its parent, or its like moves
+        if np.isin(track.messages, shared).any() or _could_move(model, track):
+            continue
+        if not any(above.moves for above in model.above(track.parent)):
+            continue  # it stood still with all that carries it
         yield Hit(
             edges=(track.edge,),
             publishers=track.nodes,
             count=len(track.stamps),
-            facts={"edge": track.name, "rate": rate(track), "period": track.period},
+            confidence=Confidence.GUESS,
+            facts={
+                "edge": track.name,
+                "rate": rate(track),
+                "period": track.period,
+                "lasts": int(track.sorted_stamps[-1] - track.sorted_stamps[0]),
+            },
         )
+
+
+def _could_move(model: Model, track: Track) -> bool:
+    """Whether anything but its values says that an edge may move."""
+    joint = model.joint_above.get(track.child)
+    if joint is not None:
+        return joint.moves
+    odometry = model.evidence.odometry
+    if odometry is not None and track.edge in {(e.parent, e.child) for e in odometry.edges}:
+        return True
+    if any(name in track.child for name in model.evidence.joints or ()):
+        return True
+    # robot_state_publisher gives the frames of joints the stamps of the joint states.
+    return any(
+        bool(np.isin(track.stamps, headers.stamps).mean() > 0.5)
+        for headers in model.evidence.headers.values()
+        if headers.type == "sensor_msgs/JointState"
+    )
 
 
 @check(

@@ -1,6 +1,7 @@
 """One stream of stamps and arrivals: of a link's samples, or of a topic's headers."""
 
 import math
+import re
 from collections.abc import Sequence
 from functools import cached_property
 from typing import TypeVar
@@ -18,6 +19,9 @@ Mask = npt.NDArray[np.bool_]
 
 Places = npt.NDArray[np.intp]
 """Rows of a track, shape (n,)."""
+
+Places32 = npt.NDArray[np.int32]
+"""Numbers of messages or of senders, shape (n,)."""
 
 NEVER = np.iinfo(np.int64).max
 """The arrival of what never arrives."""
@@ -156,7 +160,13 @@ class Track(Stream):
         return senders[: self.lap]
 
     @cached_property
-    def _publishers(self) -> list[Publisher]:
+    def messages(self) -> Places32:
+        """Numbers of the messages that carried them, shape (n,), of the first lap."""
+        return self.in_order(self._edge.messages)[: self.lap]
+
+    @cached_property
+    def publishers(self) -> list[Publisher]:
+        """Return who publishes it, known by name or not."""
         senders = self.senders
         if len(senders) and senders.min() == senders.max():
             return [self._transforms.publishers[senders[0]]]
@@ -165,12 +175,12 @@ class Track(Stream):
     @cached_property
     def nodes(self) -> tuple[str, ...]:
         """Who publishes it, where that is known."""
-        return tuple(sorted({one.node for one in self._publishers if one.node}))
+        return tuple(sorted({one.node for one in self.publishers if one.node}))
 
     @cached_property
     def topics(self) -> tuple[str, ...]:
         """Where it came from."""
-        return tuple(sorted({one.topic for one in self._publishers}))
+        return tuple(sorted({one.topic for one in self.publishers}))
 
     @cached_property
     def is_orderly(self) -> bool:
@@ -396,6 +406,16 @@ def _lives(track: Track) -> bool:
 
 def _falls(column: Stamps) -> bool:
     return len(column) > 1 and bool((column[1:] < column[:-1]).any())
+
+
+_FAMILY = re.compile(
+    r"\d+|(?<![a-z])(?:left|right|front|rear|back|upper|lower|top|bottom|fl|fr|rl|rr|[lrxyz])(?![a-z])"
+)
+
+
+def family(name: str) -> str:
+    """Return a name without what tells siblings apart: numbers, left and right, front and back."""
+    return _FAMILY.sub("#", name.lower())
 
 
 def last_part(name: str) -> str:
