@@ -26,7 +26,18 @@ from tftool.buffer.native_kernel import BUILD, IS_NATIVE
 ROOT = Path(__file__).parents[2]
 
 # What would make every command slow to answer, help included.
-HEAVY = {"numpy", "textual", "zenoh", "rich", "yaml", "asyncio", "transforms3d", "websockets"}
+HEAVY = {
+    "numpy",
+    "textual",
+    "zenoh",
+    "rich",
+    "yaml",
+    "asyncio",
+    "transforms3d",
+    "websockets",
+    "zstandard",
+    "lz4",
+}
 
 
 def start(*words, **options):

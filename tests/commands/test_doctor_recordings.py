@@ -9,7 +9,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.recordings.writers import SECOND, Sent, write_mcap, write_rosbag1
 from tftool import diagnose, explain, open_recording

@@ -15,7 +15,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.commands.test_doctor_recordings import drive
 from tests.patience import PATIENCE

@@ -104,7 +104,6 @@ def test_an_action_client_of_another_process_turns_the_turtle(launched):
 
 
 def test_the_page_shows_the_learners_frames(launched):
-    pytest.importorskip("websockets", reason="the extra `view` is not installed")
     with Process("view") as view:
         line = view.says(" are at http://127.0.0.1:")
         address = re.search(r"http://\S+", view.lines[line - 1])[0]

@@ -6,7 +6,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.recordings.writers import content, write_mcap
 from tests.terminals import Terminal

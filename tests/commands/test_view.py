@@ -1,7 +1,6 @@
 import html
 import re
 import socket
-import sys
 import urllib.parse
 import urllib.request
 import webbrowser
@@ -12,12 +11,7 @@ import pytest
 ADDRESS = r"http://127\.0\.0\.1:\d+/\?token=[\w-]{32}"
 
 
-@pytest.fixture
-def page(simulated):
-    pytest.importorskip("websockets", reason="the extra `view` is not installed")
-
-
-def test_view_says_where_the_page_is_and_ends_when_told(page, tftool):
+def test_view_says_where_the_page_is_and_ends_when_told(simulated, tftool):
     result = tftool("view", "turtles", "--for", "2", "--port", "0")
 
     assert (result.status, result.err) == (0, "")
@@ -27,7 +21,7 @@ def test_view_says_where_the_page_is_and_ends_when_told(page, tftool):
     )
 
 
-def test_on_a_narrow_terminal_the_address_has_a_line_of_its_own(page, tftool, monkeypatch):
+def test_on_a_narrow_terminal_the_address_has_a_line_of_its_own(simulated, tftool, monkeypatch):
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
     monkeypatch.setenv("COLUMNS", "60")
 
@@ -39,7 +33,7 @@ def test_on_a_narrow_terminal_the_address_has_a_line_of_its_own(page, tftool, mo
     )
 
 
-def test_view_takes_the_next_port_when_one_is_taken_and_says_so(page, tftool):
+def test_view_takes_the_next_port_when_one_is_taken_and_says_so(simulated, tftool):
     with socket.create_server(("127.0.0.1", 0)) as holder:
         taken = holder.getsockname()[1]
         result = tftool("view", "static", "--for", "1", "--port", taken)
@@ -51,7 +45,7 @@ def test_view_takes_the_next_port_when_one_is_taken_and_says_so(page, tftool):
 
 
 @pytest.mark.parametrize(("opens", "told"), [(True, ""), (False, "No browser could be started")])
-def test_view_opens_the_page_on_request(page, tftool, monkeypatch, opens, told):
+def test_view_opens_the_page_on_request(simulated, tftool, monkeypatch, opens, told):
     opened = []
 
     def browser(url):
@@ -69,18 +63,6 @@ def test_view_opens_the_page_on_request(page, tftool, monkeypatch, opens, told):
     address = re.search(r"http://\S+", result.out)[0]
     assert f'url={address}"' in opened[0]
     assert told in result.err
-
-
-def test_view_without_its_extra_says_what_to_install(tftool, monkeypatch):
-    for name in [name for name in sys.modules if name.startswith("websockets")]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.delitem(sys.modules, "tftool.screens.browser.server", raising=False)
-    monkeypatch.setitem(sys.modules, "websockets", None)
-
-    result = tftool("view")
-
-    assert result.status == 2
-    assert result.err == "tftool: 'view' needs an extra: pip install 'tftool-tf2[view]'\n"
 
 
 @pytest.mark.parametrize(
@@ -101,5 +83,5 @@ def test_view_refuses_numbers_that_make_no_sense(tftool, words, told):
     assert result.err.count("\n") == 1
 
 
-def test_view_of_an_unknown_scenario_is_refused(page, tftool):
+def test_view_of_an_unknown_scenario_is_refused(simulated, tftool):
     assert tftool("view", "no_such_world").status == 3

@@ -6,7 +6,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="decodes the copy")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from rosbags.highlevel import AnyReader
 

@@ -4,12 +4,8 @@ import bz2
 import threading
 from functools import partial
 
-import pytest
-
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
-pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
-
 import lz4.frame
+import pytest
 import zstandard
 
 from tftool import InputError

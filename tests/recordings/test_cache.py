@@ -12,7 +12,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.patience import PATIENCE, answered
 from tests.recordings.writers import content, write_mcap

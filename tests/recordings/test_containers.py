@@ -5,8 +5,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
-pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
 from tests.recordings.writers import CONTAINERS, content, write_mcap, write_rosbag1, write_rosbag2
 from tftool.recordings.recording import open_recording

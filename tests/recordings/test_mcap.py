@@ -5,8 +5,6 @@ import os
 import pytest
 
 pytest.importorskip("mcap", reason="reads what is written")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
-pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
 from mcap.data_stream import RecordBuilder
 from mcap.reader import NonSeekingReader, SeekingReader

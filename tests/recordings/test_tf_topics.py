@@ -4,7 +4,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="chunks are compressed")
 
 import tftool as library
 from tests.recordings.writers import SECOND, Sent, write_mcap

@@ -5,7 +5,6 @@ import os
 import pytest
 
 pytest.importorskip("rosbags", reason="reads what is written")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore

@@ -8,6 +8,7 @@ from typing import Final
 from tftool.base.errors import UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel, ContainerWriter
+from tftool.recordings.compression import best_compression
 from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.message_conversion import as_ros1
 from tftool.recordings.rosbag1.write import Rosbag1Writer
@@ -173,7 +174,7 @@ def open_container(
     inner: ContainerWriter
     if container == "mcap":
         inner = McapWriter(
-            file, profile=profile, library=library, compression=compression or "zstd"
+            file, profile=profile, library=library, compression=compression or best_compression()
         )
     elif container == "bag":
         inner = Ros1Messages(Rosbag1Writer(file, compression=compression or "none"))

@@ -279,20 +279,21 @@ def check_size(packed: int, size: int) -> None:
 
 
 def zstandard() -> "ModuleType":
-    """The module that unpacks zstd."""
+    """Import the module of zstd: only what is compressed so waits for it."""
     try:
         import zstandard
     except ImportError:
-        raise _missing("zstd") from None
+        raise _missing("zstd", "zstandard") from None
     return zstandard
 
 
 @cache
-def _lz4() -> Any:
+def lz4_frame() -> Any:
+    """Import the module of lz4's frames: only what is compressed so waits for it."""
     try:
         import lz4.frame
     except ImportError:
-        raise _missing("lz4") from None
+        raise _missing("lz4", "lz4") from None
     import numpy as np
 
     # It takes new memory for every piece, twice, and to get and clear that takes twice as long as
@@ -302,10 +303,11 @@ def _lz4() -> Any:
     return lz4.frame
 
 
-def _missing(method: str) -> UsageError:
+def _missing(method: str, package: str) -> UsageError:
+    # Some Pythons have no wheel of it, so that the plain install leaves it out.
     return UsageError(
-        f"This recording is compressed with {method}, which needs an extra: "
-        "pip install 'tftool-tf2[recordings]'"
+        f"Recordings compressed with {method} need a package that is missing here: "
+        f"pip install {package}"
     )
 
 
@@ -319,7 +321,7 @@ def _whole(method: str, packed: bytes, size: int) -> bytes:
         return found
     if method == "lz4":
         # One byte more than wanted shows whether there is more.
-        unpacked: bytes = _lz4().LZ4FrameDecompressor().decompress(packed, max_length=size + 1)
+        unpacked: bytes = lz4_frame().LZ4FrameDecompressor().decompress(packed, max_length=size + 1)
         return unpacked
     if method == "bz2":
         return bz2.BZ2Decompressor().decompress(packed, max_length=size + 1)
@@ -328,7 +330,7 @@ def _whole(method: str, packed: bytes, size: int) -> bytes:
 
 def _stream(method: str) -> Any:
     if method == "lz4":
-        return _lz4().LZ4FrameDecompressor()
+        return lz4_frame().LZ4FrameDecompressor()
     if method == "bz2":
         return bz2.BZ2Decompressor()
     raise InputError(f"it is compressed in a way not known here ({method!r})")

@@ -522,7 +522,7 @@ def open_recording(
 
     Raises:
         InputError: If nothing can be read.
-        UsageError: If it is compressed, and the extra `recordings` is not installed.
+        UsageError: If it is compressed, and the package for that is not installed.
     """
     name = os.fspath(path)
     before: list[tuple[int, int]] | None = None

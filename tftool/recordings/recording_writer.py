@@ -164,8 +164,8 @@ def write_recording(
     Args:
         path: A name that ends in ".mcap", ".db3" or ".bag"; without a suffix it is a folder as
             rosbag2 records it.
-        compression: "zstd", "lz4" or "none" in MCAP (zstd if None), "bz2", "lz4" or "none" in
-            ROS 1 bags (none if None).
+        compression: "zstd", "lz4" or "none" in MCAP (zstd if None, or none where its package is
+            missing), "bz2", "lz4" or "none" in ROS 1 bags (none if None).
         storage: What a folder holds: "mcap" or "sqlite3".
         profile: Whose rules the channels of an MCAP file follow: "ros2", or "" for none.
         force: Whether it may replace what stands there.

@@ -10,8 +10,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
-pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
 from mcap.reader import SeekingReader
 from mcap.writer import CompressionType

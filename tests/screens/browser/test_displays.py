@@ -310,7 +310,6 @@ def test_a_file_shows_them_where_they_were(chromium, run, tmp_path):
 
 @needs_browser
 def test_a_server_shows_them_where_they_were(chromium, run):
-    pytest.importorskip("websockets", reason="the extra `view` is not installed")
     from tests.screens.browser.driving import Page
     from tftool.commands.shared.connection import Connection
     from tftool.commands.shared.on_screen import at_rest

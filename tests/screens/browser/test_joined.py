@@ -6,9 +6,6 @@ import sys
 import tempfile
 
 import pytest
-
-pytest.importorskip("websockets", reason="the extra `view` is not installed")
-
 from websockets.asyncio.client import connect
 
 from tests.patience import PATIENCE

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 import yaml
 
-pytest.importorskip("websockets", reason="the extra `view` is not installed")
 pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
 from selenium.webdriver.common.by import By

@@ -2,7 +2,6 @@
 
 import pytest
 
-pytest.importorskip("websockets", reason="the extra `view` is not installed")
 pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
 from selenium.webdriver.common.by import By

@@ -4,18 +4,16 @@ import json
 
 import pytest
 
-websockets = pytest.importorskip("websockets", reason="the extra `view` is not installed")
-
-from tests.screens.browser.mesh_files import write_package  # noqa: E402
-from tests.screens.browser.test_server import Page, fetch, open_page, put, serve, where  # noqa: E402
-from tests.world.nodes.harness import new_world  # noqa: E402
-from tftool.base.errors import InputError  # noqa: E402
-from tftool.robots.robot_model import Robot  # noqa: E402
-from tftool.robots.urdf import parse_description  # noqa: E402
-from tftool.screens.browser import protocol  # noqa: E402
-from tftool.screens.browser.meshes import MeshFolders  # noqa: E402
-from tftool.screens.browser.robots import ShownRobot  # noqa: E402
-from tftool.world.nodes.joints import JointStatePublisher  # noqa: E402
+from tests.screens.browser.mesh_files import write_package
+from tests.screens.browser.test_server import Page, fetch, open_page, put, serve, where
+from tests.world.nodes.harness import new_world
+from tftool.base.errors import InputError
+from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import parse_description
+from tftool.screens.browser import protocol
+from tftool.screens.browser.meshes import MeshFolders
+from tftool.screens.browser.robots import ShownRobot
+from tftool.world.nodes.joints import JointStatePublisher
 
 ROBOT = """<robot name="arm">
   <material name="blue"><color rgba="0 0 1 0.5"/></material>

@@ -12,22 +12,19 @@ from urllib.parse import parse_qs, quote, urlsplit
 
 import numpy as np
 import pytest
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-websockets = pytest.importorskip("websockets", reason="the extra `view` is not installed")
-
-from websockets.asyncio.client import connect  # noqa: E402
-from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
-
-from tests.patience import PATIENCE  # noqa: E402
-from tftool.base.errors import TftoolError  # noqa: E402
-from tftool.base.stamps import seconds  # noqa: E402
-from tftool.buffer.buffer import NO_LIMIT  # noqa: E402
-from tftool.buffer.sample import TransformStamped  # noqa: E402
-from tftool.geometry.rigid import Transform  # noqa: E402
-from tftool.screens.browser import server  # noqa: E402
-from tftool.screens.browser.server import PageServer  # noqa: E402
-from tftool.world.clock import WallClock, run  # noqa: E402
-from tftool.world.world import World  # noqa: E402
+from tests.patience import PATIENCE
+from tftool.base.errors import TftoolError
+from tftool.base.stamps import seconds
+from tftool.buffer.buffer import NO_LIMIT
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.screens.browser import server
+from tftool.screens.browser.server import PageServer
+from tftool.world.clock import WallClock, run
+from tftool.world.world import World
 
 
 def serve(test, *, port=0, rate=500.0):

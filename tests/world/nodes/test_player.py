@@ -6,7 +6,6 @@ import pytest
 
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.recordings.writers import SECOND, Sent, numbers, write_mcap, write_rosbag1
 from tftool import open_recording

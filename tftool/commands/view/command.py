@@ -273,12 +273,8 @@ def run(
         return _write(connection, place, output, run_for, meshes or [], force, open_browser)
     if force:
         raise UsageError("--force goes with -o FILE.")
-    try:
-        from tftool.screens.browser.server import PageServer
-    except ModuleNotFoundError as error:
-        if error.name is None or error.name.partition(".")[0] != "websockets":
-            raise
-        raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
+    # Here, as a file needs no server, and websockets takes a moment to import.
+    from tftool.screens.browser.server import PageServer
 
     found = None if place is None else named(place)
     serve = partial(PageServer, port=port, rate=rate, tell=notice, secret=page_secret())

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Iterator
-from importlib.util import find_spec
 
 import numpy as np
 
@@ -45,9 +44,7 @@ def write_frames(
     """
     statics, moving, total = _held(buffer)
     done = 0
-    with write_recording(
-        path, compression=_compression(), profile="" if foxglove else "ros2", force=force
-    ) as recording:
+    with write_recording(path, profile="" if foxglove else "ros2", force=force) as recording:
         for number, (stamp, samples) in enumerate(_messages(statics, moving)):
             still = number == 0 and bool(statics)
             if foxglove:
@@ -67,10 +64,6 @@ def write_frames(
             if progress is not None and number % _TOLD_EVERY == 0:
                 progress(done * _BYTES_PER_SAMPLE, total * _BYTES_PER_SAMPLE)
     return done
-
-
-def _compression() -> str:
-    return "zstd" if find_spec("zstandard") else "none"
 
 
 Moving = list[tuple[str, "np.ndarray", "np.ndarray", "np.ndarray"]]

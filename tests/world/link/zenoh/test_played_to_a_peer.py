@@ -7,7 +7,6 @@ import pytest
 pytest.importorskip("zenoh_ros2_sdk", reason="zenoh-ros2-sdk, of the extra 'test', is missing")
 pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
-pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.recordings.writers import content, write_mcap
 from tests.world.link.processes import Process
