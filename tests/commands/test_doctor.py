@@ -42,7 +42,8 @@ def test_several_sources_end_in_a_table_and_one_unreadable_stops_none(tftool, tm
     empty = tmp_path / "empty.mcap"
     empty.touch()
     report = tmp_path / "report.xml"
-    result = tftool("doctor", "turtles", empty, "lost_leader", "--junit", report)
+    sarif = tmp_path / "report.sarif"
+    result = tftool("doctor", "turtles", empty, "lost_leader", "--junit", report, "--sarif", sarif)
     assert result.status == 3
     assert "is an empty file" in result.err
     rows = [line.split()[:3] for line in result.out.splitlines()[-3:]]
@@ -50,6 +51,10 @@ def test_several_sources_end_in_a_table_and_one_unreadable_stops_none(tftool, tm
     assert "unreadable" in result.out
     root = ElementTree.fromstring(report.read_text(encoding="utf-8"))
     assert (root.get("failures"), root.get("errors")) == ("1", "1")
+    run = json.loads(sarif.read_text(encoding="utf-8"))["runs"][0]
+    assert [one["ruleId"] for one in run["results"]] == ["edge-stopped"]
+    assert not run["invocations"][0]["executionSuccessful"]
+    assert tftool("doctor", "turtles", "-o", tmp_path / "a.csv", "--sarif", sarif).status == 2
 
 
 def test_without_a_source_the_session_or_the_turtles_are_examined(tftool):

@@ -1,6 +1,7 @@
 """`tftool doctor`: what is wrong with the frames, why, and what to do about it."""
 
 from enum import StrEnum
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -83,6 +84,9 @@ def doctor(
     for_programs: Json = False,
     markdown: Annotated[bool, option("Print it for an issue on the web.", "--markdown")] = False,
     junit: Junit = None,
+    sarif: Annotated[
+        Path | None, option("Write SARIF for a code host.", "--sarif", metavar="FILE")
+    ] = None,
     output: Rows = None,
     processes: Jobs = 1,
     resume: Resume = False,

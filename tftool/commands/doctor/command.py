@@ -22,6 +22,7 @@ from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
 from tftool.doctor.model import Settings
 from tftool.drawing import finding_view as view
+from tftool.drawing.sarif import as_sarif
 from tftool.frames.moment import At
 from tftool.recordings.remote_files import fetched
 
@@ -39,6 +40,7 @@ class DoctorReport:
         verbose: With all evidence.
         statistics: With rate, latency and gaps.
         junit: A file for a build server.
+        sarif: A file for a code host.
     """
 
     for_programs: bool
@@ -46,6 +48,7 @@ class DoctorReport:
     verbose: bool
     statistics: bool
     junit: Path | None
+    sarif: Path | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +128,7 @@ def run(
     for_programs: bool,
     markdown: bool,
     junit: Path | None,
+    sarif: Path | None,
     output: Path | None,
     processes: int,
     resume: bool,
@@ -137,7 +141,7 @@ def run(
         return _show_checks("" if listed else explain, markdown=markdown)
     chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
     selection = CheckSelection(chosen, left_out, limits or [], cache_time, fixed_frame)
-    report = DoctorReport(for_programs, markdown, verbose, statistics, junit)
+    report = DoctorReport(for_programs, markdown, verbose, statistics, junit, sarif)
     rows = RowOptions(output, processes, scheduler, resume)
     _refuse_contradictions(report, rows)
     settings = selection.settings(tuple(tf_topic or ()))
@@ -150,6 +154,8 @@ def run(
     _print(judged, report)
     if junit is not None:
         write_file(junit, view.as_junit(judged, fails))
+    if sarif is not None:
+        write_file(sarif, as_sarif(judged))
     return _status(judged, fails)
 
 
@@ -179,6 +185,7 @@ def _refuse_contradictions(report: DoctorReport, rows: RowOptions) -> None:
     """
     asked = {
         "--junit": report.junit is not None,
+        "--sarif": report.sarif is not None,
         "--json": report.for_programs,
         "--markdown": report.markdown,
         "--verbose": report.verbose,

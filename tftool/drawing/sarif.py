@@ -1,0 +1,118 @@
+"""Findings as SARIF 2.1.0, the format in which code hosts take the results of checkers."""
+
+import json
+import sys
+from collections.abc import Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Final
+from urllib.parse import quote
+
+from tftool.base.escaping import visible
+from tftool.doctor.check import Check
+from tftool.doctor.findings import Finding
+from tftool.doctor.judge import CHECKS, Diagnosis
+from tftool.drawing.finding_view import explained
+
+SCHEMA: Final = "https://json.schemastore.org/sarif-2.1.0.json"
+
+
+def as_sarif(rows: "Sequence[tuple[str, Diagnosis | str]]") -> str:
+    """Return the reports of several sources as one SARIF document.
+
+    Findings that another one explains are left out, as in every report. A source that cannot be
+    read is a notification of the run, which then counts as unsuccessful.
+
+    Args:
+        rows: Each source with its diagnosis, or why it could not be read.
+    """
+    results: list[dict[str, Any]] = []
+    unreadable: list[dict[str, Any]] = []
+    for name, found in rows:
+        if isinstance(found, str):
+            told = {"level": "error", "message": {"text": found}, "locations": [_location(name)]}
+            unreadable.append(told)
+            continue
+        results += [_result(name, one) for one in found.findings if one.because_of is None]
+    for one in results:
+        one["ruleIndex"] = list(CHECKS).index(one["ruleId"])
+    driver = {
+        "name": "tftool doctor",
+        # The package is above every room: it is asked, not imported.
+        "version": sys.modules["tftool"].__version__,
+        "rules": [_rule(check) for check in CHECKS.values()],
+    }
+    invocation = {
+        "executionSuccessful": not unreadable,
+        "toolExecutionNotifications": unreadable,
+    }
+    run = {"tool": {"driver": driver}, "invocations": [invocation], "results": results}
+    document = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+    return json.dumps(document, indent=2, allow_nan=False, default=str) + "\n"
+
+
+def _rule(check: Check) -> dict[str, Any]:
+    rule: dict[str, Any] = {
+        "id": check.id,
+        "shortDescription": {"text": check.summary},
+        "help": {"text": explained(check)},
+        "defaultConfiguration": {"level": check.severity.value},
+        "properties": {"tags": [check.area.value]},
+    }
+    if check.links:
+        rule["helpUri"] = check.links[0]
+    return rule
+
+
+def _result(source: str, finding: Finding) -> dict[str, Any]:
+    # The severities have the names that SARIF gives to its levels.
+    return {
+        "ruleId": finding.id,
+        "level": finding.severity.value,
+        "message": {"text": _message(finding)},
+        "locations": [_location(source, finding)],
+        "partialFingerprints": {"tftoolDoctor/v1": _fingerprint(finding)},
+        "properties": {
+            "confidence": finding.confidence.value,
+            "publishers": list(finding.publishers),
+            "since": finding.since,
+            "until": finding.until,
+        },
+    }
+
+
+def _message(finding: Finding) -> str:
+    fixes = (f"{fix.text}{f': {fix.command}' if fix.command else ''}" for fix in finding.fixes)
+    lines = [finding.message, *finding.evidence, f"so: {finding.consequence}"]
+    lines += [f"fix: {fix}" for fix in fixes]
+    return "\n".join(visible(line) for line in lines)
+
+
+def _location(source: str, finding: Finding | None = None) -> dict[str, Any]:
+    """Return the file, at its beginning, and the frames, edges and topics in it."""
+    path = Path(source)
+    if "://" in source:
+        address = quote(source, safe=":/?#[]@!$&'()*+,;=%", errors="surrogateescape")
+    else:
+        address = (
+            path.as_uri()
+            if path.is_absolute()
+            else quote(path.as_posix(), errors="surrogateescape")
+        )
+    # Code hosts show a result at a line, and a recording has none.
+    place = {"artifactLocation": {"uri": address}, "region": {"startLine": 1}}
+    location: dict[str, Any] = {"physicalLocation": place}
+    if finding is not None:
+        named = [("edge", f"{parent} -> {child}") for parent, child in finding.edges]
+        named += [("frame", frame) for frame in finding.frames]
+        named += [("topic", topic) for topic in finding.topics]
+        location["logicalLocations"] = [
+            {"kind": kind, "fullyQualifiedName": name} for kind, name in named
+        ]
+    return location
+
+
+def _fingerprint(finding: Finding) -> str:
+    """Return what stays equal from run to run: the check and where it found something."""
+    parts = [finding.id, finding.edges, sorted(finding.frames), sorted(finding.topics)]
+    return sha256(json.dumps(parts).encode()).hexdigest()
