@@ -3,6 +3,7 @@
 import bz2
 import errno
 import random
+import struct
 import sys
 import tracemalloc
 from pathlib import Path
@@ -195,6 +196,33 @@ def test_too_many_open_files_are_no_damage_of_one(tmp_path, monkeypatch):
 
     with pytest.raises(InputError, match="Too many open files"):
         open_recording(path)
+
+
+def test_a_summary_with_a_wrong_crc_is_not_believed(tmp_path):
+    path = write_mcap(tmp_path / "run.mcap", SENT)
+    data = bytearray(path.read_bytes())
+    (begin,) = struct.unpack_from("<Q", data, len(data) - 28)
+    place = data.index(b"tf2_msgs", begin)
+    data[place : place + 8] = b"std_msgs"
+    path.write_bytes(data)
+
+    with open_recording(path) as recording:
+        assert {one.type for one in recording.topics if one.name == "/tf"} == {"tf2_msgs/TFMessage"}
+        assert recording.damage == ("Its summary cannot be read (its CRC is wrong).",)
+    edit([path], tmp_path / "out.mcap", Edits())
+    with open_recording(tmp_path / "out.mcap") as recording:
+        assert {one.type for one in recording.topics if one.name == "/tf"} == {"tf2_msgs/TFMessage"}
+
+
+def test_metadata_of_more_than_16_mb_is_not_read(tmp_path):
+    path = write_rosbag2(tmp_path / "a", SENT)
+    text = (path / "metadata.yaml").read_text().replace("storage_identifier: ", "custom: ours #")
+    (path / "metadata.yaml").write_text(text + "# x" * (1 << 23))
+
+    with open_recording(path) as recording:
+        assert "metadata.yaml cannot be read (it is too large)" in recording.damage[0]
+    edit([path], tmp_path / "out", Edits())
+    assert "custom: ours" not in (tmp_path / "out" / "metadata.yaml").read_text()
 
 
 def test_metadata_that_lies_is_told_and_not_believed(tmp_path):

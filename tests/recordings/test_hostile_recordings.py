@@ -23,7 +23,7 @@ from tftool.app.main import main
 from tftool.recordings import container
 from tftool.recordings import container_reader as reading
 from tftool.recordings import message_cutter as cutting
-from tftool.recordings.edit import mcap_tape
+from tftool.recordings.mcap import read as mcap_read
 
 SENT = content(40)
 
@@ -378,8 +378,8 @@ def test_a_compressed_file_that_becomes_far_too_large_is_refused_early(tmp_path)
 
 def test_messages_outside_of_chunks_are_not_held_all_at_once(tmp_path, monkeypatch):
     path = plain_mcap(tmp_path / "run", SENT, use_chunking=False)
-    monkeypatch.setattr(mcap_tape, "MOST_BYTES_HELD", 1000)
-    tape = mcap_tape.McapTape(path)
+    monkeypatch.setattr(mcap_read, "MOST_BYTES_HELD", 1000)
+    tape = mcap_read.Mcap(path, by_index=False)
     try:
         sizes = [sum(len(one.payload) for one in block.messages()) for block in tape.blocks()]
     finally:

@@ -15,7 +15,7 @@ from typing import Any, Final
 from tftool.base.named_files import open_regular
 from tftool.recordings.find import METADATA, Found
 
-FORMAT: Final = 2
+FORMAT: Final = 3
 """Is raised whenever the same recording would give other columns, or they lie otherwise."""
 
 WORTHWHILE: Final = 4 << 20

@@ -1,18 +1,67 @@
-"""What every writer of a recording is told about a stream of messages, and does with them."""
+"""One recorded stream of messages, and what takes messages of streams."""
 
-from dataclasses import dataclass
-from typing import Protocol
+import re
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Final, Protocol
 
 from tftool.base.stamps import Stamp
+
+TRANSIENT_LOCAL: Final = "transient_local"
+
+_OFFER = re.compile(r"(durability|reliability):\s*([\w\"']+)")
+_LONGEST_OFFERS = 100_000
+_WORDS = {
+    "durability": {"1": TRANSIENT_LOCAL, "2": "volatile"},
+    "reliability": {"1": "reliable", "2": "best_effort"},
+}
+_MESSAGE_TEXTS: Final = ("ros1msg", "ros2msg")
+_TEXTS: Final = (*_MESSAGE_TEXTS, "ros2idl", "jsonschema")
+
+
+@dataclass(frozen=True, slots=True)
+class Offers:
+    """Quality of service that publishers of a topic offered, as far as it was recorded.
+
+    Attributes:
+        durability: "transient_local" if any offers it, "volatile", or empty if unknown.
+        reliability: "reliable" if any offers it, "best_effort", or empty.
+        count: How many offers were noted.
+    """
+
+    durability: str = ""
+    reliability: str = ""
+    count: int = 0
+
+
+@lru_cache(maxsize=1024)
+def offers_of(text: str) -> Offers:
+    """Parse a text of QoS profiles: in numbers up to rosbag2's version 8, then in words."""
+    found: dict[str, list[str]] = {"durability": [], "reliability": []}
+    for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
+        plain = word.strip("\"'")
+        found[policy].append(_WORDS[policy].get(plain, plain))
+
+    def best(policy: str, wanted: str, other: str) -> str:
+        words = found[policy]
+        return wanted if wanted in words else other if other in words else ""
+
+    return Offers(
+        best("durability", TRANSIENT_LOCAL, "volatile"),
+        best("reliability", "reliable", "best_effort"),
+        len(found["durability"]),
+    )
 
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """One stream of messages to be written: a channel, a row of `topics`, a connection.
+    """One stream of messages: a channel of MCAP, a row of `topics`, a connection of ROS 1.
+
+    Texts are as recorded: bytes that are not UTF-8 are kept as surrogates (`readable` shows them).
 
     Attributes:
         topic: Its name.
-        type: The messages' type, as it is to be written.
+        type: The messages' type.
         encoding: How they are written: "cdr", "ros1", "json", "protobuf".
         schema_encoding: How the definition is written: "ros2msg", "ros1msg", "protobuf".
         definition: The type's definition.
@@ -31,16 +80,52 @@ class Channel:
         """Return the metadata under a key; "" for nothing."""
         return dict(self.metadata).get(key, "")
 
-
-class CopiedPiece(Protocol):
-    """Some bytes of another file that are to be written as they are."""
+    @property
+    def text(self) -> str:
+        """The definition, if it is a text; "" otherwise."""
+        if self.schema_encoding not in _TEXTS:
+            return ""
+        return self.definition.decode("utf-8", "backslashreplace")
 
     @property
-    def length(self) -> int:
-        """Return their number."""
+    def message_text(self) -> str:
+        """The definition, if it lists fields as ROS's .msg files do; "" otherwise."""
+        return self.text if self.schema_encoding in _MESSAGE_TEXTS else ""
 
-    def copy_to(self, file: int, place: int, crc: int | None = None) -> int:
-        """Copy them to a place in the file of a number, and go on with a CRC if there is one."""
+    @property
+    def node(self) -> str:
+        """The node that publishes; "" where that is not recorded."""
+        return self.extra("callerid")
+
+    @property
+    def offers(self) -> Offers:
+        """The quality of service that was offered to subscribers."""
+        if self.extra("latching") == "1":
+            return Offers(TRANSIENT_LOCAL, "", 1)
+        return offers_of(self.extra("offered_qos_profiles"))
+
+    def readable(self) -> "Channel":
+        """Return it with texts that can be shown."""
+        texts = (
+            self.topic,
+            self.type,
+            self.encoding,
+            *(word for one in self.metadata for word in one),
+        )
+        if all(text.isascii() for text in texts):
+            return self
+        metadata = tuple((_readable(key), _readable(value)) for key, value in self.metadata)
+        return replace(
+            self,
+            topic=_readable(self.topic),
+            type=_readable(self.type),
+            encoding=_readable(self.encoding),
+            metadata=metadata,
+        )
+
+
+def _readable(text: str) -> str:
+    return text.encode("utf-8", "surrogateescape").decode("utf-8", "backslashreplace")
 
 
 class ContainerWriter(Protocol):

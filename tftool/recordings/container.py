@@ -1,54 +1,28 @@
 """Interface of containers: streams of messages, in pieces of their bytes."""
 
 import os
-import re
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final, Protocol
+from typing import Any, Final, NamedTuple, Protocol
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import Stamp
+from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
 from tftool.recordings.contract import Progress
-from tftool.recordings.decompression import LARGEST, Ahead, Packed, unpack, unpack_beginning
+from tftool.recordings.decompression import LARGEST
+from tftool.recordings.pieces import Piece
 
 MOST_STREAMS: Final = 65_536
-"""Streams of one recording; those beyond are left out, and that is told."""
-
-TRANSIENT_LOCAL: Final = "transient_local"
+"""Streams of one recording that are read; those beyond are left out."""
 
 LARGEST_TOLD: Final = 1 << 26
-"""Bytes of the largest record that tells of a stream: of it copies are made."""
-
-_MOST_NOTED = 20
-
-_OFFER = re.compile(r"(durability|reliability):\s*([\w\"']+)")
-_LONGEST_OFFERS = 100_000
-_WORDS = {
-    "durability": {"1": TRANSIENT_LOCAL, "2": "volatile"},
-    "reliability": {"1": "reliable", "2": "best_effort"},
-}
-
-
-@dataclass(frozen=True, slots=True)
-class Offers:
-    """What publishers of a topic offered, as rosbag2 writes it beside a topic.
-
-    Attributes:
-        durability: "transient_local" if any offers it, "volatile", or empty if unknown.
-        reliability: "reliable" if any offers it, "best_effort", or empty.
-        count: How many offers were noted.
-    """
-
-    durability: str = ""
-    reliability: str = ""
-    count: int = 0
+"""Bytes of the largest record that describes a stream: copies are made of it."""
 
 
 def check_told(count: int) -> None:
-    """Refuse a record that tells of a stream and is too long for that.
+    """Refuse a record that describes a stream and is too long for that.
 
     Raises:
         InputError: If it is.
@@ -59,43 +33,77 @@ def check_told(count: int) -> None:
         )
 
 
-def offers_of(text: str) -> Offers:
-    """Parse a text of QoS profiles: in numbers up to rosbag2's version 8, then in words."""
-    found: dict[str, list[str]] = {"durability": [], "reliability": []}
-    for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
-        plain = word.strip("\"'")
-        found[policy].append(_WORDS[policy].get(plain, plain))
-
-    def best(policy: str, wanted: str, other: str) -> str:
-        words = found[policy]
-        return wanted if wanted in words else other if other in words else ""
-
-    return Offers(
-        best("durability", TRANSIENT_LOCAL, "volatile"),
-        best("reliability", "reliable", "best_effort"),
-        len(found["durability"]),
-    )
-
-
-@dataclass(frozen=True, slots=True)
-class MessageStream:
-    """One stream of messages: a channel, a row of `topics`, a connection.
+class Taken(NamedTuple):
+    """One message, with all that its container keeps of it.
 
     Attributes:
-        topic: As recorded.
-        type: As recorded.
-        encoding: How its messages are written: "cdr", "ros1", "json", "protobuf".
-        definition: The type's definition as text; empty where there is none.
-        node: Who publishes; empty where that is not recorded.
-        offers: What was offered to subscribers.
+        channel: The number of its channel in its file.
+        log_time: When it was received, nanoseconds.
+        payload: Its bytes.
+        publish_time: When it was sent; `log_time` where it is not kept.
+        sequence: Its number at its publisher; 0 where it is not kept.
     """
 
-    topic: str
-    type: str
-    encoding: str
-    definition: str = ""
-    node: str = ""
-    offers: Offers = Offers()
+    channel: int
+    log_time: Stamp
+    payload: bytes
+    publish_time: Stamp
+    sequence: int
+
+
+class Block(Protocol):
+    """Some messages that are together in a file: a chunk, rows, messages outside of chunks."""
+
+    @property
+    def start(self) -> Stamp:
+        """Log time of the first one."""
+
+    @property
+    def end(self) -> Stamp:
+        """Log time of the last one."""
+
+    @property
+    def counts(self) -> Mapping[int, int] | None:
+        """How many of each channel there are; None if that shows only when it is taken apart."""
+
+    @property
+    def whole(self) -> bool:
+        """Whether it may be copied as it is."""
+
+    def sound(self) -> bool:
+        """Whether its content is what was written, as far as it carries proof of that."""
+
+    def messages(self) -> list[Taken]:
+        """Its messages, in their order; those up to the damage, where there is any."""
+
+
+class CopiedAttachment(NamedTuple):
+    """An attachment of an MCAP file, which is copied to another one.
+
+    Attributes:
+        piece: Its record.
+        times: Its two times, as they are packed.
+        names: Its name and media type, likewise.
+        size: Bytes of what is attached.
+    """
+
+    piece: Piece
+    times: bytes
+    names: bytes
+    size: int
+
+
+@dataclass(slots=True)
+class Extras:
+    """Content of a file beside messages.
+
+    Attributes:
+        attachments: MCAP's attachments, which stay in their file.
+        metadata: MCAP's metadata records, each the body.
+    """
+
+    attachments: list[CopiedAttachment] = field(default_factory=list)
+    metadata: list[bytes] = field(default_factory=list)
 
 
 class Container(Protocol):
@@ -113,7 +121,7 @@ class Container(Protocol):
     size: int
     start: Stamp
     end: Stamp
-    streams: list[MessageStream]
+    streams: list[Channel]
 
     @property
     def counts(self) -> list[int]:
@@ -143,26 +151,24 @@ class Container(Protocol):
         """Close the file."""
 
 
-class PackedChunk(Protocol):
-    """A chunk, as far as it matters for unpacking it.
+class Reader(Container, Protocol):
+    """One file of a recording, which can be read from front to back as well.
 
     Attributes:
-        place: Where its data begins in the file, packed.
-        packed: Bytes of it there.
-        size: Bytes of it unpacked.
-        method: How it is packed.
-        cut: Whether the file ends within it.
+        container: "mcap", "db3" or "bag".
+        channels: Its streams by the numbers they have in the file, exactly as recorded; more may
+            come up while it is read.
+        extras: What it holds beside messages; complete once it is read.
+        style: How its container is written, for a writer of the same kind.
     """
 
-    place: int
-    packed: int
-    size: int
-    method: str
-    cut: bool
+    container: str
+    channels: dict[int, Channel]
+    extras: Extras
+    style: dict[str, Any]
 
-    @property
-    def position(self) -> int:
-        """Where it is said to be."""
+    def blocks(self) -> Iterator[Block]:
+        """All of its messages in pieces, in the order of the file."""
 
 
 class File:
@@ -235,58 +241,3 @@ class File:
     def close(self) -> None:
         """Close it."""
         self._file.close()
-
-
-class ChunkedFile(File):
-    """A file whose messages lie in chunks, and what turns out to be wrong with it.
-
-    Attributes:
-        damage: As sentences, each once; not more than tell enough.
-    """
-
-    def __init__(self, path: Path) -> None:
-        """Open it; see `File`."""
-        super().__init__(path)
-        self.damage: list[str] = []
-        self._damaged: set[PackedChunk] = set()
-
-    def note(self, damage: str) -> None:
-        """Note what is wrong."""
-        if damage not in self.damage and len(self.damage) < _MOST_NOTED:
-            self.damage.append(damage)
-
-    def note_chunk(self, chunk: PackedChunk, reason: str) -> None:
-        """Note what is wrong with a chunk, of each what is found first: the rest comes of it."""
-        if chunk not in self._damaged:
-            self._damaged.add(chunk)
-            self.note(f"A chunk at byte {chunk.position} is damaged ({reason}).")
-
-    def packed(self, chunk: PackedChunk) -> Packed | None:
-        """What of a chunk is unpacked ahead; None of one that is read in another way."""
-        if chunk.cut or chunk.method in ("", "none"):
-            return None
-        return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size
-
-    def unpacked(self, chunk: PackedChunk, ahead: Ahead | None = None) -> "bytes | memoryview":
-        """A chunk's bytes, unpacked; as many as there are of one that is cut or damaged.
-
-        Args:
-            chunk: The chunk.
-            ahead: Where it may be on its way.
-
-        Raises:
-            InputError: If not even its packed bytes can be read.
-            UsageError: If what it takes is not installed.
-        """
-        coming = None if ahead is None else ahead.take(chunk)
-        try:
-            if coming is not None:
-                return coming.result()
-            data = self.at(chunk.place, chunk.packed)
-            if chunk.cut:
-                return unpack_beginning(chunk.method, data, chunk.size)
-            return unpack(chunk.method, data, chunk.size)
-        except InputError as error:
-            data = self.at(chunk.place, chunk.packed)
-            self.note_chunk(chunk, str(error))
-            return unpack_beginning(chunk.method, data, chunk.size)

@@ -12,8 +12,9 @@ from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.messages.layouts import CDR, ROS1, Layout
 from tftool.messages.transform_rows import LONGEST_NAME
+from tftool.recordings.channel import TRANSIENT_LOCAL, Channel
 from tftool.recordings.columns import Batch, Table
-from tftool.recordings.container import TRANSIENT_LOCAL, Container, MessageStream
+from tftool.recordings.container import Container
 from tftool.recordings.contract import (
     Headers,
     Progress,
@@ -78,14 +79,9 @@ class Recorded:
         self._container = container
         self._notes: list[str] = []
         self._senders = tuple(
-            Publisher(
-                stream.topic,
-                stream.node,
-                stream.offers.durability,
-                stream.offers.reliability,
-                stream.offers.count,
-            )
-            for stream in container.streams
+            Publisher(one.topic, one.node, offers.durability, offers.reliability, offers.count)
+            for one in container.streams
+            for offers in [one.offers]
         )
 
     @property
@@ -125,7 +121,7 @@ class Recorded:
     @property
     def topics(self) -> tuple[RecordedTopic, ...]:
         """Every topic, by name; each name once."""
-        first: dict[str, MessageStream] = {}
+        first: dict[str, Channel] = {}
         counts: dict[str, int] = {}
         static: dict[str, bool] = {}
         for stream, count in zip(self._container.streams, self._container.counts, strict=True):
@@ -138,7 +134,7 @@ class Recorded:
                 short_type(stream.type),
                 stream.encoding,
                 counts[name],
-                stream.definition,
+                stream.text,
                 _has_transforms(stream),
                 _has_transforms(stream) and static[name],
             )
@@ -170,7 +166,7 @@ class Recorded:
             elif topics is not None or _has_transforms(stream):
                 kind = short_type(stream.type)
                 try:
-                    decode = decoder_of(kind, stream.encoding, stream.definition, stream.topic)
+                    decode = decoder_of(kind, stream.encoding, stream.text, stream.topic)
                 except InputError as error:
                     self._note(f"'{stream.topic}' is left out: {error}")
                     continue
@@ -189,7 +185,7 @@ class Recorded:
             one.flush()
         return table.finished(self._senders)
 
-    def _gives(self, stream: MessageStream, topics: Collection[str] | None) -> bool:
+    def _gives(self, stream: Channel, topics: Collection[str] | None) -> bool:
         """Whether a stream's messages are read for their transforms."""
         return _has_transforms(stream) if topics is None else stream.topic in topics
 
@@ -260,7 +256,7 @@ class Recorded:
 class _Heads:
     """One topic's headers while they are read."""
 
-    def __init__(self, stream: MessageStream) -> None:
+    def __init__(self, stream: Channel) -> None:
         self._topic = stream.topic
         self._type = short_type(stream.type)
         self._is_cdr = stream.encoding == "cdr"
@@ -341,15 +337,15 @@ def _stamp(payload: bytes, place: int, order: str = "<") -> Stamp:
     return int(sec) * NANOSECONDS + int(nanosec)
 
 
-def _is_tf(stream: MessageStream) -> bool:
+def _is_tf(stream: Channel) -> bool:
     return short_type(stream.type) in TRANSFORM_TYPES and stream.encoding in LAYOUTS
 
 
-def _has_transforms(stream: MessageStream) -> bool:
+def _has_transforms(stream: Channel) -> bool:
     return _is_tf(stream) or is_foreign(short_type(stream.type), stream.encoding)
 
 
-def is_static(stream: MessageStream) -> bool:
+def is_static(stream: Channel) -> bool:
     """Whether transforms of a stream hold at all times: by name, not by a stamp of 0."""
     last = stream.topic.rpartition("/")[2]
     if last == "tf_static":
@@ -358,16 +354,16 @@ def is_static(stream: MessageStream) -> bool:
     return is_latched and (stream.encoding == "ros1" or "static" in stream.topic)
 
 
-def begins_with_header(stream: MessageStream) -> bool:
+def begins_with_header(stream: Channel) -> bool:
     """Whether messages of a stream begin with a header that we can read."""
     if stream.encoding not in LAYOUTS:
         return False
     kind = short_type(stream.type)
-    if not stream.definition:
+    if not stream.message_text:
         return kind in _WITH_HEADER or (
             kind.startswith("geometry_msgs/") and kind.endswith("Stamped")
         )
-    for line in stream.definition.splitlines():
+    for line in stream.message_text.splitlines():
         field = _COMMENT.sub("", line).strip()
         if field and "=" not in field:
             return _HEADER_FIELD.fullmatch(field) is not None

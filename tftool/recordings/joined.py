@@ -4,8 +4,9 @@ from collections.abc import Collection, Iterator, Sequence
 
 import numpy as np
 
+from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.container import MOST_STREAMS, Container, MessageStream
+from tftool.recordings.container import MOST_STREAMS, Container
 from tftool.recordings.contract import Progress
 
 
@@ -27,7 +28,7 @@ class Joined:
         self.size = sum(part.size for part in containers)
         self.start = min((part.start for part in containers if part.start), default=0)
         self.end = max((part.end for part in containers), default=0)
-        numbers: dict[MessageStream, int] = {}
+        numbers: dict[Channel, int] = {}
         self._maps = []
         for part in containers:
             for stream in part.streams:

@@ -9,8 +9,7 @@ from tftool.messages.classes import INTERFACES, Interfaces
 from tftool.messages.codec import Codec
 from tftool.messages.layouts import CDR, ROS1
 from tftool.messages.schema import full_name
-from tftool.recordings.channel import Channel
-from tftool.recordings.container import TRANSIENT_LOCAL, offers_of
+from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
 from tftool.recordings.rosbag2.offered_qos import offers_text
 from tftool.recordings.schema_text import (
     known_hash,

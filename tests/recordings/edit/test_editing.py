@@ -28,8 +28,7 @@ from tests.recordings.writers import (
 from tftool.base.errors import UsageError
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.recordings import container
-from tftool.recordings.edit import mcap_tape, rosbag1_tape
+from tftool.recordings import chunked, container
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
 from tftool.recordings.recording import open_recording
@@ -489,13 +488,13 @@ def test_a_chunk_that_announces_too_much_is_unpacked_once(tmp_path, monkeypatch,
     raw = bytearray(path.read_bytes())
     raw[place : place + 4] = (0xF0000000).to_bytes(4, "little")
     path.write_bytes(raw)
-    for tape in (rosbag1_tape, mcap_tape):
+    unpack = chunked.unpack_beginning
 
-        def counted(method, packed, size, unpack=tape.unpack_beginning):
-            unpacked.append(size)
-            return unpack(method, packed, size)
+    def counted(method, packed, size):
+        unpacked.append(size)
+        return unpack(method, packed, size)
 
-        monkeypatch.setattr(tape, "unpack_beginning", counted)
+    monkeypatch.setattr(chunked, "unpack_beginning", counted)
 
     report = edit([str(path)], out, Edits())
 

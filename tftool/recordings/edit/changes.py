@@ -16,7 +16,7 @@ from tftool.messages.codec import Codec
 from tftool.messages.schema import PRIMITIVES, full_name
 from tftool.messages.splice import TransformRow, TransformRows
 from tftool.recordings.channel import Channel
-from tftool.recordings.container import MessageStream, offers_of
+from tftool.recordings.container import Taken
 from tftool.recordings.container_reader import (
     LAYOUTS,
     TRANSFORM_TYPES,
@@ -24,7 +24,6 @@ from tftool.recordings.container_reader import (
     is_static,
     short_type,
 )
-from tftool.recordings.edit.tape import Taken
 
 LinkName = tuple[str, str]
 """Parent and child, each without a leading slash; "*" stands for any name."""
@@ -112,24 +111,6 @@ def fits(link: LinkName, wanted: LinkName) -> bool:
     return all(word in ("*", name) for name, word in zip(link, wanted, strict=True))
 
 
-def stream_of(channel: Channel) -> MessageStream:
-    """A channel as readers know it."""
-    offers = offers_of(channel.extra("offered_qos_profiles"))
-    if channel.extra("latching") == "1":
-        offers = offers_of("durability: transient_local")
-    definition = channel.definition.decode("utf-8", "backslashreplace")
-    if channel.schema_encoding not in ("ros1msg", "ros2msg"):
-        definition = ""
-    return MessageStream(
-        channel.topic,
-        channel.type,
-        channel.encoding,
-        definition,
-        channel.extra("callerid"),
-        offers,
-    )
-
-
 def carries_transforms(channel: Channel) -> bool:
     """Whether a channel's messages are lists of transforms that are edited here."""
     return short_type(channel.type) in TRANSFORM_TYPES and channel.encoding in LAYOUTS
@@ -137,7 +118,7 @@ def carries_transforms(channel: Channel) -> bool:
 
 def carries_statics(channel: Channel) -> bool:
     """Whether those hold at all times."""
-    return carries_transforms(channel) and is_static(stream_of(channel))
+    return carries_transforms(channel) and is_static(channel)
 
 
 class Window:
@@ -335,7 +316,7 @@ class Changer:
         """Whether a channel's messages begin with a header."""
         found = self._has_header.get(channel)
         if found is None:
-            found = self._has_header[channel] = begins_with_header(stream_of(channel))
+            found = self._has_header[channel] = begins_with_header(channel)
         return found
 
     def _other(self, message: Taken, channel: Channel) -> Taken:
@@ -435,7 +416,7 @@ def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
     if channel.encoding not in LAYOUTS:
         raise InputError(f"its messages are written as '{channel.encoding}'")
     interfaces = Interfaces()
-    text = stream_of(channel).definition
+    text = channel.message_text
     full = full_name(channel.type)
     if text.strip():
         interfaces.define(full, text)

@@ -17,10 +17,10 @@ from urllib.parse import quote
 from tftool.base.errors import InputError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
+from tftool.recordings.container import Taken
 from tftool.recordings.edit.outputs import digest
-from tftool.recordings.edit.pieces import Piece
-from tftool.recordings.edit.sqlite_tape import SqliteTape
-from tftool.recordings.edit.tape import Taken
+from tftool.recordings.pieces import Piece
+from tftool.recordings.rosbag2.read import Sqlite
 from tftool.recordings.rosbag2.write import translated
 
 _ROWS: Final = 2048  # read, then written, at a time
@@ -47,7 +47,7 @@ class EditedDatabase:
 
     container = "db3"
 
-    def __init__(self, path: Path, tape: SqliteTape) -> None:
+    def __init__(self, path: Path, tape: Sqlite) -> None:
         """Copy the file, and read back what was written.
 
         Raises:

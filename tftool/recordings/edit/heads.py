@@ -11,6 +11,7 @@ from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.splice import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
+from tftool.recordings.container import Reader, Taken
 from tftool.recordings.container_reader import LAYOUTS
 from tftool.recordings.edit.changes import (
     Changer,
@@ -19,7 +20,6 @@ from tftool.recordings.edit.changes import (
     carries_transforms,
 )
 from tftool.recordings.edit.outputs import EditedFile
-from tftool.recordings.edit.tape import Taken, Tape
 from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 
 
@@ -49,7 +49,7 @@ class StaticHeads:
     def __init__(
         self,
         edits: Edits,
-        tapes: Sequence[Tape],
+        tapes: Sequence[Reader],
         changer: Changer,
         start: Stamp,
         *,
@@ -92,8 +92,8 @@ class StaticHeads:
         edits = self._edits
         for source, tape in enumerate(self._tapes):
             for block in tape.blocks():
-                if block.channels is not None and block.whole:
-                    known = [tape.channels[number] for number in block.channels]
+                if block.counts is not None and block.whole:
+                    known = [tape.channels[number] for number in block.counts]
                     if not any(map(carries_statics, known)):
                         continue
                 for message in block.messages():

@@ -1,5 +1,6 @@
 """The files of what is edited, each as a tape."""
 
+import contextlib
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -7,14 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.named_files import open_regular
-from tftool.recordings.edit.mcap_tape import McapTape
-from tftool.recordings.edit.rosbag1_tape import Rosbag1Tape
-from tftool.recordings.edit.sqlite_tape import SqliteTape
-from tftool.recordings.edit.tape import Tape
-from tftool.recordings.find import METADATA, Found, Kind, find, kind_of_file, refusal
+from tftool.recordings.container import Reader
+from tftool.recordings.find import Found, Kind, find, kind_of_file, refusal
+from tftool.recordings.mcap.read import Mcap
 from tftool.recordings.poses.pose_container import open_poses
-from tftool.recordings.rosbag2.folder import files_of_folder, unpack_file
+from tftool.recordings.rosbag1.read import Rosbag1
+from tftool.recordings.rosbag2.folder import files_of_folder, read_metadata, unpack_file
+from tftool.recordings.rosbag2.read import Sqlite
 
 
 @dataclass(slots=True)
@@ -33,7 +33,7 @@ class EditedInput:
     """
 
     name: str
-    tapes: list[Tape] = field(default_factory=list)
+    tapes: list[Reader] = field(default_factory=list)
     paths: list[Path] = field(default_factory=list)
     is_folder: bool = False
     metadata: Mapping[str, Any] | None = None
@@ -110,7 +110,8 @@ def open_input(name: str) -> EditedInput:
         if found.kind is Kind.ROSBAG2:
             folder = found.paths[0]
             opened.is_folder = True
-            opened.metadata = _metadata(folder)
+            with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+                opened.metadata = read_metadata(folder)
             compressed = str((opened.metadata or {}).get("compression_mode") or "")
             opened.mode = compressed.lower() if compressed else ""
             paths = files_of_folder(folder, opened.damage)
@@ -142,7 +143,7 @@ def open_input(name: str) -> EditedInput:
     return opened
 
 
-def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> Tape:
+def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> Reader:
     """Open one file.
 
     Raises:
@@ -151,24 +152,9 @@ def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) ->
     """
     kind = kind or kind_of_file(path)
     if kind is Kind.MCAP:
-        return McapTape(path)
+        return Mcap(path, by_index=False)
     if kind is Kind.ROS1:
-        return Rosbag1Tape(path)
+        return Rosbag1(path, by_index=False)
     if kind is Kind.SQLITE:
-        return SqliteTape(path, unpacks=unpacks)
+        return Sqlite(path, unpacks=unpacks)
     raise InputError(f"'{path}' is a {kind.value}, not a recording.")
-
-
-def _metadata(folder: Path) -> Mapping[str, Any] | None:
-    """Return a folder's metadata; None where it cannot be read."""
-    import yaml
-
-    from tftool.base import yaml_guard
-
-    try:
-        with open_regular(folder / METADATA) as file:
-            document = yaml_guard.load(file.read().decode())
-        found = document["rosbag2_bagfile_information"]
-    except (OSError, yaml.YAMLError, ValueError, KeyError, TypeError, RecursionError):
-        return None
-    return found if isinstance(found, dict) else None

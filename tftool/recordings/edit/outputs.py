@@ -3,19 +3,18 @@
 import struct
 import zlib
 from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
 from tftool.base.errors import InputError, TftoolError
 from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.schema import full_name
-from tftool.recordings.channel import Channel
+from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
+from tftool.recordings.chunked import Chunk, ChunkedReader
 from tftool.recordings.compression import best_compression, compressor
-from tftool.recordings.container import TRANSIENT_LOCAL, offers_of
-from tftool.recordings.edit.mcap_tape import McapChunk, McapTape
-from tftool.recordings.edit.rosbag1_tape import Rosbag1Chunk, Rosbag1Tape
-from tftool.recordings.edit.tape import Block, Taken, Tape
+from tftool.recordings.container import Block, Reader, Taken
 from tftool.recordings.mcap.write import CHUNK_SIZE, McapWriter
 from tftool.recordings.message_conversion import Conversion, as_ros1, as_ros2
 from tftool.recordings.recording_writer import library_name
@@ -29,19 +28,6 @@ _LARGEST_CHUNK: Final = 1 << 26
 _HEAD = struct.Struct("<qQQ")
 
 
-@dataclass(slots=True)
-class Copied:
-    """A chunk that was copied as it lay.
-
-    Attributes:
-        chunk: Where it came from.
-        place: Where it lies in the output.
-    """
-
-    chunk: McapChunk | Rosbag1Chunk
-    place: int
-
-
 class EditedFile:
     """One file that is written, and what is known of it for the comparison in the end.
 
@@ -50,7 +36,7 @@ class EditedFile:
         container: "mcap", "db3" or "bag".
         counts: Messages by channel as written.
         digests: Of each topic a checksum over its messages, in order.
-        copied: Chunks that were copied, by their places in the file.
+        copied: Bytes of each chunk that was copied, by its place in the file.
         start: Log time of the first message.
         end: Of the last.
         left_out: Topics that the container cannot hold, and why.
@@ -60,7 +46,7 @@ class EditedFile:
         self,
         path: Path,
         container: str,
-        tape: Tape,
+        tape: Reader,
         *,
         ros2: bool,
         packs: bool = False,
@@ -90,28 +76,27 @@ class EditedFile:
         self.channels: dict[int, Channel] = {}
         self.counts: Counter[int] = Counter()
         self.digests: dict[tuple[str, str], int] = {}
-        self.copied: dict[int, Copied] = {}
+        self.copied: dict[int, int] = {}
         self.start: Stamp = LAST_STAMP
         self.end: Stamp = 0
         self.left_out: dict[str, str] = {}
-        self._mcap: McapWriter | None = None
-        self._bag: Rosbag1Writer | None = None
-        self._open(tape)
-        for writer in (self._mcap, self._bag):
-            if writer is not None:
-                writer.first_free = first_free
+        self.writer = self._opened(tape)
+        # A database is written row by row; what is copied has chunks.
+        self._chunks = None if isinstance(self.writer, SqliteWriter) else self.writer
+        if self._chunks is not None:
+            self._chunks.first_free = first_free
 
-    def _open(self, tape: Tape) -> None:
+    def _opened(self, tape: Reader) -> McapWriter | Rosbag1Writer | SqliteWriter:
+        """Begin the file, as the first one that it is made from is written."""
         style: dict[str, Any] = tape.style if tape.container == self.container else {}
-        self.writer: McapWriter | Rosbag1Writer | SqliteWriter
         if self.container == "mcap":
             chunked = style.get("chunked", True) or not getattr(tape, "is_indexed", True)
             before = style.get("library", "")
             library = library_name() + (f"; was: {before}" if before else "")
-            # Chunks of an MCAP file that are changed become one chunk each: `closed_block`.
+            # Chunks of an MCAP file that are changed become one chunk each: `end_block`.
             size = _LARGEST_CHUNK if style.get("chunked") else CHUNK_SIZE
             profile = "ros1" if tape.container == "bag" and not self._ros2 else "ros2"
-            self.writer = self._mcap = McapWriter(
+            return McapWriter(
                 self.path,
                 profile=style.get("profile", profile),
                 library=library,
@@ -119,20 +104,19 @@ class EditedFile:
                 chunk_size=size if chunked else 0,
                 with_crc=style.get("with_crc", True),
             )
-        elif self.container == "bag":
+        if self.container == "bag":
             size = style.get("chunk_size") or BAG_CHUNK_SIZE
-            self.writer = self._bag = Rosbag1Writer(
+            return Rosbag1Writer(
                 self.path,
                 compression=style.get("compression", "none"),
                 chunk_size=min(max(size, 1 << 12), 1 << 24),
             )
-        else:
-            self.writer = SqliteWriter(self.path)
+        return SqliteWriter(self.path)
 
     # Channels
 
     def _conversion(
-        self, source: int, number: int, channel: Channel, tape: Tape
+        self, source: int, number: int, channel: Channel, tape: Reader
     ) -> Conversion | None:
         """Return the channel as it is written here; None where it cannot be."""
         key = source, number
@@ -144,7 +128,7 @@ class EditedFile:
                 self.left_out.setdefault(channel.topic, str(error).rstrip("."))
         return self._conversions[key]
 
-    def _converted(self, channel: Channel, tape: Tape) -> Conversion:
+    def _converted(self, channel: Channel, tape: Reader) -> Conversion:
         if self.container == "bag":
             return as_ros1(channel)
         if channel.encoding == "ros1":
@@ -155,13 +139,13 @@ class EditedFile:
                     f"its messages are written as '{channel.encoding}', for which rosbag2's "
                     "sqlite files have no place"
                 )
-            channel = _with(channel, kind=full_name(channel.type))
+            channel = replace(channel, type=full_name(channel.type))
         # An MCAP file stays as it is, with what it does not say; others have no place for it.
         if channel.encoding == "cdr" and not channel.definition and tape.container != "mcap":
             channel = _defined(channel)
         return Conversion(channel, bytes)
 
-    def _register(self, source: int, number: int, channel: Channel, tape: Tape) -> int | None:
+    def _register(self, source: int, number: int, channel: Channel, tape: Reader) -> int | None:
         """The number of a channel here."""
         key = source, number
         found = self._numbers.get(key)
@@ -175,19 +159,12 @@ class EditedFile:
             written = _latching(written)
         same = written == channel
         if same and self._fits(source, tape) and number not in self.channels:
-            if isinstance(tape, McapTape) and self._mcap is not None:
-                schema = tape.schema_of[number]
-                if schema:
-                    self._mcap.schema(*tape.schemas[schema], number=schema)
-                self._mcap.channel(written, number, schema)
-                self._numbers[key] = number
-                self.channels[number] = written
-                return number
-            if isinstance(tape, Rosbag1Tape) and self._bag is not None:
-                self._bag.add_connection(number, *tape.headers[number])
-                self._numbers[key] = number
-                self.channels[number] = written
-                return number
+            assert self._chunks is not None
+            assert isinstance(tape, ChunkedReader)
+            self._chunks.adopt(written, number, tape.origin(number))
+            self._numbers[key] = number
+            self.channels[number] = written
+            return number
         found = self.channel(written)
         self._numbers[key] = found
         return found
@@ -200,25 +177,27 @@ class EditedFile:
             self.channels[found] = channel
         return found
 
-    def _fits(self, source: int, tape: Tape) -> bool:
+    def _fits(self, source: int, tape: Reader) -> bool:
         """Whether a tape's numbers mean here what they mean there, so that chunks may be copied."""
         found = self._compatible.get(source)
         if found is None:
-            found = tape.container == self.container and not self._compatible
-            # Of those that are joined to the first, all numbers must be free or the same.
-            if tape.container == self.container and self._compatible and not self._extra:
-                found = all(
-                    self.channels.get(number, channel) == channel
-                    for number, channel in tape.channels.items()
-                )
-                if isinstance(tape, McapTape) and self._mcap is not None:
-                    found = found and tape.is_indexed and self._mcap.agrees(tape.schemas)
+            found = tape.container == self.container and (
+                not self._compatible or self._agrees(tape)
+            )
             self._compatible[source] = found
-        return found
+        return found and self._chunks is not None
+
+    def _agrees(self, tape: Reader) -> bool:
+        """Whether all numbers of a further tape are free here, or mean the same."""
+        if self._chunks is None or self._extra or not isinstance(tape, ChunkedReader):
+            return False
+        channels = tape.channels.items()
+        same = all(self.channels.get(number, channel) == channel for number, channel in channels)
+        return same and tape.is_indexed and self._chunks.agrees(tape.schemas)
 
     # Messages
 
-    def write(self, source: int, message: Taken, channel: Channel, tape: Tape) -> bool:
+    def write(self, source: int, message: Taken, channel: Channel, tape: Reader) -> bool:
         """Append a message of a tape's; whether the container takes it."""
         number = self._register(source, message.channel, channel, tape)
         if number is None:
@@ -244,13 +223,11 @@ class EditedFile:
         self.start = min(self.start, message.log_time)
         self.end = max(self.end, message.log_time)
 
-    def can_copy(self, source: int, block: Block, tape: Tape) -> bool:
-        """Whether a block may be copied as it lies."""
-        if not (block.whole and isinstance(block, McapChunk | Rosbag1Chunk)):
+    def can_copy(self, source: int, block: Block, tape: Reader) -> bool:
+        """Whether a block may be copied as it is."""
+        if not (block.whole and isinstance(block, Chunk) and self._fits(source, tape)):
             return False
-        if tape.container != self.container or not self._fits(source, tape):
-            return False
-        for number in block.channels or ():
+        for number in block.counts or ():
             channel = tape.channels[number]
             if self._register(source, number, channel, tape) != number:
                 return False
@@ -262,42 +239,38 @@ class EditedFile:
             for channel in tape.channels.values()
         )
 
-    def copy(self, block: Block) -> None:
-        """Append a block as it lies."""
-        assert isinstance(block, McapChunk | Rosbag1Chunk)
-        counts = dict(block.channels or {})
-        if isinstance(block, McapChunk):
-            assert self._mcap is not None
-            self._mcap.flush()
-            self.copied[self._mcap.position] = Copied(block, self._mcap.position)
-            self._mcap.copy_chunk(block.raw(), block.entry, counts)
-        else:
-            assert self._bag is not None
-            self._bag.flush()
-            self.copied[self._bag.position] = Copied(block, self._bag.position)
-            self._bag.copy_chunk(block.raw(), block.start, block.end, counts)
-        self.counts.update(counts)
-        if counts:
-            self.start = min(self.start, block.start)
-            self.end = max(self.end, block.end)
+    def copy(self, chunk: Chunk) -> None:
+        """Append a chunk as it is."""
+        assert self._chunks is not None
+        self._chunks.flush()
+        self.copied[self._chunks.position] = chunk.raw().length
+        self._chunks.copy_chunk(chunk)
+        if chunk.counts:
+            self.counts.update(chunk.counts)
+            self.start = min(self.start, chunk.start)
+            self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
         """Close the chunk that a changed one has become, packed as that was."""
-        if self._mcap is not None and isinstance(block, McapChunk):
-            self._mcap.flush_as(block.method, with_crc=block.has_crc)
+        if (
+            self._chunks is not None
+            and isinstance(block, Chunk)
+            and block.reader.container == self.container
+        ):
+            self._chunks.end_block(block)
 
-    def finish(self, tapes: "list[Tape]") -> None:
-        """Write what stands beside messages, and close the file."""
-        if self._mcap is not None:
-            for tape in tapes:
+    def finish(self, tapes: Sequence[Reader]) -> None:
+        """Write what is beside messages, and close the file."""
+        if isinstance(self.writer, McapWriter):
+            for number, tape in enumerate(tapes):
                 for attachment in tape.extras.attachments:
-                    self._mcap.copy_attachment(attachment)
+                    self.writer.copy_attachment(attachment)
                 for body in tape.extras.metadata:
-                    self._mcap.copy_metadata(body)
-                if isinstance(tape, McapTape) and self._fits(tapes.index(tape), tape):
+                    self.writer.copy_metadata(body)
+                if isinstance(tape, ChunkedReader) and self._fits(number, tape):
                     # Those without a message belong to the recording as well.
-                    for number, schema in tape.schemas.items():
-                        self._mcap.schema(*schema, number=number)
+                    for schema, described in tape.schemas.items():
+                        self.writer.schema(*described, number=schema)
         self.writer.finish()
 
 
@@ -310,17 +283,6 @@ def digest(before: int, message: Taken, container: str) -> int:
     return zlib.crc32(message.payload, zlib.crc32(head, before))
 
 
-def _with(channel: Channel, *, kind: str) -> Channel:
-    return Channel(
-        channel.topic,
-        kind,
-        channel.encoding,
-        channel.schema_encoding,
-        channel.definition,
-        channel.metadata,
-    )
-
-
 def _defined(channel: Channel) -> Channel:
     """A channel of ROS 2 with its definition, where the recording brings none and we know it."""
     try:
@@ -330,13 +292,11 @@ def _defined(channel: Channel) -> Channel:
     metadata = dict(channel.metadata)
     if not metadata.get("topic_type_hash"):
         metadata["topic_type_hash"] = known_hash(channel.type)
-    return Channel(
-        channel.topic,
-        channel.type,
-        channel.encoding,
-        "ros2msg",
-        text.encode(),
-        tuple(metadata.items()),
+    return replace(
+        channel,
+        schema_encoding="ros2msg",
+        definition=text.encode(),
+        metadata=tuple(metadata.items()),
     )
 
 
@@ -352,11 +312,4 @@ def _latching(channel: Channel) -> Channel:
         if offers_of(offers).durability == TRANSIENT_LOCAL:
             return channel
         metadata["offered_qos_profiles"] = offers_text(static=True)
-    return Channel(
-        channel.topic,
-        channel.type,
-        channel.encoding,
-        channel.schema_encoding,
-        channel.definition,
-        tuple(metadata.items()),
-    )
+    return replace(channel, metadata=tuple(metadata.items()))

@@ -18,22 +18,19 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
+from tftool.recordings.chunked import Chunk, ChunkedReader
+from tftool.recordings.container import Block, Reader
 from tftool.recordings.containers import container_of
 from tftool.recordings.contract import Progress
-from tftool.recordings.edit.changes import (
-    Edits,
-)
+from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.database import EditedDatabase, Unsound
 from tftool.recordings.edit.heads import StaticHeads
 from tftool.recordings.edit.inputs import EditedInput, open_input, open_tape
-from tftool.recordings.edit.mcap_tape import McapChunk
 from tftool.recordings.edit.outputs import EditedFile, digest
 from tftool.recordings.edit.plan import changer_for
-from tftool.recordings.edit.rosbag1_tape import Rosbag1Chunk
-from tftool.recordings.edit.sqlite_tape import SqliteTape
-from tftool.recordings.edit.tape import Block, Tape
 from tftool.recordings.recording import Recording, open_recording
 from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
+from tftool.recordings.rosbag2.read import Sqlite
 from tftool.recordings.target import PART, Target, check_room, failed
 
 MOST_PARTS: Final = 10_000
@@ -149,7 +146,7 @@ class _Job:
         self._path = output
         self._edits = edits
         self._progress = progress
-        self._tapes: list[Tape] = [tape for one in inputs for tape in one.tapes]
+        self._tapes: list[Reader] = [tape for one in inputs for tape in one.tapes]
         self._is_folder = not container
         self._ros2 = container == "db3"
         if edits.split_every and container:
@@ -197,7 +194,7 @@ class _Job:
                         after = self._changer.changed(message, tape.channels[message.channel])
                         self.report.messages += after is not None
                 else:
-                    self.report.messages += sum((block.channels or {}).values())
+                    self.report.messages += sum((block.counts or {}).values())
                     self.report.copied += 1
             done += tape.size
             self._tell(done)
@@ -246,7 +243,7 @@ class _Job:
                 if self._by_tape and source not in self._outputs:
                     self._output(source, part, block.start or self._start)
                 self._write_block(source, tape, block, part)
-                if isinstance(block, McapChunk | Rosbag1Chunk):
+                if isinstance(block, Chunk):
                     self._tell(done + min(block.behind, tape.size), 2 * total)
             if self._by_tape:
                 self._output(source, part)
@@ -258,7 +255,7 @@ class _Job:
             whose = [self._tapes[number]] if self._by_tape else self._tapes
             output.finish(whose if self._by_tape or number == self._order[0] else [])
 
-    def _examined_ahead(self, tape: Tape) -> Iterator[Block]:
+    def _examined_ahead(self, tape: Reader) -> Iterator[Block]:
         """A tape's pieces; what is copied whole is examined while those before it are written.
 
         To unpack a chunk and hold its CRC against it takes as long as to copy it, and both
@@ -279,20 +276,20 @@ class _Job:
                     if examined is not None:
                         examined.cancel()
 
-    def _stays_unseen(self, block: Block, tape: Tape) -> bool:
+    def _stays_unseen(self, block: Block, tape: Reader) -> bool:
         """Whether a block stays as it is by what its index tells, if it is sound."""
         return (
             block.whole
-            and bool(block.channels)
+            and bool(block.counts)
             and self._changer.keeps_all(block.start, block.end)
-            and not any(self._changer.touches(tape.channels[n]) for n in block.channels or ())
+            and not any(self._changer.touches(tape.channels[n]) for n in block.counts or ())
         )
 
     # Databases
 
-    def _changed_in_place(self) -> list[SqliteTape]:
+    def _changed_in_place(self) -> list[Sqlite]:
         """The databases, if each becomes one that differs in some rows only; else none."""
-        tapes = [tape for tape in self._tapes if isinstance(tape, SqliteTape)]
+        tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
         alike = len(tapes) == len(self._tapes) and self._container == "db3"
         one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
         # Messages compressed one by one are compressed again, and damage is searched for row by
@@ -303,7 +300,7 @@ class _Job:
             return []
         return tapes
 
-    def _change_databases(self, tapes: Sequence[SqliteTape], part: Path) -> None:
+    def _change_databases(self, tapes: Sequence[Sqlite], part: Path) -> None:
         total, done = sum(tape.size for tape in tapes), 0
         for tape in tapes:
             database = EditedDatabase(self._path_in(part, len(self._databases)), tape)
@@ -329,10 +326,10 @@ class _Job:
         suffix = {"mcap": ".mcap", "db3": ".db3", "bag": ".bag"}[self._container]
         return part / f"{self._path.name}_{number}{suffix}"
 
-    def _write_block(self, source: int, tape: Tape, block: Block, part: Path) -> None:
+    def _write_block(self, source: int, tape: Reader, block: Block, part: Path) -> None:
         if self._untouched(block, tape):
             output = self._output(self._part_of(source, block.start), part)
-            if output.can_copy(source, block, tape):
+            if isinstance(block, Chunk) and output.can_copy(source, block, tape):
                 output.copy(block)
                 return
         touched = set()
@@ -346,9 +343,9 @@ class _Job:
         for output in touched:
             output.closed_block(block)
 
-    def _untouched(self, block: Block, tape: Tape) -> bool:
+    def _untouched(self, block: Block, tape: Reader) -> bool:
         """Whether a block stays as it is, as far as it shows without a look inside, or with one."""
-        if not block.whole or not block.channels:
+        if not block.whole or not block.counts:
             return False
         if not self._changer.keeps_all(block.start, block.end):
             window_only = not self._edits.links
@@ -356,12 +353,12 @@ class _Job:
                 return False
         if self._part_of(0, block.start) != self._part_of(0, block.end):
             return False
-        changing = [n for n in block.channels if self._changer.touches(tape.channels[n])]
+        changing = [n for n in block.counts if self._changer.touches(tape.channels[n])]
         if changing and not self._keeps_each(block, tape):
             return False
         return block.sound()
 
-    def _keeps_each(self, block: Block, tape: Tape) -> bool:
+    def _keeps_each(self, block: Block, tape: Reader) -> bool:
         """Whether all messages of a block stay as they are."""
         before = Counter(self._changer.counts)
         for message in block.messages():
@@ -407,7 +404,8 @@ class _Job:
         used = [0]
         for tape in self._tapes:
             used += tape.channels
-            used += getattr(tape, "schemas", ())
+            if isinstance(tape, ChunkedReader):
+                used += tape.schemas
         return max(used) + 1
 
     # The end
@@ -433,18 +431,16 @@ class _Job:
             done += size
             self._tell(total + total * done // max(sum(sizes), 1), 2 * total)
 
-    def _compare_one(self, output: EditedFile, tape: Tape) -> None:
+    def _compare_one(self, output: EditedFile, tape: Reader) -> None:
         counts: Counter[tuple[str, str]] = Counter()
         found: dict[tuple[str, str], int] = {}
         for block in tape.blocks():
-            position = getattr(block, "position", None)
-            copied = output.copied.get(position) if position is not None else None
-            if copied is not None:
-                assert isinstance(block, McapChunk | Rosbag1Chunk)
+            if isinstance(block, Chunk) and block.position in output.copied:
                 # Its bytes were read back and compared when they were copied.
-                if block.raw().length != copied.chunk.raw().length:
+                position = block.position
+                if block.raw().length != output.copied[position]:
                     raise InputError(f"'{self._path}' differs from its input at byte {position}.")
-                for number, count in (block.channels or {}).items():
+                for number, count in (block.counts or {}).items():
                     channel = tape.channels[number]
                     counts[channel.topic, channel.type] += count
                 continue

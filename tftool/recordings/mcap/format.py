@@ -1,13 +1,12 @@
-"""Records of an MCAP file, the chunks in its index, and their messages.
+"""Records of an MCAP file: their codes and limits, how they are packed and parsed.
 
 Source: the MCAP format specification, version 0.
 """
 
 import struct
 from array import array
-from collections.abc import Iterator
-from dataclasses import dataclass, field
-from typing import Final
+from collections.abc import Iterator, Mapping
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -15,20 +14,55 @@ from tftool.base.errors import InputError
 from tftool.base.stamps import LAST_STAMP
 from tftool.messages.native_scan import SCAN
 from tftool.messages.transform_rows import Bytes, rows_of
+from tftool.recordings.chunked import numbers_of
 from tftool.recordings.columns import Batch
 from tftool.recordings.container import File
-from tftool.recordings.contract import Indexes, Stamps
+from tftool.recordings.contract import Stamps
 
+HEADER: Final = 0x01
+FOOTER: Final = 0x02
+SCHEMA: Final = 0x03
+CHANNEL: Final = 0x04
 MESSAGE: Final = 0x05
-"""The code of a message's record."""
+CHUNK: Final = 0x06
+MESSAGE_INDEX: Final = 0x07
+CHUNK_INDEX: Final = 0x08
+ATTACHMENT: Final = 0x09
+ATTACHMENT_INDEX: Final = 0x0A
+STATISTICS: Final = 0x0B
+METADATA: Final = 0x0C
+METADATA_INDEX: Final = 0x0D
+SUMMARY_OFFSET: Final = 0x0E
+DATA_END: Final = 0x0F
+
+RECORD: Final = struct.Struct("<BQ")
+"""A record's code and the length of its body."""
+
+CHUNK_HEAD: Final = struct.Struct("<QQQI")
+"""A chunk's body: first and last log time, size unpacked, CRC; the compression's name follows."""
+
+MESSAGE_HEAD: Final = struct.Struct("<HIQQ")
+"""A message's body up to its payload: channel, sequence, both times."""
+
+MESSAGE_RECORD: Final = struct.Struct("<BQHIQQ")
+"""A message's record up to its payload."""
+
+INDEX_HEAD: Final = struct.Struct("<BQHI")
+"""A message index's record: code and length, channel, bytes of its entries."""
 
 IN_CHUNK: Final = 31
 """Bytes before a message's payload: 9 of the record, 22 of the message."""
 
-U32: Final = struct.Struct("<I")
+FOOTER_SIZE: Final = 37
+"""Bytes of the footer and the magic behind it."""
 
-_RECORD = struct.Struct("<BQ")
-_MESSAGE_RECORD = struct.Struct("<BQHIQ")
+DATA_END_SIZE: Final = 13
+
+LONGEST_METHOD: Final = 64
+"""Bytes of the name of a compression."""
+
+U16, U32, U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
+
 _CHUNK_INDEX_HEAD = struct.Struct("<QQQQI")
 _SIZES = struct.Struct("<QQ")
 _ENTRY = struct.Struct("<HQ")
@@ -37,69 +71,19 @@ _MOST_SINGLY = 4096  # messages that are read singly before they are taken
 _LARGEST_BATCH = 1 << 22  # and bytes of them
 
 
-@dataclass(slots=True, eq=False)
-class IndexedChunk:
-    """One chunk, and where its messages lie.
-
-    Attributes:
-        place: Where its records begin in the file, packed.
-        packed: Bytes of them there.
-        size: Bytes of them unpacked.
-        method: How they are packed.
-        start: Log time of its first message.
-        end: Of its last.
-        indexes: For each channel where its message index lies in the file.
-        walked: In their place, where there is none: channel, log time and place of each
-            message, found by walking.
-        cut: Whether the file ends within it.
-    """
-
-    place: int
-    packed: int
-    size: int
-    method: str
-    start: int
-    end: int
-    indexes: dict[int, int] = field(default_factory=dict)
-    walked: "WalkedMessages | None" = None
-    cut: bool = False
-
-    @property
-    def position(self) -> int:
-        """Where it is said to be."""
-        return self.place
-
-
-class WalkedMessages:
-    """Messages that were found by walking, as columns."""
-
-    __slots__ = ("channels", "log_times", "places")
-
-    def __init__(self) -> None:
-        self.channels = array("H")
-        self.log_times = array("q")
-        self.places = array("q")
-
-    def append(self, channel: int, log_time: int, place: int) -> None:
-        """Take one: its channel, when it was received, and where its record begins."""
-        self.channels.append(channel)
-        self.log_times.append(min(log_time, LAST_STAMP))
-        self.places.append(place)
-
-
 class SingleMessages:
-    """Messages read one by one from where they lie in the file, until there are some."""
+    """Messages read one by one from their places in the file, until there are some."""
 
-    def __init__(self, file: File, channels: Indexes, head: int | None) -> None:
+    def __init__(self, file: File, chosen: Mapping[int, int], head: int | None) -> None:
         """Begin with none.
 
         Args:
-            file: Where they lie.
-            channels: Of a channel the number of its stream.
+            file: The file.
+            chosen: Of a channel the number of its stream.
             head: How many bytes of each message are needed; all if None.
         """
         self._file = file
-        self._channels = channels
+        self._chosen = chosen
         self._most = 1 << 62 if head is None else head + IN_CHUNK
         self._guess = 512
         self._begin()
@@ -108,7 +92,7 @@ class SingleMessages:
         self._pieces: list[bytes] = []
         self._bytes = 0
         self._log_times = array("q")
-        self._owners = array("H")
+        self._owners = array("I")
 
     def __len__(self) -> int:
         return len(self._pieces)
@@ -141,7 +125,7 @@ class SingleMessages:
 
     def _read(self, place: int, end: int) -> None:
         piece = self._file.at(place, min(self._guess, end - place))
-        code, length, channel, _, log_time = _MESSAGE_RECORD.unpack_from(piece)
+        code, length, channel, _, log_time, _ = MESSAGE_RECORD.unpack_from(piece)
         whole = length + 9
         if code != MESSAGE or length < 22 or place + whole > end:
             raise InputError("its message index points at something else")
@@ -163,7 +147,7 @@ class SingleMessages:
             ends - sizes + IN_CHUNK,
             sizes - IN_CHUNK,
             np.frombuffer(self._log_times, dtype=np.int64),
-            self._channels[np.frombuffer(self._owners, dtype=np.uint16)],
+            numbers_of(self._owners, self._chosen),
         )
         self._begin()
         return batch
@@ -210,7 +194,7 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
         InputError: At one that goes on behind the end.
     """
     position, size = 0, len(data)
-    unpack_from = _RECORD.unpack_from
+    unpack_from = RECORD.unpack_from
     while position + 9 <= size:
         code, length = unpack_from(data, position)
         first = position + 9
@@ -222,24 +206,67 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
         yield code, first, position
 
 
-def chunk_of_index(summary: bytes, first: int, last: int, size: int) -> IndexedChunk:
-    """The chunk of which a chunk index tells, which lies there in the summary."""
-    start, end, place, length, entries = _CHUNK_INDEX_HEAD.unpack_from(summary, first)
+class IndexEntry(NamedTuple):
+    """A chunk as the summary describes it.
+
+    Attributes:
+        start: Log time of its first message.
+        end: Of its last.
+        position: Where its record begins.
+        length: Bytes of its record.
+        indexes: For each channel where its message index begins.
+        indexes_length: Bytes of those.
+        method: How it is compressed.
+        packed: Bytes of its messages in the file.
+        size: Bytes of them unpacked.
+    """
+
+    start: int
+    end: int
+    position: int
+    length: int
+    indexes: Mapping[int, int]
+    indexes_length: int
+    method: str
+    packed: int
+    size: int
+
+    @property
+    def place(self) -> int:
+        """Where its messages begin, behind 49 bytes of head and the compression's name."""
+        return self.position + 49 + len(self.method.encode("utf-8", "surrogateescape"))
+
+    def record(self) -> bytes:
+        """Its record in the summary."""
+        head = struct.pack("<QQQQ", self.start, self.end, self.position, self.length)
+        sizes = text(self.method) + _SIZES.pack(self.packed, self.size)
+        body = head + entries(self.indexes) + U64.pack(self.indexes_length) + sizes
+        return record(CHUNK_INDEX, body)
+
+
+def index_entry(summary: bytes, first: int, last: int, size: int) -> IndexEntry:
+    """Parse a chunk index in the summary of a file of `size` bytes.
+
+    Raises:
+        InputError: If it is cut, or names bytes beyond the file's end.
+    """
+    start, end, position, length, count = _CHUNK_INDEX_HEAD.unpack_from(summary, first)
     indexes = entries_at(summary, first + 32, last)
-    text = first + 44 + entries
-    method, position = text_at(summary, text, last)
-    if position + 16 > last:
+    (indexes_length,) = U64.unpack_from(summary, first + 36 + count)
+    method, place = text_at(summary, first + 44 + count, last)
+    if place + 16 > last:
         raise InputError("a chunk's index is cut")
-    packed, unpacked = _SIZES.unpack_from(summary, position)
-    # Before them lie 45 bytes, and the name of the compression as it stands here.
-    records = place + 45 + position - text
-    if records + packed > size or place + length > size:
-        raise InputError(f"a chunk at byte {place} lies beyond the file's end")
-    return IndexedChunk(records, packed, unpacked, method, start, end, indexes)
+    packed, unpacked = _SIZES.unpack_from(summary, place)
+    found = IndexEntry(
+        start, end, position, length, indexes, indexes_length, method, packed, unpacked
+    )
+    if found.place + packed > size or position + length > size:
+        raise InputError(f"a chunk at byte {position} lies beyond the file's end")
+    return found
 
 
 def entries_at(body: bytes, place: int, end: int) -> dict[int, int]:
-    """A map of channels to numbers."""
+    """Parse a map of channels to numbers."""
     (length,) = U32.unpack_from(body, place)
     place += 4
     if place + length > end:
@@ -247,43 +274,62 @@ def entries_at(body: bytes, place: int, end: int) -> dict[int, int]:
     return dict(_ENTRY.iter_unpack(body[place : place + length // 10 * 10]))
 
 
-READABLE: Final = "backslashreplace"
-"""How a text is read that is shown."""
-
-AS_IT_IS: Final = "surrogateescape"
-"""How a text is read that is written again, byte for byte."""
-
-
-def strings_at(body: bytes, place: int, errors: str = READABLE) -> dict[str, str]:
-    """A map of texts; `errors` as of `text_at`."""
+def strings_at(body: bytes, place: int) -> dict[str, str]:
+    """Parse a map of texts."""
     (length,) = U32.unpack_from(body, place)
     place += 4
     end = place + length
     found: dict[str, str] = {}
     while place < end and len(found) < 1000:
-        key, place = text_at(body, place, errors=errors)
-        found[key], place = text_at(body, place, errors=errors)
+        key, place = text_at(body, place)
+        found[key], place = text_at(body, place)
     return found
 
 
-def text_at(
-    body: bytes, place: int, last: int | None = None, errors: str = READABLE
-) -> tuple[str, int]:
-    """A text, and where it ends; not behind `last`, if that is said.
+def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]:
+    """Parse a text; return it and where it ends.
 
     Args:
         body: The record.
         place: Where it begins.
         last: Where it ends at the latest.
-        errors: How bytes that are not UTF-8 are read: to be shown, or to be written again.
+
+    Returns:
+        The text, in which bytes that are not UTF-8 are surrogates.
     """
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length
     if end > (len(body) if last is None else last):
         raise InputError(f"a text announces {length} bytes")
-    return body[place + 4 : end].decode("utf-8", errors), end
+    return body[place + 4 : end].decode("utf-8", "surrogateescape"), end
 
 
-def reason_of(error: Exception) -> str:
-    """Return why a record cannot be read."""
-    return "a record is cut" if isinstance(error, struct.error) else str(error)
+def record(code: int, body: bytes) -> bytes:
+    """Pack a record."""
+    return RECORD.pack(code, len(body)) + body
+
+
+def text(words: str) -> bytes:
+    """Pack a text behind its length."""
+    raw = words.encode("utf-8", "surrogateescape")
+    return U32.pack(len(raw)) + raw
+
+
+def strings(values: Mapping[str, str]) -> bytes:
+    """Pack a map of texts behind its length."""
+    packed = b"".join(text(key) + text(value) for key, value in values.items())
+    return U32.pack(len(packed)) + packed
+
+
+def entries(values: Mapping[int, int]) -> bytes:
+    """Pack a map of channels to numbers behind its length."""
+    packed = b"".join(struct.pack("<HQ", key, value) for key, value in values.items())
+    return U32.pack(len(packed)) + packed
+
+
+def message_index(channel: int, index: "array[int]") -> bytes:
+    """Pack the record of a message index: log times and places by turns."""
+    pairs = index.tobytes()
+    return (
+        RECORD.pack(MESSAGE_INDEX, 6 + len(pairs)) + struct.pack("<HI", channel, len(pairs)) + pairs
+    )

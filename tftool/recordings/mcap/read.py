@@ -1,11 +1,12 @@
-"""MCAP, by its index where there is one, else from front to back up to the damage.
+"""MCAP read: by its index where there is one, else from front to back up to the damage.
 
 Source: the MCAP format specification, version 0.
 """
 
-import itertools
 import struct
-from collections.abc import Collection, Iterator
+import zlib
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -13,395 +14,453 @@ import numpy as np
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import LAST_STAMP
-from tftool.recordings.columns import Batch, in_order, words_at
-from tftool.recordings.container import (
-    MOST_STREAMS,
-    ChunkedFile,
-    MessageStream,
-    Offers,
-    check_told,
-    offers_of,
-)
-from tftool.recordings.contract import Indexes, Progress, Stamps
+from tftool.recordings.channel import Channel
+from tftool.recordings.chunked import Chunk, ChunkedReader, Head, Walked, reason_of
+from tftool.recordings.columns import Batch, in_order
+from tftool.recordings.container import MOST_STREAMS, CopiedAttachment, Taken, check_told
+from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import Ahead
 from tftool.recordings.find import MCAP_MAGIC
 from tftool.recordings.mcap.format import (
+    ATTACHMENT,
+    CHANNEL,
+    CHUNK,
+    CHUNK_HEAD,
+    CHUNK_INDEX,
+    DATA_END,
+    DATA_END_SIZE,
+    FOOTER,
+    FOOTER_SIZE,
+    HEADER,
     IN_CHUNK,
+    INDEX_HEAD,
+    LONGEST_METHOD,
     MESSAGE,
+    MESSAGE_HEAD,
+    MESSAGE_INDEX,
+    METADATA,
+    RECORD,
+    SCHEMA,
+    STATISTICS,
     U32,
-    IndexedChunk,
+    U64,
     SingleMessages,
-    WalkedMessages,
-    chunk_of_index,
     entries_at,
+    index_entry,
     indexed,
-    reason_of,
     records_in,
     strings_at,
     text_at,
 )
+from tftool.recordings.pieces import Piece
 
-_FOOTER: Final = 0x02
-_SCHEMA: Final = 0x03
-_CHANNEL: Final = 0x04
-_TELLING: Final = (_SCHEMA, _CHANNEL)
-_CHUNK: Final = 0x06
-_MESSAGE_INDEX: Final = 0x07
-_CHUNK_INDEX: Final = 0x08
-_STATISTICS: Final = 0x0B
-_DATA_END: Final = 0x0F
-
-_RECORD = struct.Struct("<BQ")
-_INDEX_HEAD = struct.Struct("<BQHI")
-_CHUNK_HEAD = struct.Struct("<QQQII")
-_MESSAGE_HEAD = struct.Struct("<HIQQ")
-_U16, _U64 = struct.Struct("<H"), struct.Struct("<Q")
-
-_FOOTER_SIZE = 37
+_TELLING: Final = (SCHEMA, CHANNEL)
 _SPARSE = 4096  # bytes that one message more is worth when reading them singly
 _BLOCK = 1 << 18
 _INDEX_AT_ONCE = 128
+_MOST_HELD: Final = 4096  # messages outside of chunks that are given at once
+
+MOST_BYTES_HELD: Final = 1 << 26
+"""Bytes of messages outside of chunks that are given at once, but for the last one."""
 
 
-class Mcap:
-    """An MCAP file; see `Container`."""
+class Mcap(ChunkedReader):
+    """An MCAP file; see `Reader`."""
 
     kind = "MCAP"
+    container = "mcap"
+    magic = MCAP_MAGIC
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, by_index: bool = True) -> None:
         """Open it and find out what is in it.
+
+        Args:
+            path: Where it is.
+            by_index: Whether its messages are to be read by its index, which is made where the
+                file has none; otherwise they are read with `blocks`.
 
         Raises:
             InputError: If nothing of it can be read.
             OSError: If the file cannot be opened.
         """
-        self._file = ChunkedFile(path)
-        self.size = self._file.size
-        self.start = self.end = 0
-        self.streams: list[MessageStream] = []
-        self.counts: list[int] = []
-        self.damage = self._file.damage
-        self.profile = ""
-        self._schemas: dict[int, tuple[str, str, bytes]] = {}
+        style = {
+            "profile": "",
+            "library": "",
+            "compression": "",
+            "chunked": False,
+            "with_crc": False,
+            "with_chunk_crc": False,
+            "chunk_size": 0,
+        }
+        super().__init__(path, style)
+        self.is_indexed = False
         self._used_schemas: set[int] = set()
-        self._numbers: dict[int, int] = {}  # of a channel: its stream
-        self._chunks: list[IndexedChunk] = []
-        self._loose = WalkedMessages()
+        self._schema_of: dict[int, int] = {}
+        self._by_index = by_index
+        self._loose = Walked()
         self._index_sizes: dict[int, int] = {}  # of a channel: bytes that one takes, about
+        self._ended_at, self._ended = 0, False
         try:
-            self._open(path)
+            self._open()
         except BaseException:
             self.close()
             raise
 
-    def _open(self, path: Path) -> None:
+    def _open(self) -> None:
         """Find out what is in it, by its index or without."""
-        if self._file.up_to(0, len(MCAP_MAGIC)) != MCAP_MAGIC:
-            raise InputError(f"'{path}' is no MCAP file.")
+        if not self._by_index:
+            self._read_style()
+        complete = False
         try:
             complete = self._read_summary()
-        except (InputError, struct.error, UnicodeDecodeError) as error:
-            complete = False
+        except (InputError, struct.error) as error:
+            self._forget()
             self.damage.append(f"Its summary cannot be read ({reason_of(error)}).")
-        if not complete:
-            self._scan()
+        if self._by_index and not complete:
+            self._forget()
+            self._index()
 
     @property
     def bytes_read(self) -> int:
         """Return the bytes of the file that have been read so far."""
-        return self._file.read
+        return self.read
 
-    def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+    def origin(self, number: int) -> tuple[int, tuple[str, str, bytes] | None]:
+        """Return the number of a channel's schema, and the schema; see `McapWriter.adopt`."""
+        schema = self._schema_of[number]
+        return schema, self.schemas[schema] if schema else None
 
     # What is in it
 
+    def _read_style(self) -> None:
+        """Find out by its first records how it is written."""
+        position = len(MCAP_MAGIC)
+        try:
+            while position + 9 <= self.size:
+                code, length = RECORD.unpack(self.at(position, 9))
+                if code == HEADER:
+                    head = self.at(position + 9, length)
+                    self.style["profile"], place = text_at(head, 0)
+                    self.style["library"], _ = text_at(head, place)
+                elif code == CHUNK:
+                    self._chunk_at(position, position + 9 + length)
+                    return
+                elif code in (0, MESSAGE, DATA_END, FOOTER):
+                    return
+                position += 9 + length
+        except (InputError, struct.error):
+            return
+
     def _read_summary(self) -> bool:
-        """Take what the summary tells; whether that is all there is to know."""
+        """Take what the summary tells; whether that is all there is to know.
+
+        Raises:
+            InputError: If it is damaged.
+            struct.error: Likewise.
+        """
         size = self.size
-        if size < len(MCAP_MAGIC) + _FOOTER_SIZE:
-            return False
-        tail = self._file.at(size - _FOOTER_SIZE, _FOOTER_SIZE)
-        if not tail.endswith(MCAP_MAGIC) or tail[0] != _FOOTER:
+        tail = self.at(max(0, size - FOOTER_SIZE), min(size, FOOTER_SIZE))
+        if not tail.endswith(MCAP_MAGIC) or tail[0] != FOOTER:
             self.damage.append("The recording was not closed.")
             return False
-        (begin,) = _U64.unpack_from(tail, 9)
-        if begin == 0:
+        (begin,) = U64.unpack_from(tail, 9)
+        (crc,) = U32.unpack_from(tail, 25)
+        if not begin:
             return False
-        end = size - _FOOTER_SIZE
-        if not len(MCAP_MAGIC) <= begin <= end:
+        if not len(MCAP_MAGIC) <= begin <= size - FOOTER_SIZE:
             raise InputError(f"it should begin at byte {begin}")
-        summary = self._file.at(begin, end - begin)
-        chunks: list[IndexedChunk] = []
+        summary = self.at(begin, size - FOOTER_SIZE - begin)
+        if crc and zlib.crc32(tail[:25], zlib.crc32(summary)) != crc:
+            raise InputError("its CRC is wrong")
         counts: dict[int, int] = {}
         total, span = 0, (0, 0)
         has_statistics = False
         for code, first, last in records_in(summary):
             if code in _TELLING:
-                self._learn(code, summary, first, last)
-            elif code == _CHUNK_INDEX:
-                chunks.append(chunk_of_index(summary, first, last, size))
-            elif code == _STATISTICS:
+                self._describe(code, summary[first:last])
+            elif code == CHUNK_INDEX and self._by_index:
+                self._take_entry(summary, first, last)
+            elif code == STATISTICS:
                 has_statistics = True
-                (total,) = _U64.unpack_from(summary, first)
+                (total,) = U64.unpack_from(summary, first)
                 span = struct.unpack_from("<QQ", summary, first + 26)
                 counts = entries_at(summary, first + 42, last)
-        if not chunks and (total or not has_statistics):
-            # Messages outside chunks stand in no index.
-            self._forget()
+        self.is_indexed = True
+        if not self._by_index:
+            data_end = self.at(begin - DATA_END_SIZE, DATA_END_SIZE)
+            if data_end[0] == DATA_END:
+                self.style["with_crc"] = data_end[9:] != bytes(4)
+            return True
+        if not self._chunks and (total or not has_statistics):
+            # Messages outside chunks are in no index.
             return False
-        for channel, count in counts.items():
-            if channel in self._numbers:
-                self.counts[self._numbers[channel]] += count
-        if not has_statistics:
-            span = min(one.start for one in chunks), max(one.end for one in chunks)
+        self._chunks.sort(key=lambda one: one.position)
+        if has_statistics:
+            self._count(counts)
+        else:
+            span = min(one.start for one in self._chunks), max(one.end for one in self._chunks)
+            for chunk in self._chunks:
+                self._count_indexed(chunk)
         self.start, self.end = (min(moment, LAST_STAMP) for moment in span)
-        self._chunks = sorted(chunks, key=lambda one: one.place)
-        if not has_statistics:
-            for chunk in chunks:
-                self._count(chunk)
         return True
 
+    def _take_entry(self, summary: bytes, first: int, last: int) -> None:
+        """Take a chunk as the summary describes it."""
+        entry = index_entry(summary, first, last, self.size)
+        self._chunks.append(
+            Chunk(
+                self,
+                entry.position,
+                entry.place,
+                entry.packed,
+                entry.size,
+                entry.method,
+                entry.start,
+                entry.end,
+                indexes=dict(entry.indexes),
+            )
+        )
+
     def _forget(self) -> None:
-        self.streams.clear()
-        self.counts.clear()
-        self._numbers.clear()
+        """Drop what was learned, to begin again."""
+        super()._forget()
+        self.is_indexed = False
+        self.schemas.clear()
+        self._used_schemas.clear()
+        self._schema_of.clear()
 
-    def _learn(self, code: int, data: bytes, first: int, last: int) -> None:
-        """Take what a record tells of a schema or a channel; its body lies there."""
-        check_told(last - first)
-        (self._take_schema if code == _SCHEMA else self._take_channel)(data[first:last])
-
-    def _take_schema(self, body: bytes) -> None:
-        (number,) = _U16.unpack_from(body)
-        name, place = text_at(body, 2)
-        encoding, place = text_at(body, place)
-        (length,) = U32.unpack_from(body, place)
-        # Some writers repeat a schema: the last definition counts, until a channel names it.
-        if len(self._schemas) < MOST_STREAMS and number not in self._used_schemas:
-            self._schemas[number] = (name, encoding, body[place + 4 : place + 4 + length])
-
-    def _take_channel(self, body: bytes) -> None:
-        channel, schema = struct.unpack_from("<HH", body)
-        if channel in self._numbers:
+    def _describe(self, code: int, body: bytes) -> None:
+        """Take what a record tells of a schema or a channel."""
+        check_told(len(body))
+        number, schema = struct.unpack_from("<HH", body)
+        if code == SCHEMA:
+            name, place = text_at(body, 2)
+            encoding, place = text_at(body, place)
+            (length,) = U32.unpack_from(body, place)
+            # Some writers repeat a schema: the last definition counts, until a channel names it.
+            if len(self.schemas) < MOST_STREAMS and number not in self._used_schemas:
+                self.schemas[number] = (name, encoding, body[place + 4 : place + 4 + length])
+            return
+        if number in self.channels:
             return
         topic, place = text_at(body, 4)
         encoding, place = text_at(body, place)
         metadata = strings_at(body, place)
-        name, kind, data = self._schemas.get(schema, ("", "", b""))
+        if schema not in self.schemas:
+            schema = 0  # Of none: the record that describes it is damaged.
+        name, kind, data = self.schemas.get(schema, ("", "", b""))
         self._used_schemas.add(schema)
-        definition = ""
-        if kind in ("ros2msg", "ros2idl", "ros1msg", "jsonschema"):
-            definition = data.decode("utf-8", "backslashreplace")
-        node = metadata.get("callerid", "")
-        offers = offers_of(metadata.get("offered_qos_profiles", ""))
-        if metadata.get("latching") == "1":
-            offers = Offers("transient_local", "", 1)
-        self._numbers[channel] = len(self.streams)
-        self.streams.append(MessageStream(topic, name, encoding, definition, node, offers))
-        self.counts.append(0)
+        self._schema_of[number] = schema
+        self._learn(number, Channel(topic, name, encoding, kind, data, tuple(metadata.items())))
 
-    def _count(self, chunk: IndexedChunk) -> None:
+    def _count_indexed(self, chunk: Chunk) -> None:
         """Count a chunk's messages by its message indexes' lengths."""
         for channel, place in chunk.indexes.items():
-            number = self._numbers.get(channel)
-            if number is None:
-                continue
-            try:
-                self.counts[number] += len(self._pairs(channel, place))
-            except InputError as error:
-                self._file.note(f"A message index cannot be read ({error}).")
+            if channel in self._numbers:
+                try:
+                    self._count({channel: len(self._pairs(channel, place))})
+                except InputError as error:
+                    self.note(f"A message index cannot be read ({error}).")
 
     # From front to back
 
-    def _scan(self) -> None:
-        """Find out what is in a file without an index, up to its end or its damage."""
-        self._forget()
-        self._schemas.clear()
-        self._used_schemas.clear()
-        position, ended = self._find_records()
-        self._count_found()
-        found = sum(self.counts)
-        if not ended:
-            self.damage.append(
-                f"The recording breaks off at byte {position} of {self.size}: "
-                f"{found} messages were read up to there."
-            )
-        if not found and not self.streams and not ended:
-            raise InputError(
-                f"'{self._file.path}' is damaged: no message could be read ({self.damage[-1]})"
-            )
+    def _index(self) -> None:
+        """Make an index of a file that has none, up to its end or its damage.
 
-    def _find_records(self) -> tuple[int, bool]:
-        """Take in chunks, messages and what tells of them, record by record.
-
-        Returns:
-            Where the last whole record ends, and whether the file says that it ends there.
+        Raises:
+            InputError: If nothing of it can be read.
         """
-        file, size = self._file, self.size
-        position, block, base = len(MCAP_MAGIC), b"", 0
+        self._scan(self._found_chunks())
+        self._count(Counter(self._loose.channels))
+        if not self._ended:
+            self._note_end(self._ended_at)
+        moments = [moment for one in self._chunks for moment in (one.start, one.end) if moment]
+        moments += [moment for moment in self._loose.span if moment]
+        if moments:
+            self.start, self.end = min(min(moments), LAST_STAMP), min(max(moments), LAST_STAMP)
+
+    def _found_chunks(self) -> Iterator[Chunk]:
+        """Its chunks; the messages between them are noted."""
+        for block in self._pieces():
+            if isinstance(block, Chunk):
+                yield block
+            else:
+                self._loose.extend(block.found)
+
+    def blocks(self) -> "Iterator[Chunk | Loose]":
+        """Its chunks, and the messages between them; what is beside them goes to `extras`."""
+        yield from self._pieces()
+        if not self._ended:
+            self.note(f"The recording breaks off at byte {self._ended_at}.")
+
+    def _pieces(self) -> "Iterator[Chunk | Loose]":
+        """Go through it record by record; where it ends, and whether it says so, is noted."""
+        position, size = len(MCAP_MAGIC), self.size
+        block, base, code = b"", 0, 0
+        loose = Loose(self)
+        self._ended = False
         while position + 9 <= size:
             if not base <= position <= base + len(block) - 64:
-                base, block = position, file.up_to(position, _BLOCK)
-            code, length = _RECORD.unpack_from(block, position - base)
-            body = position + 9
-            whole = body + length <= size
-            if code == 0 or (not whole and code not in (_CHUNK, MESSAGE)):
+                # Many small records follow each other; behind a chunk another one follows.
+                base, block = position, self.up_to(position, 64 if code == CHUNK else _BLOCK)
+            code, length = RECORD.unpack_from(block, position - base)
+            body, end = position + 9, position + 9 + length
+            if code in (DATA_END, FOOTER):
+                self._ended = True
                 break
-            if code in (_FOOTER, _DATA_END):
-                return position, True
+            if code == 0 or (end > size and code != CHUNK):
+                break
             try:
-                if code == _CHUNK:
-                    self._take_chunk(body, min(length, size - body), not whole)
-                elif code == MESSAGE and whole:
-                    _check_length(length)
-                    if body - base + 22 > len(block):
-                        base, block = position, file.up_to(position, _BLOCK)
-                    channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(block, body - base)
-                    self._loose.append(channel, log_time, position)
-                elif code == _MESSAGE_INDEX and self._chunks and length >= 6:
-                    (channel,) = _U16.unpack(file.at(body, 2))
-                    self._chunks[-1].indexes[channel] = position
+                if len(loose) and (code not in (MESSAGE, *_TELLING) or loose.is_full(end)):
+                    yield loose
+                    loose = Loose(self)
+                if code == CHUNK:
+                    chunk = self._chunk_at(position, end)
+                    yield chunk
+                    if end > size:
+                        break
+                    end = chunk.behind
+                elif code == MESSAGE:
+                    check_length(length)
+                    channel, _, log_time, _ = MESSAGE_HEAD.unpack_from(block, body - base)
+                    loose.found.append(channel, log_time, position + IN_CHUNK, length - 22)
                 elif code in _TELLING:
                     check_told(length)
-                    self._learn(code, file.at(body, length), 0, length)
+                    self._describe(code, self.at(body, length))
+                elif not self._by_index:
+                    self._take_extra(code, position, length)
             except (InputError, struct.error) as error:
-                self._file.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
-            if not whole:
-                break
-            position = body + length
-        return position, False
+                self.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
+                if end > size:
+                    break
+            position = end
+        self._ended_at = position
+        if len(loose):
+            yield loose
 
-    def _count_found(self) -> None:
-        """Count the messages of what was found, and see when they begin and end."""
-        for chunk in self._chunks:
-            # A chunk's own records tell of channels that have not come up before.
-            if not chunk.indexes or not chunk.indexes.keys() <= self._numbers.keys():
-                self._walk(chunk, learns=True)
-            else:
-                self._count(chunk)
-        for channel in self._loose.channels:
-            if channel in self._numbers:
-                self.counts[self._numbers[channel]] += 1
-        moments = [moment for one in self._chunks for moment in (one.start, one.end) if moment]
-        moments += [f(self._loose.log_times) for f in (min, max) if self._loose.log_times]
-        if moments:
-            self.start = min(min(moments), LAST_STAMP)
-            self.end = min(max(moments), LAST_STAMP)
-
-    def _take_chunk(self, body: int, length: int, cut: bool) -> None:
-        head = self._file.up_to(body, min(length, 256))
-        start, end, size, _, name = _CHUNK_HEAD.unpack_from(head)
-        if name > 64:
-            raise InputError(f"a compression's name announces {name} bytes")
-        method = head[32 : 32 + name].decode("utf-8", "backslashreplace")
-        (packed,) = _U64.unpack_from(head, 32 + name)
-        place = body + 40 + name
-        there = min(packed, body + length - place)
-        self._chunks.append(
-            IndexedChunk(place, there, size, method, start, end, cut=cut or there < packed)
+    def _chunk_at(self, position: int, end: int) -> Chunk:
+        """The chunk whose record begins and ends there."""
+        stop = min(end, self.size)
+        head = self.at(position, min(stop - position, 256))
+        low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
+        (length,) = U32.unpack_from(head, 37)
+        if length > LONGEST_METHOD:
+            raise InputError(f"a compression's name announces {length} bytes")
+        method = head[41 : 41 + length].decode("utf-8", "surrogateescape")
+        (packed,) = U64.unpack_from(head, 41 + length)
+        place = position + 49 + length
+        there = min(packed, stop - place)
+        chunk = Chunk(
+            self,
+            position,
+            place,
+            there,
+            size,
+            method,
+            min(low, LAST_STAMP),
+            min(high, LAST_STAMP),
+            crc,
+            end > self.size or there < packed,
+            stop - position,
+            stop,
         )
+        style = self.style
+        style["chunked"] = True
+        style["compression"] = method or "none"
+        style["with_chunk_crc"] = bool(crc)
+        style["chunk_size"] = max(style["chunk_size"], size)
+        if not chunk.cut:
+            self._read_indexes(chunk)
+        known = chunk.counts is not None and chunk.counts.keys() <= self.channels.keys()
+        # Without a summary its own records may be all that describes channels behind it.
+        chunk.whole = known and self.is_indexed
+        return chunk
 
-    def _walk(self, chunk: IndexedChunk, *, learns: bool) -> None:
-        """Walk through a chunk's records and learn where its messages are.
+    def _read_indexes(self, chunk: Chunk) -> None:
+        """Step over the message indexes behind a chunk, and note what they tell."""
+        counts: dict[int, int] = {}
+        position = chunk.behind
+        while position + 15 <= self.size:
+            code, length, channel, entries = INDEX_HEAD.unpack(self.at(position, 15))
+            end = position + 9 + length
+            if code != MESSAGE_INDEX or end > self.size:
+                break
+            if entries != length - 6 or entries % 16:
+                # Without it the others do not tell all.
+                chunk.indexes.clear()
+                return
+            if entries:
+                counts[channel] = counts.get(channel, 0) + entries // 16
+            chunk.indexes[channel] = position
+            position = end
+        chunk.behind = position
+        if chunk.indexes:
+            chunk.counts = counts
 
-        Args:
-            chunk: The chunk.
-            learns: Whether to count them, and to learn of channels: those that were found when
-                the file was opened stay as they are.
-        """
-        found = chunk.walked = WalkedMessages()
-        numbers, counts = self._numbers, self.counts
-        low, high = LAST_STAMP, 0
-        try:
-            data = bytes(self._file.unpacked(chunk))
-            for code, first, last in records_in(data):
-                if code == MESSAGE:
-                    _check_length(last - first)
-                    channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(data, first)
-                    found.append(channel, log_time, first - 9)
-                    low, high = min(low, log_time), max(high, log_time)
-                    number = numbers.get(channel)
-                    if learns and number is not None:
-                        counts[number] += 1
-                elif learns and code in _TELLING:
-                    self._learn(code, data, first, last)
-        except (InputError, struct.error) as error:
-            if not chunk.cut:
-                self._file.note_chunk(chunk, reason_of(error))
-        if chunk.cut or len(found.places):
-            # What is announced may not have been reached.
-            chunk.start, chunk.end = (low, high) if len(found.places) else (0, 0)
+    def _take_extra(self, code: int, position: int, length: int) -> None:
+        """Take a record that is neither a message nor needed to read one."""
+        if code == ATTACHMENT:
+            self._take_attachment(position, length)
+        elif code == METADATA:
+            self.extras.metadata.append(self.at(position + 9, length))
+
+    def _take_attachment(self, position: int, length: int) -> None:
+        """Note where an attachment is, which may be larger than memory."""
+        body = position + 9
+        place = body + 16
+        for _ in range(2):
+            (size,) = U32.unpack(self.at(place, 4))
+            place += 4 + size
+        end = body + length - 4
+        if place + 8 > end:
+            raise InputError("it is too short for an attachment")
+        names = self.at(body + 16, place - body - 16)
+        (size,) = U64.unpack(self.at(place, 8))
+        (crc,) = U32.unpack(self.at(end, 4))
+        if crc and Piece(self.fileno(), body, length - 4).crc() != crc:
+            self.note(f"The CRC of the attachment at byte {position} is wrong: it is left out.")
+            return
+        whole = Piece(self.fileno(), position, 9 + length)
+        self.extras.attachments.append(CopiedAttachment(whole, self.at(body, 16), names, size))
+
+    def _heads(self, data: bytes, *, learns: bool) -> Iterator[Head]:
+        """The messages among some records; see `ChunkedReader`."""
+        for code, first, last in records_in(data):
+            if code == MESSAGE:
+                check_length(last - first)
+                channel, sequence, log_time, publish_time = MESSAGE_HEAD.unpack_from(data, first)
+                yield Head(channel, log_time, first + 22, last, publish_time, sequence)
+            elif learns and code in _TELLING:
+                self._describe(code, data[first:last])
 
     # Messages
-
-    def expected(self, wanted: Collection[int]) -> int:
-        """Return the messages of some streams, as the file counts them."""
-        return sum(self.counts[number] for number in wanted)
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
         """The messages of some streams; see `Container`."""
-        channels = np.full(65_536, -1, dtype=np.int32)
-        for channel, number in self._numbers.items():
-            if number in wanted:
-                channels[channel] = number
-        chosen = {channel for channel, number in self._numbers.items() if number in wanted}
-        read = [
-            chunk.walked is not None or not chunk.indexes.keys().isdisjoint(chosen)
-            for chunk in self._chunks
-        ]
-        # Those that were walked are unpacked then and there; the others in order.
-        with Ahead(itertools.compress(self._chunks, read), self._file.packed) as ahead:
-            yield from self._chunk_batches(read, chosen, channels, ahead, progress, head)
-        yield from self._loose_batches(channels, progress, head)
+        chosen = self._chosen(wanted)
+        singly = SingleMessages(self, chosen, head)
 
-    def _chunk_batches(
-        self,
-        read: list[bool],
-        chosen: set[int],
-        channels: Indexes,
-        ahead: Ahead,
-        progress: Progress | None,
-        head: int | None,
-    ) -> Iterator[Batch]:
-        singly = SingleMessages(self._file, channels, head)
-        for chunk, is_read in zip(self._chunks, read, strict=True):
-            batch = None
-            if is_read:
-                try:
-                    batch = self._batch(chunk, chosen, channels, singly, ahead)
-                except (InputError, struct.error) as error:
-                    self._file.note_chunk(chunk, reason_of(error))
-                    try:
-                        batch = self._rest_of(chunk, channels)
-                    except (InputError, struct.error) as worse:
-                        self._file.note(
-                            f"A chunk at byte {chunk.place} is lost ({reason_of(worse)})."
-                        )
+        def batch_of(chunk: Chunk, ahead: Ahead) -> Batch | None:
+            return self._batch(chunk, chosen, singly, ahead)
+
+        for chunk, batch in self._chunk_batches(chosen, batch_of):
             # What was read singly before it comes before it.
             if singly.is_full or (batch is not None and len(singly)):
                 yield singly.taken()
-            if batch is not None and len(batch):
+            if batch is not None:
                 yield batch
             if progress is not None:
                 progress(chunk.place + chunk.packed, self.size)
         if len(singly):
             yield singly.taken()
+        yield from self._loose_batches(chosen, progress, head)
 
     def _batch(
-        self,
-        chunk: IndexedChunk,
-        chosen: set[int],
-        channels: Indexes,
-        singly: SingleMessages,
-        ahead: Ahead,
+        self, chunk: Chunk, chosen: Mapping[int, int], singly: SingleMessages, ahead: Ahead
     ) -> Batch | None:
         """A chunk's messages; None where there are none, or they were read singly."""
-        if chunk.walked is not None:
-            return self._rest_of(chunk, channels, ahead)
         parts = []
         for channel, place in chunk.indexes.items():
             if channel in chosen:
@@ -411,56 +470,31 @@ class Mcap:
         if not parts:
             return None
         count = sum(len(pairs) for pairs, _ in parts)
-        if chunk.method in ("", "none") and count * _SPARSE < chunk.packed:
+        if not chunk.is_packed and count * _SPARSE < chunk.packed:
             places = sorted(place for pairs, _ in parts for place in pairs[:, 1].tolist())
             singly.read(places, chunk.place, chunk.place + chunk.packed)
             return None
-        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
+        data = np.frombuffer(self.unpacked(chunk, ahead), dtype=np.uint8)
         return in_order(
             [
-                Batch(data, *indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
+                Batch(data, *indexed(data, pairs, channel), np.full(len(pairs), chosen[channel]))
                 for pairs, channel in parts
             ]
         )
 
-    def _rest_of(
-        self, chunk: IndexedChunk, channels: Indexes, ahead: Ahead | None = None
-    ) -> Batch | None:
-        """What walking finds in a chunk, whatever its index says."""
-        if chunk.walked is None:
-            self._walk(chunk, learns=False)
-        walked = chunk.walked
-        assert walked is not None
-        if not len(walked.places):
-            return None
-        owners = np.frombuffer(walked.channels, dtype=np.uint16)
-        which = np.flatnonzero(channels[owners] >= 0)
-        if not len(which):
-            return None
-        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
-        places = np.frombuffer(walked.places, dtype=np.int64)[which]
-        return Batch(
-            data,
-            places + IN_CHUNK,
-            words_at(data, places + 1, "<i8") - 22,
-            np.frombuffer(walked.log_times, dtype=np.int64)[which],
-            channels[owners[which]],
-        )
-
     def _loose_batches(
-        self, channels: Indexes, progress: Progress | None, head: int | None
+        self, chosen: Mapping[int, int], progress: Progress | None, head: int | None
     ) -> Iterator[Batch]:
         """Messages outside chunks."""
-        if not len(self._loose.channels):
-            return
-        owners = np.frombuffer(self._loose.channels, dtype=np.uint16)
-        places = np.frombuffer(self._loose.places, dtype=np.int64)[channels[owners] >= 0]
-        singly = SingleMessages(self._file, channels, head)
-        for place in places.tolist():
+        singly = SingleMessages(self, chosen, head)
+        for channel, start in zip(self._loose.channels, self._loose.starts, strict=True):
+            if channel not in chosen:
+                continue
+            place = start - IN_CHUNK
             try:
                 singly.read([place], 0, self.size)
             except InputError as error:
-                self._file.note(f"A message at byte {place} cannot be read ({error}).")
+                self.note(f"A message at byte {place} cannot be read ({error}).")
             if singly.is_full:
                 yield singly.taken()
                 if progress is not None:
@@ -472,17 +506,74 @@ class Mcap:
         """Log time and place of each message that a message index tells, shape (n, 2)."""
         # As a rule all of one at once: that of the chunk before was about as long.
         guess = self._index_sizes.get(channel, _INDEX_AT_ONCE)
-        head = self._file.up_to(place, guess)
-        code, length, told, count = _INDEX_HEAD.unpack_from(head)
-        if code != _MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
+        head = self.up_to(place, guess)
+        code, length, told, count = INDEX_HEAD.unpack_from(head)
+        if code != MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
             raise InputError(f"no message index of its is at byte {place}")
         if 15 + count > len(head):
-            head = self._file.at(place, 15 + count)
+            head = self.at(place, 15 + count)
         self._index_sizes[channel] = max(15 + count * 17 // 16, _INDEX_AT_ONCE)
         pairs = np.frombuffer(head, dtype=np.int64, count=count // 8, offset=15)
         return pairs.reshape(-1, 2)
 
 
-def _check_length(length: int) -> None:
-    if length < _MESSAGE_HEAD.size:
+class Loose:
+    """Messages outside of chunks; see `Block`."""
+
+    whole = False
+    counts: Mapping[int, int] | None = None
+
+    def __init__(self, reader: Mcap) -> None:
+        """Begin with none."""
+        self.found = Walked()
+        self._reader = reader
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    @property
+    def start(self) -> int:
+        """Log time of the first one."""
+        return self.found.span[0]
+
+    @property
+    def end(self) -> int:
+        """Log time of the last one."""
+        return self.found.span[1]
+
+    def is_full(self, end: int) -> bool:
+        """Whether they are enough without the one that ends there."""
+        too_long = end - self.found.starts[0] > MOST_BYTES_HELD
+        return too_long or len(self) >= _MOST_HELD
+
+    def sound(self) -> bool:
+        """Whether they are as written; there is no proof of that."""
+        return True
+
+    def messages(self) -> list[Taken]:
+        """Read them."""
+        reader, found = self._reader, self.found
+        begin = found.starts[0] - IN_CHUNK
+        try:
+            data = reader.at(begin, found.starts[-1] + found.lengths[-1] - begin)
+        except InputError as error:
+            reader.note(f"A record at byte {begin} cannot be read ({error}).")
+            return []
+        messages = []
+        for start, length in zip(found.starts, found.lengths, strict=True):
+            first = start - begin
+            channel, sequence, log_time, publish_time = MESSAGE_HEAD.unpack_from(data, first - 22)
+            payload = data[first : first + length]
+            moment = min(log_time, LAST_STAMP)
+            messages.append(Taken(channel, moment, payload, publish_time, sequence))
+        return reader.known(messages)
+
+
+def check_length(length: int) -> None:
+    """Refuse a message's record that is shorter than its head.
+
+    Raises:
+        InputError: If it is.
+    """
+    if length < MESSAGE_HEAD.size:
         raise InputError(f"a message's record announces {length} bytes")

@@ -8,31 +8,44 @@ import struct
 import zlib
 from array import array
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
-from tftool.recordings.channel import Channel, CopiedPiece
+from tftool.recordings.channel import Channel
+from tftool.recordings.chunked import Chunk
 from tftool.recordings.compression import compressor
+from tftool.recordings.container import CopiedAttachment
 from tftool.recordings.find import MCAP_MAGIC
-
-HEADER: Final = 0x01
-FOOTER: Final = 0x02
-SCHEMA: Final = 0x03
-CHANNEL: Final = 0x04
-MESSAGE: Final = 0x05
-CHUNK: Final = 0x06
-MESSAGE_INDEX: Final = 0x07
-CHUNK_INDEX: Final = 0x08
-ATTACHMENT: Final = 0x09
-ATTACHMENT_INDEX: Final = 0x0A
-STATISTICS: Final = 0x0B
-METADATA: Final = 0x0C
-METADATA_INDEX: Final = 0x0D
-SUMMARY_OFFSET: Final = 0x0E
-DATA_END: Final = 0x0F
+from tftool.recordings.mcap.format import (
+    ATTACHMENT_INDEX,
+    CHANNEL,
+    CHUNK,
+    CHUNK_HEAD,
+    CHUNK_INDEX,
+    DATA_END,
+    FOOTER,
+    HEADER,
+    MESSAGE,
+    MESSAGE_RECORD,
+    METADATA,
+    METADATA_INDEX,
+    RECORD,
+    SCHEMA,
+    STATISTICS,
+    SUMMARY_OFFSET,
+    U16,
+    U32,
+    U64,
+    IndexEntry,
+    entries,
+    message_index,
+    record,
+    strings,
+    text,
+)
+from tftool.recordings.pieces import Piece
 
 COMPRESSIONS: Final = ("zstd", "lz4", "none")
 
@@ -41,70 +54,9 @@ CHUNK_SIZE: Final = 1 << 20
 
 MOST_CHANNELS: Final = 65_535
 
-RECORD: Final = struct.Struct("<BQ")
-CHUNK_HEAD: Final = struct.Struct("<QQQI")
-MESSAGE_HEAD: Final = struct.Struct("<BQHIQQ")
-"""A message's record up to its payload: code and length, channel, sequence, both times."""
-
-_U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 _UNCHUNKED: Final = 1 << 16  # bytes that are written at a time where there are no chunks
 _LARGE_PIECE: Final = 1 << 16  # bytes from which on joining costs more than a write of its own
 _NOTHING_YET: Final = 2**64 - 1
-
-
-@dataclass(frozen=True, slots=True)
-class CopiedAttachment:
-    """An attachment of another file.
-
-    Attributes:
-        piece: Its record.
-        times: Its two times, as they are packed.
-        names: Its name and media type, likewise.
-        size: Bytes of what is attached.
-    """
-
-    piece: CopiedPiece
-    times: bytes
-    names: bytes
-    size: int
-
-
-@dataclass(frozen=True, slots=True)
-class ChunkEntry:
-    """A chunk as the summary tells of it.
-
-    Attributes:
-        start: Log time of its first message.
-        end: Of its last.
-        place: Where its record begins.
-        length: Bytes of its record.
-        indexes: For each channel where its message index begins.
-        indexes_length: Bytes of those.
-        method: How it is compressed.
-        packed: Bytes of its messages in the file.
-        size: Bytes of them unpacked.
-    """
-
-    start: int
-    end: int
-    place: int
-    length: int
-    indexes: Mapping[int, int]
-    indexes_length: int
-    method: str
-    packed: int
-    size: int
-
-    def record(self) -> bytes:
-        """Its record in the summary."""
-        return record(
-            CHUNK_INDEX,
-            struct.pack("<QQQQ", self.start, self.end, self.place, self.length)
-            + entries(self.indexes)
-            + _U64.pack(self.indexes_length)
-            + text(self.method)
-            + struct.pack("<QQ", self.packed, self.size),
-        )
 
 
 class McapWriter:
@@ -159,7 +111,7 @@ class McapWriter:
         self._schema_of: dict[int, int] = {}
         self._known: dict[Channel, int] = {}
         self._defined: set[int] = set()  # channels whose records are in the file or the chunk
-        self._chunks: list[ChunkEntry] = []
+        self._chunks: list[bytes] = []  # their records in the summary
         self._attachments: list[bytes] = []
         self._metadata: list[bytes] = []
         self.counts: dict[int, int] = {}
@@ -229,7 +181,7 @@ class McapWriter:
         number = self._free(self._schema_records, number)
         self._schemas[key] = number
         self._schema_records[number] = record(
-            SCHEMA, _U16.pack(number) + text(name) + text(encoding) + _U32.pack(len(data)) + data
+            SCHEMA, U16.pack(number) + text(name) + text(encoding) + U32.pack(len(data)) + data
         )
         return number
 
@@ -284,7 +236,7 @@ class McapWriter:
         if log_time < 0:
             raise InputError(f"A log time of {log_time} ns lies before 1970: MCAP has none.")
         length = len(payload)
-        head = MESSAGE_HEAD.pack(
+        head = MESSAGE_RECORD.pack(
             MESSAGE,
             length + 22,
             channel,
@@ -315,7 +267,7 @@ class McapWriter:
         """Put the messages that wait into the file, as a chunk."""
         if not self._length:
             return
-        pieces, length = self._pieces, self._length
+        pieces, size = self._pieces, self._length
         indexes, low, high = self._indexes, self._chunk_low, self._chunk_high
         self._new_chunk()
         if not indexes:
@@ -324,7 +276,7 @@ class McapWriter:
             self._put(*pieces)
             self._count_all(indexes, low, high)
             return
-        packed, crc = length, 0
+        packed, crc = size, 0
         if self.method:
             records = b"".join(pieces)
             pieces = [self._pack(records)]
@@ -333,38 +285,29 @@ class McapWriter:
         elif self._with_chunk_crc:
             for piece in pieces:
                 crc = zlib.crc32(piece, crc)
-        head = CHUNK_HEAD.pack(low, high, length, crc) + text(self.method) + _U64.pack(packed)
+        head = CHUNK_HEAD.pack(low, high, size, crc) + text(self.method) + U64.pack(packed)
         place = self.position
         parts = [RECORD.pack(CHUNK, len(head) + packed), head, *pieces]
         begin = behind = place + 9 + len(head) + packed
         offsets = {}
         for channel, index in indexes.items():
             offsets[channel] = begin
-            parts.append(_index_record(channel, index))
+            parts.append(message_index(channel, index))
             begin += len(parts[-1])
         self._put(*parts)
         self._count_all(indexes, low, high)
-        self._chunks.append(
-            ChunkEntry(
-                low,
-                high,
-                place,
-                behind - place,
-                offsets,
-                begin - behind,
-                self.method,
-                packed,
-                length,
-            )
+        entry = IndexEntry(
+            low, high, place, behind - place, offsets, begin - behind, self.method, packed, size
         )
+        self._chunks.append(entry.record())
 
-    def flush_as(self, compression: str, *, with_crc: bool) -> None:
-        """The same, packed in a way of its own; chunks after it are packed as before."""
+    def end_block(self, chunk: Chunk) -> None:
+        """Close the chunk that a changed one has become, packed as that was."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
-            if compression != self.method:
-                self.method, self._pack = compression, compressor(compression)
-            self._with_chunk_crc = with_crc
+            if chunk.method != self.method:
+                self.method, self._pack = chunk.method, compressor(chunk.method)
+            self._with_chunk_crc = bool(chunk.crc)
             self.flush()
         finally:
             self.method, self._pack, self._with_chunk_crc = before
@@ -380,35 +323,44 @@ class McapWriter:
 
     # What is copied
 
-    def copy_chunk(self, piece: CopiedPiece, entry: ChunkEntry, counts: Mapping[int, int]) -> None:
-        """Append a chunk and its message indexes as they stood in another file.
+    def adopt(
+        self, channel: Channel, number: int, origin: tuple[int, tuple[str, str, bytes] | None]
+    ) -> None:
+        """Make a stream of another file known under the number that it has there.
 
         Args:
-            piece: The chunk's record and those of its message indexes.
-            entry: How it stood there; its places are moved.
-            counts: How many messages each of its channels has.
+            channel: The stream.
+            number: Its number.
+            origin: The number of its schema there, and the schema; see `Mcap.origin`.
         """
-        self.flush()
-        moved = self.position - entry.place
-        for channel, count in counts.items():
-            self._count(channel, count, entry.start, entry.end)
-        self._defined.update(counts)
-        self._copy(piece)
-        self._chunks.append(
-            ChunkEntry(
-                entry.start,
-                entry.end,
-                entry.place + moved,
-                entry.length,
-                {channel: place + moved for channel, place in entry.indexes.items()},
-                entry.indexes_length,
-                entry.method,
-                entry.packed,
-                entry.size,
-            )
-        )
+        schema, described = origin
+        if described is not None:
+            self.schema(*described, number=schema)
+        self.channel(channel, number, schema)
 
-    def _copy(self, piece: CopiedPiece) -> None:
+    def copy_chunk(self, chunk: Chunk) -> None:
+        """Append a chunk and its message indexes as they are in another file."""
+        self.flush()
+        moved = self.position - chunk.position
+        counts = chunk.counts or {}
+        for channel, count in counts.items():
+            self._count(channel, count, chunk.start, chunk.end)
+        self._defined.update(counts)
+        self._copy(chunk.raw())
+        entry = IndexEntry(
+            chunk.start,
+            chunk.end,
+            chunk.position + moved,
+            chunk.length,
+            {channel: place + moved for channel, place in chunk.indexes.items()},
+            chunk.behind - chunk.position - chunk.length,
+            chunk.method,
+            chunk.packed,
+            chunk.size,
+        )
+        self._chunks.append(entry.record())
+
+    def _copy(self, piece: Piece) -> None:
         before = self._crc if self._with_crc else None
         self._crc = piece.copy_to(self._file.fileno(), self.position, before)
         self.position = self._file.seek(self.position + piece.length)
@@ -418,7 +370,7 @@ class McapWriter:
         self.flush()
         place = struct.pack("<QQ", self.position, copied.piece.length)
         self._copy(copied.piece)
-        told = place + copied.times + _U64.pack(copied.size) + copied.names
+        told = place + copied.times + U64.pack(copied.size) + copied.names
         self._attachments.append(record(ATTACHMENT_INDEX, told))
 
     def copy_metadata(self, body: bytes) -> None:
@@ -427,7 +379,7 @@ class McapWriter:
         Raises:
             struct.error: If it is none.
         """
-        (length,) = _U32.unpack_from(body)
+        (length,) = U32.unpack_from(body)
         self.flush()
         begin = self.position
         piece = record(METADATA, body)
@@ -447,7 +399,7 @@ class McapWriter:
             self._file.close()
 
     def _close(self) -> None:
-        end = record(DATA_END, _U32.pack(self._crc if self._with_crc else 0))
+        end = record(DATA_END, U32.pack(self._crc if self._with_crc else 0))
         summary = self._summary(self.position + len(end))
         self._put(end + summary + MCAP_MAGIC)
 
@@ -492,7 +444,7 @@ class McapWriter:
             (SCHEMA, list(self._schema_records.values())),
             (CHANNEL, list(self._channel_records.values())),
             (STATISTICS, [record(STATISTICS, statistics)]),
-            (CHUNK_INDEX, [chunk.record() for chunk in self._chunks]),
+            (CHUNK_INDEX, self._chunks),
             (ATTACHMENT_INDEX, self._attachments),
             (METADATA_INDEX, self._metadata),
         )
@@ -505,7 +457,7 @@ class McapWriter:
                 place += len(group)
         summary = b"".join(found) + b"".join(offsets)
         summary += RECORD.pack(FOOTER, 20) + struct.pack("<QQ", begin, place)
-        return summary + _U32.pack(zlib.crc32(summary))
+        return summary + U32.pack(zlib.crc32(summary))
 
     def _put(self, *pieces: bytes) -> None:
         """Append to the file, all of it or none that counts."""
@@ -530,33 +482,3 @@ def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
         small.clear()
         yield piece
     yield b"".join(small)
-
-
-def record(code: int, body: bytes) -> bytes:
-    """A record of a kind."""
-    return RECORD.pack(code, len(body)) + body
-
-
-def text(words: str) -> bytes:
-    """A text behind its length."""
-    raw = words.encode("utf-8", "surrogateescape")
-    return _U32.pack(len(raw)) + raw
-
-
-def strings(values: Mapping[str, str]) -> bytes:
-    """A map of texts behind its length."""
-    packed = b"".join(text(key) + text(value) for key, value in values.items())
-    return _U32.pack(len(packed)) + packed
-
-
-def entries(values: Mapping[int, int]) -> bytes:
-    """A map of channels to numbers behind its length."""
-    packed = b"".join(struct.pack("<HQ", key, value) for key, value in values.items())
-    return _U32.pack(len(packed)) + packed
-
-
-def _index_record(channel: int, index: "array[int]") -> bytes:
-    pairs = index.tobytes()
-    return (
-        RECORD.pack(MESSAGE_INDEX, 6 + len(pairs)) + struct.pack("<HI", channel, len(pairs)) + pairs
-    )

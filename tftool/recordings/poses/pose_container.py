@@ -14,7 +14,6 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.container import TRANSIENT_LOCAL, MessageStream, Offers
 from tftool.recordings.contract import Floats, Progress, Stamps
 from tftool.recordings.find import Found
 from tftool.recordings.mcap.write import McapWriter
@@ -64,18 +63,7 @@ class PoseContainer:
         self.start, self.end = (
             (int(self._batch.log_times[0]), int(self._batch.log_times[-1])) if parts else (0, 0)
         )
-        self.streams = [
-            MessageStream(
-                one.topic,
-                one.type,
-                one.encoding,
-                one.definition.decode(),
-                offers=Offers(
-                    TRANSIENT_LOCAL if one.topic == "/tf_static" else "volatile", "reliable", 1
-                ),
-            )
-            for one in self.channels
-        ]
+        self.streams = self.channels
 
     def _channel(self, *, static: bool) -> int:
         channel = ros2_channel("/tf_static" if static else "/tf", TRANSFORMS, static=static)

@@ -193,10 +193,3 @@ def time_of(raw: bytes) -> Stamp:
     """A moment as a header has it."""
     sec, nanosec = _TIME.unpack(raw)
     return int(sec) * NANOSECONDS + int(nanosec)
-
-
-def reason_of(error: Exception) -> str:
-    """Return why a record cannot be read."""
-    if isinstance(error, KeyError):
-        return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
-    return "a record is cut" if isinstance(error, struct.error) else str(error)

@@ -1,27 +1,18 @@
-"""ROS 1 bags of version 2.0, by their index, else chunk by chunk up to the damage.
+"""ROS 1 bags of version 2.0 read: by their index, else chunk by chunk up to the damage.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
 
-import itertools
-import struct
-from array import array
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from tftool.base.errors import InputError
-from tftool.recordings.columns import Batch, in_order, words_at
-from tftool.recordings.container import (
-    MOST_STREAMS,
-    TRANSIENT_LOCAL,
-    ChunkedFile,
-    MessageStream,
-    Offers,
-    check_told,
-)
+from tftool.recordings.channel import Channel
+from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, Head, reason_of
+from tftool.recordings.columns import Batch, in_order
+from tftool.recordings.container import Taken, check_told
 from tftool.recordings.contract import Progress
 from tftool.recordings.decompression import Ahead, Packed
 from tftool.recordings.find import ROS1_MAGIC
@@ -33,266 +24,250 @@ from tftool.recordings.rosbag1.format import (
     INDEX,
     MESSAGE,
     U32,
+    ChunkInfo,
     Entries,
     chunk_info,
     fields_of,
     index_of,
     indexed,
-    reason_of,
     record_head,
     records_in,
     time_of,
 )
 
-
-@dataclass(slots=True, eq=False)
-class _Chunk:
-    """One chunk, and where its messages lie.
-
-    Attributes:
-        position: Where its record begins in the file.
-        counts: How many messages each connection has in it.
-        place: Where its data begins in the file, packed; 0 while not looked at.
-        packed: Bytes of it.
-        size: Bytes unpacked.
-        method: How it is packed.
-        cut: Whether the file ends within it.
-        walked: What walking found: connection, log time, and place of each message.
-    """
-
-    position: int
-    counts: dict[int, int] = field(default_factory=dict)
-    place: int = 0
-    packed: int = 0
-    size: int = 0
-    method: str = ""
-    cut: bool = False
-    walked: "tuple[array[int], array[int], array[int]] | None" = None
+_KEPT = (b"callerid", b"latching", b"md5sum")
 
 
-class Rosbag1:
-    """A ROS 1 bag; see `Container`."""
+class Rosbag1(ChunkedReader):
+    """A ROS 1 bag; see `Reader`."""
 
     kind = "ROS 1 bag"
+    container = "bag"
+    magic = ROS1_MAGIC
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, by_index: bool = True) -> None:
         """Open it and find out what is in it.
+
+        Args:
+            path: Where it is.
+            by_index: Whether its messages are to be read by its index, which is made where the
+                file has none; otherwise they are read with `blocks`.
 
         Raises:
             InputError: If nothing of it can be read.
             OSError: If the file cannot be opened.
         """
-        self._file = ChunkedFile(path)
-        self.size = self._file.size
-        self.start = self.end = 0
-        self.streams: list[MessageStream] = []
-        self.counts: list[int] = []
-        self.damage = self._file.damage
-        self._numbers: dict[int, int] = {}  # of a connection: its stream
-        self._chunks: list[_Chunk] = []
+        super().__init__(path, {"compression": "none", "chunk_size": 0})
+        self._headers: dict[int, tuple[bytes, bytes]] = {}
+        self._infos: dict[int, ChunkInfo] = {}
+        self._by_index = by_index
+        self._ended_at, self._ended = 0, False
         try:
-            self._open(path)
+            self._open()
         except BaseException:
             self.close()
             raise
 
-    def _open(self, path: Path) -> None:
+    def _open(self) -> None:
         """Find out what is in it, by its index or without."""
-        if self._file.up_to(0, len(ROS1_MAGIC)) != ROS1_MAGIC:
-            raise InputError(f"'{path}' is no ROS 1 bag.")
+        complete = False
         try:
             complete = self._read_index()
-        except (InputError, struct.error, KeyError) as error:
-            complete = False
+        except FAULTS as error:
+            self._forget()
             self.damage.append(f"Its index cannot be read ({reason_of(error)}).")
-        if not complete:
-            self._scan()
+        if self._by_index and not complete:
+            self._scan(self._pieces())
+            if self._ended_at < self.size:
+                self._note_end(self._ended_at)
+            spans = [one.walked.span for one in self._chunks if one.walked and len(one.walked)]
+            self.start = min((low for low, _ in spans), default=0)
+            self.end = max((high for _, high in spans), default=0)
 
-    def close(self) -> None:
-        """Close the file."""
-        self._file.close()
+    def origin(self, number: int) -> tuple[bytes, bytes]:
+        """Return a connection's topic, and the header of its publisher, as recorded."""
+        return self._headers[number]
 
     # What is in it
 
     def _read_index(self) -> bool:
-        """Take what the index at the end tells; whether there is one."""
-        bag, place, data = index_of(self._file)
-        (chunks,) = U32.unpack(bag[b"chunk_count"])
+        """Take what the index at the end tells; whether there is one.
+
+        Raises:
+            InputError: If it is damaged; others of `FAULTS` likewise.
+        """
+        bag, place, data = index_of(self)
         if place == 0:
             self.damage.append("The recording was not closed.")
             return False
-        low, high = 2**62, 0
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == CONNECTION:
-                check_told(last - first)
-                self._take_connection(header, data[first:last])
+                self._describe(header, data[first:last])
             elif code == CHUNK_INFO:
                 info = chunk_info(header, data[first:last])
-                self._chunks.append(_Chunk(info.position, info.counts))
-                if info.counts:
-                    low, high = min(low, info.start), max(high, info.end)
-        if len(self._chunks) != chunks:
-            raise InputError(f"it names {len(self._chunks)} chunks of {chunks}")
-        if any(chunk.position >= place for chunk in self._chunks):
-            raise InputError("a chunk lies beyond it")
-        if high:
-            self.start, self.end = low, high
-        self._chunks.sort(key=lambda one: one.position)
-        for chunk in self._chunks:
-            for connection, count in chunk.counts.items():
-                if connection in self._numbers:
-                    self.counts[self._numbers[connection]] += count
+                self._infos[info.position] = info
+        infos = sorted(self._infos.values())
+        if not self._by_index:
+            if infos:
+                # How it is written shows in its first chunk.
+                self._chunk_at(infos[0].position, *record_head(self, infos[0].position))
+            return True
+        (count,) = U32.unpack(bag[b"chunk_count"])
+        if len(infos) != count:
+            raise InputError(f"it names {len(infos)} chunks of {count}")
+        if any(info.position >= place for info in infos):
+            raise InputError("a chunk is beyond it")
+        for info in infos:
+            self._chunks.append(Chunk(self, info.position, counts=info.counts))
+            self._count(info.counts)
+        filled = [info for info in infos if info.counts]
+        self.start = min((info.start for info in filled), default=0)
+        self.end = max((info.end for info in filled), default=0)
         return True
 
-    def _take_connection(self, header: dict[bytes, bytes], data: bytes) -> None:
-        (connection,) = U32.unpack(header[b"conn"])
-        if connection in self._numbers or len(self.streams) >= MOST_STREAMS:
+    def _forget(self) -> None:
+        """Drop what was learned, to begin again."""
+        super()._forget()
+        self._headers.clear()
+        self._infos.clear()
+
+    def _describe(self, header: Mapping[bytes, bytes], data: bytes) -> None:
+        """Take what a record tells of a connection."""
+        check_told(len(data))
+        (number,) = U32.unpack(header[b"conn"])
+        if number in self.channels:
             return
         fields = fields_of(data)
 
         def text(name: bytes) -> str:
-            return fields.get(name, b"").decode("utf-8", "backslashreplace")
+            return fields.get(name, b"").decode("utf-8", "surrogateescape")
 
-        topic = header.get(b"topic", b"").decode("utf-8", "backslashreplace") or text(b"topic")
-        offers = Offers(TRANSIENT_LOCAL, "", 1) if text(b"latching") == "1" else Offers()
-        self._numbers[connection] = len(self.streams)
-        self.streams.append(
-            MessageStream(
-                topic, text(b"type"), "ros1", text(b"message_definition"), text(b"callerid"), offers
-            )
-        )
-        self.counts.append(0)
+        topic = header.get(b"topic") or fields.get(b"topic", b"")
+        self._headers[number] = topic, data
+        metadata = tuple((key.decode(), text(key)) for key in _KEPT if key in fields)
+        definition = fields.get(b"message_definition", b"")
+        name = topic.decode("utf-8", "surrogateescape")
+        self._learn(number, Channel(name, text(b"type"), "ros1", "ros1msg", definition, metadata))
 
     # From front to back
 
-    def _scan(self) -> None:
-        """Find chunks record by record, up to the end or the damage, and walk through them."""
-        self.streams.clear()
-        self.counts.clear()
-        self._numbers.clear()
-        self._chunks.clear()
-        position = len(ROS1_MAGIC)
-        while position < self.size:
-            try:
-                header, data, length = record_head(self._file, position)
-                code = header.get(b"op")
-                cut = data + length > self.size
-                if code == CHUNK:
-                    chunk = _Chunk(position)
-                    self._look_at(chunk, header, data, min(length, self.size - data), cut)
-                    self._chunks.append(chunk)
-                    self._walk(chunk, learns=True)
-                elif code == CONNECTION and not cut:
-                    check_told(length)
-                    self._take_connection(header, self._file.at(data, length))
-                elif code not in (BAG, INDEX, CHUNK_INFO, CONNECTION):
-                    break
-                if cut:
-                    break
-            except (InputError, struct.error, KeyError):
-                break
-            position = data + length
-        found = sum(self.counts)
-        if position < self.size:
-            self.damage.append(
-                f"The recording breaks off at byte {position} of {self.size}: "
-                f"{found} messages were read up to there."
-            )
-            if not found and not self.streams:
-                raise InputError(
-                    f"'{self._file.path}' is damaged: no message could be read ({self.damage[-1]})"
-                )
-        times = [one.walked[1] for one in self._chunks if one.walked and one.walked[1]]
-        if times:
-            self.start = min(min(one) for one in times)
-            self.end = max(max(one) for one in times)
+    def blocks(self) -> Iterator[Chunk]:
+        """Its chunks."""
+        yield from self._pieces()
+        if not self._ended:
+            self.note(f"The recording breaks off at byte {self._ended_at}.")
 
-    def _look_at(
-        self, chunk: _Chunk, header: dict[bytes, bytes], place: int, packed: int, cut: bool
-    ) -> None:
+    def _pieces(self) -> Iterator[Chunk]:
+        """Go through it record by record; where it ends, and whether it says so, is noted."""
+        position, size = len(ROS1_MAGIC), self.size
+        while position < size:
+            try:
+                header, data, length = record_head(self, position)
+            except FAULTS:
+                break
+            code, end = header.get(b"op"), data + length
+            if code not in (BAG, INDEX, CHUNK, CHUNK_INFO, CONNECTION):
+                break
+            try:
+                if code == CHUNK:
+                    chunk = self._chunk_at(position, header, data, length)
+                    if not chunk.cut:
+                        self._read_indexes(chunk)
+                    yield chunk
+                    end = max(end, chunk.behind)
+                elif code == CONNECTION and end <= size:
+                    self._describe(header, self.at(data, length))
+            except FAULTS as error:
+                self.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
+                if code == CHUNK:
+                    break
+            if end > size:
+                break
+            position = end
+        self._ended_at, self._ended = position, position >= size
+
+    def _chunk_at(
+        self, position: int, header: Mapping[bytes, bytes], data: int, length: int
+    ) -> Chunk:
+        """The chunk of a record."""
+        chunk = Chunk(self, position)
+        self._look_at(chunk, header, data, length)
+        style = self.style
+        style["compression"] = chunk.method
+        style["chunk_size"] = max(style["chunk_size"], chunk.size)
+        return chunk
+
+    def _look_at(self, chunk: Chunk, header: Mapping[bytes, bytes], data: int, length: int) -> None:
+        """Take what a chunk's header tells."""
         if header.get(b"op") != CHUNK:
             raise InputError(f"no chunk is at byte {chunk.position}")
-        chunk.place, chunk.packed, chunk.cut = place, packed, cut
+        chunk.cut = data + length > self.size
+        chunk.place, chunk.packed = data, min(length, self.size - data)
+        chunk.behind = data + chunk.packed
+        chunk.length = chunk.behind - chunk.position
         chunk.method = header[b"compression"].decode("ascii", "replace")
         (chunk.size,) = U32.unpack(header[b"size"])
 
-    def _walk(self, chunk: _Chunk, *, learns: bool) -> None:
-        """Walk through a chunk's records and learn where its messages are.
+    def _read_indexes(self, chunk: Chunk) -> None:
+        """Step over the index behind a chunk, and note what it tells if the bag's own agrees."""
+        counts: dict[int, int] = {}
+        while chunk.behind < self.size:
+            try:
+                header, data, length = record_head(self, chunk.behind)
+                if header.get(b"op") != INDEX or data + length > self.size:
+                    break
+                (number,) = U32.unpack(header[b"conn"])
+            except FAULTS:
+                break
+            counts[number] = counts.get(number, 0) + length // 12
+            chunk.behind = data + length
+        info = self._infos.get(chunk.position)
+        if info is not None and info.counts == counts and counts.keys() <= self.channels.keys():
+            chunk.start, chunk.end, chunk.counts = info.start, info.end, counts
+            chunk.whole = True
 
-        Args:
-            chunk: The chunk.
-            learns: Whether to count them, and to learn of connections: those that were found
-                when the file was opened stay as they are.
-        """
-        walked = chunk.walked = array("q"), array("q"), array("q")
-        connections, log_times, places = walked
-        try:
-            data = bytes(self._file.unpacked(chunk))
-            for header, first, last in records_in(data):
-                code = header.get(b"op")
-                if code == MESSAGE:
-                    (connection,) = U32.unpack(header[b"conn"])
-                    log_times.append(time_of(header[b"time"]))
-                    connections.append(connection)
-                    places.append(first)
-                    number = self._numbers.get(connection)
-                    if learns and number is not None:
-                        self.counts[number] += 1
-                elif learns and code == CONNECTION:
-                    check_told(last - first)
-                    self._take_connection(header, data[first:last])
-        except (InputError, struct.error, KeyError) as error:
-            if not chunk.cut:
-                self._file.note_chunk(chunk, reason_of(error))
+    def _heads(self, data: bytes, *, learns: bool) -> Iterator[Head]:
+        """The messages among some records; see `ChunkedReader`."""
+        for header, first, last in records_in(data):
+            code = header.get(b"op")
+            if code == MESSAGE:
+                (number,) = U32.unpack(header[b"conn"])
+                log_time = time_of(header[b"time"])
+                yield Head(number, log_time, first, last, log_time)
+            elif learns and code == CONNECTION:
+                self._describe(header, data[first:last])
+
+    def taken(self, chunk: Chunk) -> list[Taken]:
+        """A chunk's messages; when it begins and ends shows in them alone."""
+        found = super().taken(chunk)
+        chunk.start = min((one.log_time for one in found), default=0)
+        chunk.end = max((one.log_time for one in found), default=0)
+        return found
 
     # Messages
-
-    def expected(self, wanted: Collection[int]) -> int:
-        """Return the messages of some streams, as the file counts them."""
-        return sum(self.counts[number] for number in wanted)
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
         """The messages of some streams; see `Container`."""
-        chosen = {
-            connection: number for connection, number in self._numbers.items() if number in wanted
-        }
-        read = [
-            chunk.walked is not None or not chunk.counts.keys().isdisjoint(chosen)
-            for chunk in self._chunks
-        ]
-        with Ahead(itertools.compress(self._chunks, read), self._packed) as ahead:
-            yield from self._chunk_batches(read, chosen, ahead, progress)
+        chosen = self._chosen(wanted)
 
-    def _chunk_batches(
-        self, read: list[bool], chosen: dict[int, int], ahead: Ahead, progress: Progress | None
-    ) -> Iterator[Batch]:
-        for chunk, is_read in zip(self._chunks, read, strict=True):
-            if is_read:
-                try:
-                    batch = self._batch(chunk, chosen, ahead)
-                except (InputError, struct.error, KeyError) as error:
-                    self._file.note_chunk(chunk, reason_of(error))
-                    try:
-                        batch = self._rest_of(chunk, chosen)
-                    except InputError as worse:
-                        batch = None
-                        self._file.note(f"A chunk at byte {chunk.position} is lost ({worse}).")
-                if batch is not None and len(batch):
-                    yield batch
+        def batch_of(chunk: Chunk, ahead: Ahead) -> Batch | None:
+            return self._batch(chunk, chosen, ahead)
+
+        for chunk, batch in self._chunk_batches(chosen, batch_of):
+            if batch is not None:
+                yield batch
             if progress is not None:
                 progress(chunk.position, self.size)
 
-    def _batch(self, chunk: _Chunk, chosen: dict[int, int], ahead: Ahead) -> Batch | None:
-        if chunk.walked is not None:
-            return self._rest_of(chunk, chosen, ahead)
+    def _batch(self, chunk: Chunk, chosen: Mapping[int, int], ahead: Ahead) -> Batch | None:
         self._locate(chunk)
-        parts = self._indexes(chunk, chosen)
+        parts = self._entries(chunk, chosen)
         if not parts:
             return None
-        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
+        data = np.frombuffer(self.unpacked(chunk, ahead), dtype=np.uint8)
         return in_order(
             [
                 Batch(data, *indexed(data, entries, connection), senders)
@@ -301,61 +276,35 @@ class Rosbag1:
             ]
         )
 
-    def _locate(self, chunk: _Chunk) -> None:
-        """Find out where a chunk's data lies, if that is not known."""
+    def _locate(self, chunk: Chunk) -> None:
+        """Find out where a chunk's data is, if that is not known."""
         if not chunk.place:
-            header, place, packed = record_head(self._file, chunk.position)
-            self._look_at(chunk, header, place, packed, False)
+            self._look_at(chunk, *record_head(self, chunk.position))
 
-    def _indexes(self, chunk: _Chunk, chosen: dict[int, int]) -> list[tuple[int, Entries]]:
-        """The index records behind a chunk: chosen connections with messages, and what is told."""
-        position = chunk.place + chunk.packed
-        expected = len(chunk.counts) * 64 + 12 * sum(chunk.counts.values()) + 64
-        data = self._file.up_to(position, expected)
+    def _entries(self, chunk: Chunk, chosen: Mapping[int, int]) -> list[tuple[int, Entries]]:
+        """The index records behind a chunk: chosen connections with messages, and their entries."""
+        counts = chunk.counts or {}
+        expected = len(counts) * 64 + 12 * sum(counts.values()) + 64
+        data = self.up_to(chunk.place + chunk.packed, expected)
         found = []
-        missing = set(chunk.counts)
+        missing = set(counts)
         for header, first, last in records_in(data, partial=True):
             if header.get(b"op") != INDEX:
                 break
             (connection,) = U32.unpack(header[b"conn"])
             missing.discard(connection)
-            if connection in chosen:
-                count = (last - first) // 12
-                if not count:
-                    continue
+            count = (last - first) // 12
+            if connection in chosen and count:
                 table = np.frombuffer(data, dtype="<u4", count=3 * count, offset=first)
                 found.append((connection, table.reshape(-1, 3)))
         if not missing.isdisjoint(chosen):
             raise InputError("its index is incomplete")
         return found
 
-    def _rest_of(
-        self, chunk: _Chunk, chosen: dict[int, int], ahead: Ahead | None = None
-    ) -> Batch | None:
-        """What walking finds in a chunk, whatever its index says."""
-        if chunk.walked is None:
-            if not chunk.place:
-                return None
-            self._walk(chunk, learns=False)
-        assert chunk.walked is not None
-        connections, log_times, places = chunk.walked
-        which = [row for row, connection in enumerate(connections) if connection in chosen]
-        if not which:
-            return None
-        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
-        starts = np.frombuffer(places, dtype=np.int64)[which]
-        return Batch(
-            data,
-            starts,
-            words_at(data, starts - 4, "<u4").astype(np.int64),
-            np.frombuffer(log_times, dtype=np.int64)[which],
-            np.array([chosen[connections[row]] for row in which], dtype=np.int32),
-        )
-
-    def _packed(self, chunk: _Chunk) -> Packed | None:
-        """What of a chunk is unpacked ahead; None of one that is read in another way."""
+    def _ahead(self, chunk: Chunk) -> Packed | None:
+        """Return the part of a chunk that is unpacked ahead; None if it is read otherwise."""
         try:
             self._locate(chunk)
-        except (InputError, struct.error, KeyError):
+        except FAULTS:
             return None
-        return self._file.packed(chunk)
+        return super()._ahead(chunk)

@@ -13,7 +13,8 @@ from typing import Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
-from tftool.recordings.channel import Channel, CopiedPiece
+from tftool.recordings.channel import Channel
+from tftool.recordings.chunked import Chunk
 from tftool.recordings.compression import compressor
 from tftool.recordings.find import ROS1_MAGIC
 from tftool.recordings.rosbag1.format import (
@@ -106,10 +107,10 @@ class Rosbag1Writer:
             while number in self._records:
                 number += 1
         self._known[channel] = number
-        self.add_connection(number, fields["topic"], packed_fields(fields))
+        self._add_connection(number, fields["topic"], packed_fields(fields))
         return number
 
-    def add_connection(self, number: int, topic: bytes, header: bytes) -> None:
+    def _add_connection(self, number: int, topic: bytes, header: bytes) -> None:
         """Make a connection known by the header its publisher sent."""
         head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
         self._records[number] = record(head, header)
@@ -165,19 +166,28 @@ class Rosbag1Writer:
         self._note_chunk(low if counts else 0, high, counts)
         self._put(b"".join(parts))
 
-    def copy_chunk(
-        self, piece: CopiedPiece, start: Stamp, end: Stamp, counts: Mapping[int, int]
-    ) -> None:
-        """Append a chunk and its index as they stood in another bag.
+    def agrees(self, schemas: Mapping[int, object]) -> bool:
+        """Whether a bag's numbers of types may be used here; it has none."""
+        return True
+
+    def adopt(self, channel: Channel, number: int, origin: tuple[bytes, bytes]) -> None:
+        """Make a connection of another bag known under the number that it has there.
 
         Args:
-            piece: The chunk's record and those of its index.
-            start: Log time of its first message.
-            end: Of its last.
-            counts: How many messages each of its connections has.
+            channel: The connection.
+            number: Its number.
+            origin: Its topic and its publisher's header there; see `Rosbag1.origin`.
         """
+        self._add_connection(number, *origin)
+
+    def end_block(self, chunk: Chunk) -> None:
+        """Do nothing: chunks of a bag are closed by their size."""
+
+    def copy_chunk(self, chunk: Chunk) -> None:
+        """Append a chunk and its index as they are in another bag."""
         self.flush()
-        self._note_chunk(start, end, counts)
+        self._note_chunk(chunk.start, chunk.end, chunk.counts or {})
+        piece = chunk.raw()
         piece.copy_to(self._file.fileno(), self.position)
         self.position = self._file.seek(self.position + piece.length)
 

@@ -133,23 +133,42 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read as they are.")
         return []
-    import yaml
-
-    from tftool.base import yaml_guard
-
-    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        if path.stat().st_size > _LARGEST_METADATA:
-            raise ValueError("it is too large")
-        with open_regular(path) as file:
-            document: Any = yaml_guard.load(file.read().decode(), loader)
-        names = document["rosbag2_bagfile_information"]["relative_file_paths"]
+        names = read_metadata(folder)["relative_file_paths"]
         return [Path(str(name)).name for name in names][:10_000]
-    except (OSError, yaml.YAMLError, ValueError, KeyError, TypeError, RecursionError) as error:
+    except (OSError, ValueError, KeyError, TypeError) as error:
         why = getattr(error, "strerror", None) or str(error) or type(error).__name__
         first = why.splitlines()[0]
         damage.append(f"Its {METADATA} cannot be read ({first}): the files are read as they are.")
         return []
+
+
+def read_metadata(folder: Path) -> dict[str, Any]:
+    """Read what a folder's metadata.yaml says of its recording.
+
+    Raises:
+        OSError: If there is none, or it may not be read.
+        ValueError: If it is too large, or no YAML.
+        KeyError: If it says nothing of a recording.
+        TypeError: Likewise.
+    """
+    import yaml  # slow to import, and only folders need it
+
+    from tftool.base import yaml_guard
+
+    path = folder / METADATA
+    if path.stat().st_size > _LARGEST_METADATA:
+        raise ValueError("it is too large")
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        with open_regular(path) as file:
+            document: Any = yaml_guard.load(file.read().decode(), loader)
+    except (yaml.YAMLError, RecursionError) as error:
+        raise ValueError(str(error) or type(error).__name__) from error
+    found = document["rosbag2_bagfile_information"]
+    if not isinstance(found, dict):
+        raise TypeError("it says nothing of a recording")
+    return found
 
 
 def _is_part(path: Path) -> bool:

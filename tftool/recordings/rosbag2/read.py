@@ -1,9 +1,10 @@
-"""rosbag2's sqlite files, read without writing a byte beside them."""
+"""rosbag2's sqlite files read: without writing a byte beside them."""
 
 import shutil
 import sqlite3
 import tempfile
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Final
@@ -13,9 +14,12 @@ import numpy as np
 
 from tftool.base.errors import InputError, UsageError
 from tftool.messages.native_scan import SCAN
+from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.container import MOST_STREAMS, MessageStream, offers_of
+from tftool.recordings.container import MOST_STREAMS, Extras, Taken
 from tftool.recordings.contract import Progress
+from tftool.recordings.decompression import LARGEST, unpack_beginning
+from tftool.recordings.find import ZSTD_MAGIC
 from tftool.recordings.rosbag2.sqlite_pages import read_pages
 
 _ROWS: Final = 2048  # fetched at a time
@@ -43,24 +47,38 @@ _FAULTS: Final = (sqlite3.Error, UnicodeDecodeError)
 
 
 class Sqlite:
-    """One `.db3` file; see `Container`."""
+    """One `.db3` file; see `Reader`.
+
+    Attributes:
+        path: Where it is.
+        topic_ids: The number that its own rows have for each stream.
+    """
 
     kind = "rosbag2 (sqlite3)"
+    container = "db3"
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, unpacks: bool = False) -> None:
         """Open it and find out what is in it.
+
+        Args:
+            path: Where it is.
+            unpacks: Whether `blocks` unpacks messages that rosbag2 compressed each by itself.
 
         Raises:
             InputError: If it is damaged, or no recording.
             OSError: If it cannot be opened.
         """
-        self._path = path
+        self.path = path
+        self._unpacks = unpacks
         self.size = path.stat().st_size
         self.damage: list[str] = []
         self._copy: tempfile.TemporaryDirectory[str] | None = None
         self._base = self._open(path)
-        self._ids: list[int] = []
-        self.streams: list[MessageStream] = []
+        self.topic_ids: list[int] = []
+        self.streams: list[Channel] = []
+        self.channels: dict[int, Channel] = {}
+        self.extras = Extras()
+        self.style: dict[str, Any] = {}
         try:
             self._read_topics()
             self.start, self.end = self._span()
@@ -99,29 +117,37 @@ class Sqlite:
     def _read_topics(self) -> None:
         names = self._columns("topics")
         if not ({"id", "name", "type"} <= names and self._columns("messages") >= _NAMES):
-            raise InputError(f"'{self._path}' is a database, but holds no recording of rosbag2.")
-        offers = "offered_qos_profiles" if "offered_qos_profiles" in names else "''"
-        form = "serialization_format" if "serialization_format" in names else "'cdr'"
+            raise InputError(f"'{self.path}' is a database, but holds no recording of rosbag2.")
+        columns = ["id", "name", "type"]
+        for name, without in (
+            ("serialization_format", "'cdr'"),
+            ("offered_qos_profiles", "''"),
+            ("type_description_hash", "''"),
+        ):
+            columns.append(name if name in names else without)
         definitions = self._definitions()
-        asked = f"select id, name, type, {form}, {offers} from topics order by id"
-        for number, name, kind, encoding, text in self._base.execute(asked):
+        asked = f"select {', '.join(columns)} from topics order by id"
+        for number, *texts in self._base.execute(asked):
             if len(self.streams) >= MOST_STREAMS:
                 self.damage.append(f"Only the first {MOST_STREAMS} topics are read.")
                 break
-            if not isinstance(number, int):
-                self._tell(f"Topic '{name}' is left out: its id is no whole number.")
-                continue
-            self._ids.append(number)
-            self.streams.append(
-                MessageStream(
-                    str(name),
-                    str(kind),
-                    str(encoding),
-                    definitions.get(str(kind), ""),
-                    "",
-                    offers_of(str(text)),
-                )
+            topic, kind, encoding, offers, kind_hash = map(str, texts)
+            form, definition = definitions.get(kind, ("", ""))
+            channel = Channel(
+                topic,
+                kind,
+                encoding,
+                form,
+                definition.encode("utf-8", "surrogateescape"),
+                (("offered_qos_profiles", offers), ("topic_type_hash", kind_hash)),
             )
+            shown = channel.readable()
+            if not isinstance(number, int):
+                self._tell(f"Topic '{shown.topic}' is left out: its id is no whole number.")
+                continue
+            self.channels[len(self.streams)] = channel
+            self.topic_ids.append(number)
+            self.streams.append(shown)
 
     def _columns(self, table: str) -> set[str]:
         """The columns that stand in a table; none of a view, which may never come to an end."""
@@ -130,19 +156,23 @@ class Sqlite:
             return set()
         return {row[1] for row in self._base.execute(f"pragma table_info({table})")}
 
-    def _definitions(self) -> dict[str, str]:
-        """The definition of each type, where they are recorded."""
-        found: dict[str, str] = {}
-        if not self._columns("message_definitions") >= {"topic_type", _DEFINITION}:
+    def _definitions(self) -> dict[str, tuple[str, str]]:
+        """The form and the definition of each type, where they are recorded."""
+        found: dict[str, tuple[str, str]] = {}
+        names = self._columns("message_definitions")
+        if not names >= {"topic_type", _DEFINITION}:
             return found
         left = _MOST_DEFINED
-        asked = f"select topic_type, {_DEFINITION} from message_definitions"
-        for kind, text in self._base.execute(asked):
-            left -= len(str(text))
+        form = "encoding" if "encoding" in names else "'ros2msg'"
+        asked = f"select topic_type, {form}, {_DEFINITION} from message_definitions"
+        for row in self._base.execute(asked):
+            kind, encoding, text = map(str, row)
+            left -= len(text)
             if left < 0:
                 self.damage.append("The definitions of its types are too long: some are left out.")
                 break
-            found[str(kind)] = str(text)
+            if text:
+                found[kind] = encoding, text
         return found
 
     def _span(self) -> tuple[int, int]:
@@ -153,11 +183,6 @@ class Sqlite:
             if isinstance(low, int) and isinstance(high, int):
                 return low, high
         return 0, 0
-
-    @property
-    def topic_ids(self) -> list[int]:
-        """The number that its own rows have for each stream."""
-        return list(self._ids)
 
     @cached_property
     def counts(self) -> list[int]:
@@ -174,7 +199,16 @@ class Sqlite:
             ) from error
         except _FAULTS as error:
             self._note(error)
-        return [found.get(number, 0) for number in self._ids]
+        return [found.get(number, 0) for number in self.topic_ids]
+
+    def blocks(self) -> "Iterator[Rows]":
+        """Its rows, in the order they were recorded."""
+        for batch in self.batches(list(self.channels)):
+            if len(batch):
+                # Kept while further ones are read, into the same memory. No other container has
+                # moments before 1970.
+                kept, moments = batch.buffer.copy(), np.maximum(batch.log_times, 0)
+                yield Rows(replace(batch, buffer=kept, log_times=moments), self._unpacks)
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
@@ -182,7 +216,7 @@ class Sqlite:
         """The messages of some streams; see `Container`."""
         if not wanted:
             return
-        streams = {self._ids[number]: number for number in wanted}
+        streams = {self.topic_ids[number]: number for number in wanted}
         # Numbers of its own rows, no text of a stranger's.
         topics = ",".join(map(str, streams))
         # Messages that are compressed each by itself take more than their beginning.
@@ -196,7 +230,7 @@ class Sqlite:
         last, gap, gaps = -(2**63), 1, 0
         top = self._last_row() if progress is not None else 0
         if SCAN is not None and self._copy is None:
-            for batch, last in read_pages(self._path, self._table(), streams):
+            for batch, last in read_pages(self.path, self._table(), streams):
                 if len(batch):
                     yield batch
                 if progress is not None:
@@ -257,6 +291,36 @@ class Sqlite:
             self.damage.append(damage)
 
 
+class Rows:
+    """Some rows; see `Block`."""
+
+    whole = False
+    counts: Mapping[int, int] | None = None
+
+    def __init__(self, batch: Batch, unpacks: bool) -> None:
+        """Take messages, and whether each is unpacked."""
+        self._batch = batch
+        self._unpacks = unpacks
+        self.start = int(batch.log_times.min())
+        self.end = int(batch.log_times.max())
+
+    def sound(self) -> bool:
+        """Whether they are as written; there is no proof of that."""
+        return True
+
+    def messages(self) -> list[Taken]:
+        """Its messages."""
+        batch = self._batch
+        found = []
+        for number in range(len(batch)):
+            payload = batch.payload(number)
+            if self._unpacks and payload.startswith(ZSTD_MAGIC):
+                payload = unpack_beginning("zstd", payload, LARGEST)
+            log_time = int(batch.log_times[number])
+            found.append(Taken(int(batch.senders[number]), log_time, payload, log_time, 0))
+        return found
+
+
 def _connected(uri: str) -> sqlite3.Connection:
     try:
         base = sqlite3.connect(uri, uri=True, check_same_thread=False)
@@ -264,7 +328,7 @@ def _connected(uri: str) -> sqlite3.Connection:
         raise InputError(f"The database cannot be opened: {error}.") from error
     base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LARGEST_VALUE)
     # Texts may be anything.
-    base.text_factory = lambda raw: raw.decode("utf-8", "backslashreplace")
+    base.text_factory = lambda raw: raw.decode("utf-8", "surrogateescape")
     return base
 
 

@@ -12,7 +12,7 @@ from tftool.messages.classes import INTERFACES, Interfaces
 from tftool.messages.codec import Codec, codec
 from tftool.messages.layouts import ROS1
 from tftool.messages.schema import full_name
-from tftool.recordings.container import TRANSIENT_LOCAL
+from tftool.recordings.channel import TRANSIENT_LOCAL
 from tftool.recordings.contract import RawMessage, RecordedTopic, Source
 from tftool.recordings.timeline import PlayClock
 from tftool.world.endpoints import Quality

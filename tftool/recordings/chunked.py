@@ -1,0 +1,463 @@
+"""Files whose messages are packed in chunks, read by their index or from front to back."""
+
+import itertools
+import struct
+import zlib
+from array import array
+from collections import Counter
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import LAST_STAMP, Stamp
+from tftool.recordings.channel import Channel
+from tftool.recordings.columns import Batch
+from tftool.recordings.container import MOST_STREAMS, Extras, File, Taken
+from tftool.recordings.contract import Indexes, Stamps
+from tftool.recordings.decompression import Ahead, Packed, unpack, unpack_beginning
+from tftool.recordings.pieces import Piece
+
+FAULTS: Final = (InputError, struct.error, KeyError)
+"""Errors of a record that is damaged."""
+
+_MOST_NOTED: Final = 20
+
+
+def reason_of(error: Exception) -> str:
+    """Return why a record cannot be read."""
+    if isinstance(error, KeyError):
+        return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
+    return "a record is cut" if isinstance(error, struct.error) else str(error)
+
+
+class Walked:
+    """Messages that were found by walking through records, as columns."""
+
+    __slots__ = ("channels", "lengths", "log_times", "starts")
+
+    def __init__(self) -> None:
+        self.channels = array("I")
+        self.log_times = array("q")
+        self.starts = array("q")
+        self.lengths = array("q")
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+    def append(self, channel: int, log_time: int, start: int, length: int) -> None:
+        """Append one: its channel, when it was received, and its payload's place and length."""
+        self.channels.append(channel)
+        self.log_times.append(min(log_time, LAST_STAMP))
+        self.starts.append(start)
+        self.lengths.append(length)
+
+    def extend(self, others: "Walked") -> None:
+        """Append others."""
+        for name in self.__slots__:
+            getattr(self, name).extend(getattr(others, name))
+
+    @property
+    def span(self) -> tuple[Stamp, Stamp]:
+        """First and last log time; 0 where there is none."""
+        return min(self.log_times, default=0), max(self.log_times, default=0)
+
+
+class Head(NamedTuple):
+    """Head of a message in some records.
+
+    Attributes:
+        channel: Its channel's number.
+        log_time: When it was received, nanoseconds.
+        first: Where its payload begins.
+        last: Where it ends.
+        publish_time: When it was sent.
+        sequence: Its number at its publisher.
+    """
+
+    channel: int
+    log_time: int
+    first: int
+    last: int
+    publish_time: int
+    sequence: int = 0
+
+
+@dataclass(slots=True, eq=False)
+class Chunk:
+    """One chunk of a file, and what is known of its messages; see `Block`.
+
+    Attributes:
+        reader: Whose it is.
+        position: Where its record begins.
+        place: Where its data begins, packed; 0 while that is not known.
+        packed: Bytes of the data there.
+        size: Bytes of it unpacked.
+        method: How it is packed.
+        start: Log time of its first message.
+        end: Of its last.
+        crc: The CRC of its data unpacked; 0 for none.
+        cut: Whether the file ends within it.
+        length: Bytes of its record.
+        behind: Where the record behind its message indexes begins.
+        indexes: For each channel where its message index begins, in MCAP.
+        counts: How many messages each channel has in it, by its indexes; None if not known.
+        whole: Whether it may be copied as it is.
+        walked: Its messages as found by walking, where an index does not give them.
+    """
+
+    reader: "ChunkedReader"
+    position: int
+    place: int = 0
+    packed: int = 0
+    size: int = 0
+    method: str = ""
+    start: Stamp = 0
+    end: Stamp = 0
+    crc: int = 0
+    cut: bool = False
+    length: int = 0
+    behind: int = 0
+    indexes: dict[int, int] = field(default_factory=dict)
+    counts: Mapping[int, int] | None = None
+    whole: bool = False
+    walked: Walked | None = None
+    _found: list[Taken] | None = None
+    _is_examined: bool = False
+
+    @property
+    def is_packed(self) -> bool:
+        """Whether it is compressed."""
+        return self.method not in ("", "none")
+
+    @property
+    def owners(self) -> Collection[int]:
+        """The channels that have messages in it, by its indexes."""
+        return self.indexes.keys() or (self.counts or {}).keys()
+
+    def raw(self) -> Piece:
+        """Its record and those of its message indexes."""
+        return Piece(self.reader.fileno(), self.position, self.behind - self.position)
+
+    def messages(self) -> list[Taken]:
+        """Its messages, those up to the damage where there is any."""
+        if self._found is None:
+            self._found = self.reader.taken(self)
+        return self._found
+
+    def sound(self) -> bool:
+        """Whether its content is what was written, as far as it carries proof of that.
+
+        Found out once, by whatever thread asks first; others may ask when it has answered.
+        """
+        if self._found is None and not self._is_examined:
+            if self.is_packed:
+                self.reader.examined(self)
+            elif self.crc and not self.cut:
+                self.reader.check_crc(
+                    self, Piece(self.reader.fileno(), self.place, self.packed).crc()
+                )
+        self._is_examined = True
+        return self.whole
+
+
+class ChunkedReader(File):
+    """One file of chunks; its containers say how records are read. See `Reader`.
+
+    Attributes:
+        damage: What is wrong with it, as sentences, each once; not more than tell enough.
+        is_indexed: Whether it has an index of its own.
+        schemas: Types by their numbers, where they have any: name, encoding, definition.
+    """
+
+    kind = ""
+    container = ""
+    magic = b""
+
+    def __init__(self, path: Path, style: dict[str, Any]) -> None:
+        """Open it.
+
+        Raises:
+            InputError: If it is another container.
+            OSError: If it cannot be opened.
+        """
+        super().__init__(path)
+        self.damage: list[str] = []
+        self.start = self.end = 0
+        self.streams: list[Channel] = []
+        self.counts: list[int] = []
+        self.channels: dict[int, Channel] = {}
+        self.extras = Extras()
+        self.style = style
+        self.is_indexed = True
+        self.schemas: dict[int, tuple[str, str, bytes]] = {}
+        self._numbers: dict[int, int] = {}  # of a channel: its place in `streams`
+        self._chunks: list[Chunk] = []
+        self._damaged: set[Chunk] = set()
+        try:
+            if self.up_to(0, len(self.magic)) != self.magic:
+                raise InputError(f"'{path}' is no {self.kind}{' file' * (self.kind == 'MCAP')}.")
+        except BaseException:
+            self.close()
+            raise
+
+    # What is wrong
+
+    def note(self, damage: str) -> None:
+        """Note what is wrong."""
+        if damage not in self.damage and len(self.damage) < _MOST_NOTED:
+            self.damage.append(damage)
+
+    def note_chunk(self, chunk: Chunk, reason: str) -> None:
+        """Note what is wrong with a chunk: what is found first, as the rest follows from it."""
+        chunk.whole = False
+        if chunk not in self._damaged:
+            self._damaged.add(chunk)
+            self.note(f"A chunk at byte {chunk.position} is damaged ({reason}).")
+
+    # Channels
+
+    def _learn(self, number: int, channel: Channel) -> None:
+        """Take a channel that a record describes; the first one of a number counts."""
+        self.channels[number] = channel
+        if len(self.streams) < MOST_STREAMS:
+            self._numbers[number] = len(self.streams)
+            self.streams.append(channel.readable())
+            self.counts.append(0)
+
+    def _forget(self) -> None:
+        """Drop what was learned of channels and chunks."""
+        for one in (self.channels, self.streams, self.counts, self._numbers, self._chunks):
+            one.clear()
+
+    def _count(self, counts: Mapping[int, int]) -> None:
+        for channel, count in counts.items():
+            if channel in self._numbers:
+                self.counts[self._numbers[channel]] += count
+
+    def _scan(self, chunks: Iterator[Chunk]) -> None:
+        """Find out what is in a file without an index, up to its end or its damage.
+
+        A chunk is walked if its indexes do not tell all: its own records may describe channels.
+
+        Raises:
+            InputError: If nothing of it can be read.
+        """
+        for chunk in chunks:
+            self._chunks.append(chunk)
+            if chunk.counts is None or not chunk.counts.keys() <= self.channels.keys():
+                self._walk(chunk, learns=True)
+            else:
+                self._count(chunk.counts)
+
+    def _note_end(self, position: int) -> None:
+        """Note where a file breaks off that was read from front to back.
+
+        Raises:
+            InputError: If nothing was found up to there.
+        """
+        found = sum(self.counts)
+        self.damage.append(
+            f"The recording breaks off at byte {position} of {self.size}: "
+            f"{found} messages were read up to there."
+        )
+        if not found and not self.streams:
+            raise InputError(
+                f"'{self.path}' is damaged: no message could be read ({self.damage[-1]})"
+            )
+
+    def origin(self, number: int) -> Any:
+        """Return a channel's description in the file, for `adopt` of the container's writer."""
+        raise NotImplementedError
+
+    # A chunk's messages
+
+    def _heads(self, data: bytes, *, learns: bool) -> Iterator[Head]:
+        """The messages among some records.
+
+        Args:
+            data: The records.
+            learns: Whether to take what they tell of channels.
+
+        Raises:
+            InputError: At a record that is damaged; others of `FAULTS` likewise.
+        """
+        raise NotImplementedError
+
+    def unpacked(self, chunk: Chunk, ahead: Ahead | None = None) -> "bytes | memoryview":
+        """A chunk's bytes, unpacked; as many as there are of one that is cut or damaged.
+
+        Args:
+            chunk: The chunk.
+            ahead: Where it may be on its way.
+
+        Raises:
+            InputError: If not even its packed bytes can be read.
+            UsageError: If what it takes is not installed.
+        """
+        coming = None if ahead is None else ahead.take(chunk)
+        try:
+            if coming is not None:
+                return coming.result()
+            data = self.at(chunk.place, chunk.packed)
+            if chunk.cut:
+                return unpack_beginning(chunk.method, data, chunk.size)
+            return unpack(chunk.method, data, chunk.size)
+        except InputError as error:
+            data = self.at(chunk.place, chunk.packed)
+            self.note_chunk(chunk, str(error))
+            return unpack_beginning(chunk.method, data, chunk.size)
+
+    def examined(self, chunk: Chunk) -> bytes | None:
+        """A chunk's bytes, unpacked and compared with its CRC; None if it is cut or damaged."""
+        if chunk.cut or chunk in self._damaged:
+            return None
+        try:
+            data = unpack(chunk.method, self.at(chunk.place, chunk.packed), chunk.size)
+        except InputError as error:
+            self.note_chunk(chunk, str(error))
+            return None
+        if chunk.crc:
+            self.check_crc(chunk, zlib.crc32(data))
+        return data
+
+    def check_crc(self, chunk: Chunk, crc: int) -> None:
+        """Compare the CRC of a chunk's data with the one that it carries."""
+        if crc != chunk.crc:
+            self.note(
+                f"The CRC of the chunk at byte {chunk.position} is wrong: its messages are "
+                "copied as they are, and may not be what was recorded."
+            )
+            chunk.whole = False
+
+    def taken(self, chunk: Chunk) -> list[Taken]:
+        """A chunk's messages with their bytes; what its records tell of channels is learned."""
+        found: list[Taken] = []
+        data = self.examined(chunk)
+        if data is None:
+            packed = self.at(chunk.place, chunk.packed)
+            data = unpack_beginning(chunk.method, packed, chunk.size)
+        try:
+            for channel, log_time, first, last, publish_time, sequence in self._heads(
+                data, learns=True
+            ):
+                payload = data[first:last]
+                moment = min(log_time, LAST_STAMP)
+                found.append(Taken(channel, moment, payload, publish_time, sequence))
+        except FAULTS as error:
+            if not chunk.cut:
+                self.note_chunk(chunk, reason_of(error))
+            chunk.whole = False
+        found = self.known(found)
+        counts = Counter(one.channel for one in found)
+        if counts != chunk.counts:
+            chunk.whole = False
+        chunk.counts = counts
+        return found
+
+    def known(self, messages: list[Taken]) -> list[Taken]:
+        """Return the messages whose channel is known."""
+        found = [one for one in messages if one.channel in self.channels]
+        if len(found) < len(messages):
+            self.note("Messages are left out of which nothing tells on which topic they are.")
+        return found
+
+    def _walk(self, chunk: Chunk, *, learns: bool) -> None:
+        """Walk through a chunk's records and note where its messages are.
+
+        Args:
+            chunk: The chunk.
+            learns: Whether to count them, and to learn of channels: those that were found when
+                the file was opened stay as they are.
+        """
+        found = chunk.walked = Walked()
+        try:
+            data = bytes(self.unpacked(chunk))
+            for channel, log_time, first, last, _, _ in self._heads(data, learns=learns):
+                found.append(channel, log_time, first, last - first)
+        except FAULTS as error:
+            if not chunk.cut:
+                self.note_chunk(chunk, reason_of(error))
+        if learns:
+            self._count(Counter(found.channels))
+        if chunk.cut or len(found):
+            # What is announced may not have been reached.
+            chunk.start, chunk.end = found.span
+
+    # Batches
+
+    def expected(self, wanted: Collection[int]) -> int:
+        """Return the messages of some streams, as the file counts them."""
+        return sum(self.counts[number] for number in wanted)
+
+    def _chosen(self, wanted: Collection[int]) -> dict[int, int]:
+        """The places in `streams` of wanted channels, by their numbers in the file."""
+        return {channel: number for channel, number in self._numbers.items() if number in wanted}
+
+    def _chunk_batches(
+        self, chosen: dict[int, int], batch_of: "Callable[[Chunk, Ahead], Batch | None]"
+    ) -> Iterator[tuple[Chunk, Batch | None]]:
+        """Every chunk, with its messages of chosen channels if there are any."""
+        read = [
+            chunk.walked is not None or any(owner in chosen for owner in chunk.owners)
+            for chunk in self._chunks
+        ]
+        with Ahead(itertools.compress(self._chunks, read), self._ahead) as ahead:
+            for chunk, is_read in zip(self._chunks, read, strict=True):
+                batch = None
+                if is_read:
+                    try:
+                        if chunk.walked is not None:
+                            batch = self._rest_of(chunk, chosen, ahead)
+                        else:
+                            batch = batch_of(chunk, ahead)
+                    except FAULTS as error:
+                        self.note_chunk(chunk, reason_of(error))
+                        try:
+                            batch = self._rest_of(chunk, chosen)
+                        except FAULTS as worse:
+                            reason = reason_of(worse)
+                            self.note(f"A chunk at byte {chunk.position} is lost ({reason}).")
+                yield chunk, batch if batch is not None and len(batch) else None
+
+    def _ahead(self, chunk: Chunk) -> Packed | None:
+        """Return the part of a chunk that is unpacked ahead; None if it is read otherwise."""
+        if chunk.cut or not chunk.is_packed:
+            return None
+        return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size
+
+    def _rest_of(
+        self, chunk: Chunk, chosen: dict[int, int], ahead: Ahead | None = None
+    ) -> Batch | None:
+        """What walking finds in a chunk, whatever its index says."""
+        if chunk.walked is None:
+            if not chunk.place:
+                return None
+            self._walk(chunk, learns=False)
+        walked = chunk.walked
+        assert walked is not None
+        numbers = numbers_of(walked.channels, chosen)
+        which = np.flatnonzero(numbers >= 0)
+        if not len(which):
+            return None
+        data = np.frombuffer(self.unpacked(chunk, ahead), dtype=np.uint8)
+        starts, lengths, log_times = (
+            np.frombuffer(one, dtype=np.int64)[which]
+            for one in (walked.starts, walked.lengths, walked.log_times)
+        )
+        return Batch(data, starts, lengths, log_times, numbers[which])
+
+
+def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
+    """The streams of messages, by their channels; -1 for those of channels not chosen."""
+    owners = np.frombuffer(channels, dtype=np.uint32)
+    if not chosen:
+        return np.full(len(owners), -1, dtype=np.int32)
+    keys = np.array(sorted(chosen), dtype=np.uint32)
+    numbers = np.array([chosen[key] for key in keys.tolist()], dtype=np.int32)
+    places: Stamps = np.minimum(np.searchsorted(keys, owners), len(keys) - 1)
+    return np.where(keys[places] == owners, numbers[places], np.int32(-1))
