@@ -125,7 +125,7 @@ class PageView:
 
         Args:
             path: Its name, in .html.
-            force: Whether to replace what is there.
+            force: Whether to replace an existing file.
 
         Raises:
             UsageError: If something has that name and `force` is not given.
@@ -147,7 +147,7 @@ def view(
     """Show frames in 3-D: in a notebook below the cell, elsewhere by `.save("view.html")`.
 
     Args:
-        shown: Whose frames: all that a buffer remembers, a whole recording, what was opened.
+        shown: Whose frames: all that a buffer remembers, a whole recording, opened frames.
         robot: A robot to draw; that of the recording if None.
         meshes: Folders in which its meshes lie.
         height: How tall it is shown, pixels.

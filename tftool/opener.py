@@ -70,7 +70,7 @@ def open_frames(
     Several recordings are joined in the order of time. It works inside a running event loop.
 
     Args:
-        place: What has the frames; None for the session that runs.
+        place: Source of the frames; None for the session that runs.
         listen_for: How long to listen to a session, seconds.
         until: Up to which second to play a scenario; 5 s if None, all of it if infinite.
         margin: How long to play on behind it, seconds, for what arrives after its stamp.
@@ -96,7 +96,7 @@ def open_frames(
     Raises:
         InputError: If `place` names nothing, or it cannot be read.
         LinkError: If there is no session to listen to.
-        UsageError: If an option does not fit what is opened, or an extra is not installed.
+        UsageError: If an option does not fit FROM, or an extra is not installed.
     """
     poses = PoseOptions(frames, pose_rate, pose_format, inverted, axes)
     if poses != PoseOptions():

@@ -373,7 +373,7 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
     for name in ("run.mcap", "link.mcap"):
         result = tftool("export", run, "-o", tmp_path / name, "--force")
         assert result.status == 2
-        assert "is what is read" in result.err
+        assert "is being read" in result.err
     assert run.read_bytes() == before
 
 
@@ -401,7 +401,7 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
         (["odom", "base", "RUN", "-o", "no/where/a.tum"], 3, "no folder"),
         (["odom", "base", "RUN", "-o", "/dev/full", "-f", "tum", "--force"], 2, "device"),
         (["RUN", "-o", "a.sh", "--at", "1"], 2, "--with-moving"),
-        (["RUN", "-o", "a.sh", "--with-moving"], 2, "links that move"),
+        (["RUN", "-o", "a.sh", "--with-moving"], 2, "moving links have none"),
         (["RUN", "-o", "a.urdf", "--foxglove"], 2, "MCAP"),
         (["RUN", "-o", "a.urdf", "--root", "nope"], 4, "nope"),
     ],

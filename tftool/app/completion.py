@@ -1,8 +1,8 @@
 """Words the shell offers when Tab is pressed: commands, options, frames, scenarios, packages.
 
-The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; what is
-printed is offered. Nothing is hosted or joined for it: the frames of the session that runs are
-read from lists that its processes keep.
+The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; the
+lines it prints are offered. Nothing is hosted or joined for it: the frames of the session that
+runs are read from lists that its processes keep.
 """
 
 import contextlib
@@ -71,7 +71,7 @@ def complete(words: Sequence[str], shell: str) -> None:
     """Print what fits behind the words typed so far, as a shell's script takes it.
 
     Args:
-        words: What stands after `tftool`; the last is the one that is being typed.
+        words: The words after `tftool`; the last is the one that is being typed.
         shell: Which script asks.
     """
     offered: Sequence[Offer] = ()
@@ -94,7 +94,7 @@ def offers(words: Sequence[str]) -> list[Offer]:
     """Return the words that fit behind those typed so far, in the order to show them.
 
     Args:
-        words: What stands after `tftool`; the last is the one that is being typed.
+        words: The words after `tftool`; the last is the one that is being typed.
     """
     from tftool.app.index import COMMANDS
 
@@ -301,7 +301,7 @@ def shell_here() -> str:
 
 
 def install(shell: str) -> list[Path]:
-    """Put a shell's script where it is found; what was there before stays as it is.
+    """Put a shell's script where it is found; existing text stays as it is.
 
     Returns:
         The files that were written or changed.

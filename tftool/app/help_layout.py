@@ -132,7 +132,7 @@ class Command(TyperCommand):
 
 
 def _number(word: str) -> float:
-    """Read a number; what is none is refused where all options are read."""
+    """Read a number; other text is refused where all options are read."""
     try:
         return float(word)
     except ValueError:
@@ -159,7 +159,7 @@ def _title(param: Any) -> str:
 def _is_of_session(param: Any) -> bool:
     if param.name in ("help", _SESSION):
         return False
-    # The list of commands, none of which is described there, does without it.
+    # The list of commands does without it: it describes none of them.
     from tftool.commands.shared.declaration import SESSION_OPTIONS
 
     return param.name in SESSION_OPTIONS

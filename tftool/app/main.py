@@ -125,7 +125,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             _complain("tftool", str(interrupt.__cause__))
         status = ExitStatus.INTERRUPTED
     except BrokenPipeError:
-        # The reader has seen enough (`| head -1`): that is no failure. What is still
+        # The reader has seen enough (`| head -1`): that is no failure. Text still
         # buffered would be written at exit, so it goes nowhere.
         streams.forget_output()
         status = ExitStatus.DONE
@@ -137,7 +137,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             # asyncio's own: an OSError by its family alone, and no output has gone wrong.
             _complain("tftool", f"{error or 'Something did not answer in time'}.")
             return ExitStatus.FAILED
-        # Who opens a file answers for it; what is left is mostly stdout on a full disk.
+        # Who opens a file answers for it; the rest is mostly stdout on a full disk.
         streams.forget_output()
         what = error.filename or "the output cannot be written"
         _complain("tftool", f"{what}: {error.strerror or error}.")
@@ -178,7 +178,7 @@ def _leave_on_signals() -> None:
     if sys.platform != "win32":
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, leave)
-        # What is registered first is called last.
+        # The first one registered is called last.
         atexit.register(ignore)
 
 

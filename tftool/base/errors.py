@@ -64,9 +64,9 @@ class Mistake:
         file: Name of the file as it was given.
         line: Line, from 1.
         column: Column, from 1.
-        text: What is wrong, a sentence without its full stop.
+        text: The fault, a sentence without its full stop.
         shown: The offending line, fit for a terminal; empty when there is none.
-        marks: What stands under `shown`: blanks up to the place, then carets.
+        marks: Marks under `shown`: blanks up to the place, then carets.
     """
 
     file: str
@@ -93,7 +93,7 @@ class Mistake:
             lines: All lines of the file.
             line: Line, from 0.
             column: Column, from 0.
-            text: What is wrong.
+            text: The fault.
             width: How many characters to mark.
         """
         whole = lines[line] if line < len(lines) else ""
@@ -153,7 +153,7 @@ def failure_text(error: BaseException) -> str:
     """An exception in one line: its type, its text, and the file and line it comes from.
 
     That is the innermost line of a user's code. Where there is none, the innermost line of
-    all: but not for an exception of ours, which says what is wrong by itself.
+    all: but not for an exception of ours, whose text is complete.
     """
     kind, text = type(error).__name__, str(error)
     line = line_of(error, users_only=isinstance(error, TftoolError))
@@ -420,7 +420,7 @@ class MalformedMessage(InputError):
 
     Attributes:
         kind: The type it should be.
-        reason: What is wrong with it.
+        reason: Its fault.
     """
 
     def __init__(self, kind: str, reason: str) -> None:

@@ -19,7 +19,7 @@ def plain(text: str) -> str:
 
 
 def fitted(text: str, width: int, *, more: str = "…") -> str:
-    """Give `plain(text)` in at most `width` cells; what is left out shows as `more`."""
+    """Give `plain(text)` in at most `width` cells; omitted text shows as `more`."""
     # No sign is narrower than nothing: a long text need not be measured to its end.
     shown = plain(text[: 4 * max(0, width) + 4])
     if cell_len(shown) <= width:
@@ -39,7 +39,7 @@ def fitted(text: str, width: int, *, more: str = "…") -> str:
 def middle_cut(text: str, width: int, *, more: str = "…") -> str:
     """Give `plain(text)` in at most `width` cells, cut where names of frames differ least.
 
-    The beginning and the end stay; what is left out between them shows as `more`.
+    The beginning and the end stay; the omitted middle shows as `more`.
     """
     shown = plain(text)
     if cell_len(shown) <= width:

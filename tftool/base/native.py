@@ -20,7 +20,7 @@ def built(name: str, interface: int) -> "ModuleType | None":
 
     Args:
         name: Its full name.
-        interface: What is expected of it; one that was built for others is left alone.
+        interface: Expected version; one that was built for others is left alone.
     """
     if os.environ.get(SWITCH, "") not in ("", "0"):
         return None

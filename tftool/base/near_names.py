@@ -3,14 +3,14 @@
 from collections.abc import Iterable
 
 LONGEST = 100
-"""Characters of a word that are compared: what is looked for takes their square."""
+"""Characters of a word that are compared: the search takes their square."""
 
 
 def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float = 0.6) -> list[str]:
     """The known names that look most like a word, whatever their case; the likest first.
 
     Args:
-        word: What was written.
+        word: The word as it was written.
         known: The names that there are; of those that differ in case alone, one is found.
         most: How many are given at most.
         alike: How much a name has to look like the word, from 0 to 1.

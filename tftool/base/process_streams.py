@@ -82,6 +82,6 @@ def has_no_reader() -> bool:
 
 
 def forget_output() -> None:
-    """Discard what is still buffered for stdout."""
+    """Discard the rest of stdout's buffer."""
     with suppress(OSError, ValueError):  # a stdout that is no file has no number
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -8,10 +8,10 @@ class Judgement:
     """One thing that was looked at, and what came of it.
 
     Attributes:
-        subject: What was looked at, a sentence: "by 20 s: distance from a to b below 0.5 m".
+        subject: The subject, a sentence: "by 20 s: distance from a to b below 0.5 m".
         ok: Whether it is as it should be.
         expected: What should have been: "below 0.5 m".
-        found: What was.
+        found: The result.
         at: Seconds from the start to the look; None when there was none.
         line: Line of the file that asked for it; 0 when there is none.
     """
@@ -29,7 +29,7 @@ class Report:
     """Outcome of all judgements made in one place.
 
     Attributes:
-        name: What was looked at: a scenario's name.
+        name: Name of the scenario.
         file: The file behind it, as it was given.
         judgements: One for each thing, in order.
         lasted: Seconds it took, on its own clock.

@@ -47,7 +47,7 @@ def seconds(value: float) -> int:
     try:
         is_finite = math.isfinite(value)
     except TypeError as error:
-        # What it says of an array speaks of dimensions, not of what to do.
+        # What it says of an array speaks of dimensions, not of the remedy.
         if not hasattr(value, "__array__"):
             raise
         raise TypeError(

@@ -100,7 +100,7 @@ def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
     try:
         return maker.construct_document(node)
     except (ValueError, ArithmeticError, AttributeError, TypeError) as error:
-        # PyYAML's own, of what is tagged as something that it is not: !!timestamp x.
+        # PyYAML's own, for a value with a wrong tag: !!timestamp x.
         tag = str(node.tag).rpartition(":")[2]
         problem = f"a value is not the {tag} that it is tagged as"
         if not isinstance(node, yaml.ScalarNode):

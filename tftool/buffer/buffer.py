@@ -446,7 +446,7 @@ class Buffer(Door):
 
         Args:
             target_frame: What the answer is expressed in.
-            source_frame: What is asked about.
+            source_frame: Frame to look up.
             time: The moment; 0 for the newest one for which the whole chain has data.
 
         Returns:
@@ -532,7 +532,7 @@ class Buffer(Door):
 
         Args:
             target_frame: What the answers are expressed in.
-            source_frame: What is asked about.
+            source_frame: Frame to look up.
             times: Whole nanoseconds, shape (n,), in any order; 0 for the latest.
             missing: What becomes of a moment for which there is no pose: "raise", or "nan"
                 for a row of NaN that is not `valid`. A wrong name raises in any case.

@@ -47,7 +47,7 @@ def plain(name: str) -> str:
     """Return a name as exactly a `str`.
 
     A subclass may compare and hash by code of its own: as a key it would run that code in the
-    middle of a lookup, which may then change what is being read.
+    middle of a lookup, which may then change data that is being read.
 
     Raises:
         TypeError: If it is not a string.

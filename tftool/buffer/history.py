@@ -5,10 +5,10 @@ How a moving link's samples lie in memory, which the batch path and `Buffer.samp
 - `records` is one flat array of 64-bit words, oldest sample first, WORDS words for each: its
   stamp in nanoseconds, then x, y, z and the quaternion's x, y, z, w, doubles bit by bit. One
   place to look at for a stamp and its pose: long histories do not fit a processor's cache.
-- Records before `start` are pruned, or free: what is pruned is removed in bulk later. Those from
+- Records before `start` are pruned, or free: pruned ones are removed in bulk later. Those from
   `count` on are room for samples to come.
 - While a batch reads the records no array may grow: what would have it grow is done to a copy
-  (`_resizable`), and what was read stays as it was.
+  (`_resizable`), and data already read stays as it was.
 - An *origin* is a sample's parent and authority in one word: the parent's number in the low 32
   bits, the authority's above them. As long as all samples have the same origin, `origin` is
   all there is; from the first other one on, `origins` holds one word for each record.
@@ -310,7 +310,7 @@ class History(Fields):
 
         The records are not copied, and do not change while that view of them is held: what
         would have the array grow is done to a copy. They are of one moment, even if another
-        thread inserts or prunes meanwhile: what was read is compared again once they are held.
+        thread inserts or prunes meanwhile: the read values are compared again once they are held.
         """
         while True:
             records, start, count = self.records, self.start, self.count
@@ -596,7 +596,7 @@ class History(Fields):
         """Append records, each newer than the one before, and prune those before a stamp.
 
         They have the one origin that all samples have; one there is already, and they reach
-        beyond what is pruned.
+        beyond the pruned ones.
         """
         if self.newest_stamp < oldest_kept:
             self.replace(records, array("q", [self.origin]) * (len(records) // WORDS))
@@ -635,7 +635,7 @@ class History(Fields):
 
         Args:
             other: An empty one.
-            origin: What is their origin there.
+            origin: Their origin there.
             until: The last stamp it is to know.
 
         Returns:
@@ -675,9 +675,9 @@ class History(Fields):
     def use_large_pages(self) -> None:
         """Have many samples where the system maps memory in large pages, if it has such.
 
-        Lookups all over five links of 100 000 samples take a quarter less. What is inserted
-        behind the room there is has an array grow again; not before the history is twice as
-        long is it done again.
+        Lookups all over five links of 100 000 samples take a quarter less. A sample
+        without room makes the array grow again; the next move to large pages waits until the
+        history is twice as long.
         """
         self.large_from = 2 * self.count
         records = self.records
@@ -722,7 +722,7 @@ class History(Fields):
             if isinstance(self.records, array):
                 self._splice(0, start, array("q"))
             else:
-                # What is let go of is not to be copied first.
+                # Released samples are not to be copied first.
                 self.records = _copied(self.records, start, self.count)
             self.count -= start
             if self.origins is not None:
@@ -731,7 +731,7 @@ class History(Fields):
                     self.origins = None
             self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
             if IS_NATIVE:
-                # What is pruned makes room for as many, until as many are pruned again.
+                # Pruned samples make room for as many, until as many are pruned again.
                 room = array("q", bytes(RECORD * min(start, self._compact_at)))
                 self._splice(self.count, len(self.records) // WORDS, room)
             self._newest_parent_start -= start

@@ -76,7 +76,7 @@ def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
     """
     pose: Sample | None = None
     for link in links:
-        # What is no pose is NaN throughout, and leaves nothing but NaN.
+        # A row without a pose is NaN throughout, and leaves nothing but NaN.
         pose = link.at(time) if pose is None else poses.compose(link.at(time), pose)
     return IDENTITY if pose is None else pose
 

@@ -181,7 +181,7 @@ class Solver:
                 return False
             path = path_of(trees, walk)
         for link in path.moving:
-            # What is asked about once is asked about again.
+            # A pair that was looked up once is looked up again.
             if link.count >= link.large_from:
                 link.use_large_pages()
         if self._kept >= MOST_PATHS:

@@ -393,7 +393,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     """How long each message waits to be placed in a frame; None where no edge on the way moves.
 
     Args:
-        model: What is known of the frames.
+        model: The frames and their history.
         heard: The messages.
         fixed: Where they are to be placed.
         warm: Whether the first and the last second of the recording are left out.

@@ -58,7 +58,7 @@ class Evidence:
         recorded: Whether it was recorded, and may be played.
         joints: Names in all joint states; None where none was recorded.
         robot: The robot's description, given or recorded; None without one that can be read.
-        mistakes: What is wrong with the description, as sentences.
+        mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None where there are none.
     """
 
@@ -91,7 +91,7 @@ class Described:
 
     Attributes:
         robot: What it describes; None where there is none that can be read.
-        mistakes: What is wrong with it, as sentences.
+        mistakes: Mistakes in it, as sentences.
         namespace: That of its topic, "/arm" for "/arm/robot_description".
     """
 

@@ -1,6 +1,6 @@
 """One lookup's exact trace: which link refuses, by how much, and what would let it through.
 
-The listener is imagined: at the moment it asks it holds what had arrived by then, pruned as
+The listener is imagined: at the moment it asks it holds the samples that had arrived, pruned as
 tf2 prunes. What it would be told is asked of a buffer that holds the same; why, and what
 helps, comes from the links and never from that text, which may quote a link that the answer
 does not need.
@@ -436,7 +436,7 @@ class Explanation:
         available: Whether it answers.
         exception: What tf2 raises; empty where it answers.
         text: What that says.
-        epoch: The first stamp of what moves.
+        epoch: The first stamp of moving links.
         links: The way from source to target, in this order.
         refusing: The edge that refuses; None where none does, or there is no way.
         answerable_from: Log time from which on it answers; None where it never does.
@@ -479,8 +479,8 @@ def traced(model: Model, question: Question) -> Explanation:
     """Trace one lookup through what a listener would hold.
 
     Args:
-        model: What is known of the frames.
-        question: What is asked, when, and by which listener.
+        model: The frames and their history.
+        question: Pair, moment and listener.
     """
     trace = LookupTrace(model, question)
     exception, text, quoted = "", "", None
@@ -539,9 +539,9 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
     """Add to an explanation for which share of the time the question would have been refused.
 
     Args:
-        model: What was heard of a session.
-        question: What was asked at its end.
-        found: What was answered.
+        model: The session as it was heard.
+        question: The question at its end.
+        found: The answer.
     """
     trace = LookupTrace(model, question)
     way = None if misnamed(trace) is not None else trace.way()

@@ -78,7 +78,7 @@ class Finding:
         id: Which check found it; `tftool doctor --explain ID` tells more.
         severity: How bad it is.
         area: What the check looks at.
-        message: What is wrong, in one line.
+        message: The fault, in one line.
         confidence: How sure that is.
         edges: Parent and child of each transform concerned.
         frames: Frames concerned.
@@ -88,7 +88,7 @@ class Finding:
         until: The same of the last.
         count: How often it was seen.
         facts: The numbers behind it; stamps and durations in whole nanoseconds.
-        evidence: What was seen, a line each.
+        evidence: Observations, a line each.
         consequence: What it breaks.
         fixes: What to do, the likeliest first.
         because_of: The id of the finding that explains this one; None where none does.

@@ -75,7 +75,7 @@ def judge(
     """Run the checks.
 
     Args:
-        evidence: What is known of the frames.
+        evidence: The frames and their history.
         settings: What the listener is like, and thresholds.
         select: Ids or areas to run; all where empty.
         ignore: Ids or areas to leave out.
@@ -310,7 +310,7 @@ def diagnose(
     cache_time: Duration = CACHE_TIME,
     urdf: str | Path | None = None,
 ) -> list[Finding]:
-    """Say what is wrong with the frames.
+    """Report the mistake with the frames.
 
     A buffer keeps neither log times nor messages: what needs them is not looked for.
 

@@ -131,7 +131,7 @@ class Model:
 
     @cached_property
     def epoch(self) -> Stamp:
-        """The first stamp of what moves; log time where nothing does."""
+        """The first stamp of moving links; log time where nothing does."""
         firsts = [int(t.sorted_stamps[0]) for t in self.dynamic if len(t.sorted_stamps)]
         return min(firsts, default=self.start)
 

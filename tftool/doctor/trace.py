@@ -162,7 +162,7 @@ class LookupTrace:
                 return int(self.heard.logs[place]) + self.question.timeout, told, after
         return self.model.log_of(self.stamp) + self.question.timeout, "at that moment", 0
 
-    # What is held
+    # Held samples
 
     def arrived(self, track: Track) -> "np.ndarray[tuple[int], np.dtype[np.intp]]":
         """Places of the usable samples that had arrived."""
@@ -241,7 +241,7 @@ class LookupTrace:
         return LinkVerdict.ANSWERS, 0
 
     def buffer(self) -> Buffer:
-        """A buffer that holds what had arrived."""
+        """A buffer that holds the samples that had arrived."""
         # As many as the recording may have: where a frame is missing must be the robot's fault.
         buffer = Buffer(self.cache, log=_silent, max_frames=MOST_FRAMES)
         tracks = sorted(self.model.tracks, key=lambda track: track.static)

@@ -2,7 +2,7 @@
 
 Trails, axes and the lines to the parents are drawn in braille (eight dots to a
 cell), turtles in blocks or as arrows, so that a metre is as long across as it is
-up on cells twice as high as wide. What is drawn is a frozen `PlanePicture`;
+up on cells twice as high as wide. The drawing is a frozen `PlanePicture`;
 nothing here knows a buffer or a simulator.
 """
 
@@ -203,7 +203,7 @@ class Canvas:
                 self._inside[row] = first, min(self.columns, math.floor(ends[1] + 0.5))
 
     def _follow(self, picture: PlanePicture) -> None:
-        """Draw what was appended to the trails; start again where they changed or got shorter."""
+        """Draw the new ends of the trails; start again where they changed or got shorter."""
         field = picture.field
         if field is not None:
             moved = (field.x, field.y, field.theta)
@@ -232,7 +232,7 @@ class Canvas:
             ink.draw(_carried(stroke, field) if turned and field is not None else stroke)
         return _Pens(key, total, moves, is_cut), ink
 
-    # What is drawn at every look
+    # Drawn at every look
 
     def _loose(self, picture: PlanePicture) -> LooseInk:
         """Draw the lines to the parents, the pair's, the walls and the axes."""

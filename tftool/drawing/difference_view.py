@@ -19,11 +19,11 @@ HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
 def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
-    """A line for each link that differs, and what was compared.
+    """A line for each link that differs, and a summary.
 
     Args:
         found: What to write.
-        width: Cells a line may take: what has no room stands below its link. None for all.
+        width: Cells a line may take: the rest goes below its link. None for no limit.
         everything: Whether to write the links that do not differ, too.
     """
     told = found.links if everything else found.changed

@@ -1,6 +1,6 @@
-"""The frames a drawing shows: what hangs from what, loops and all, as rows with guides and facts.
+"""Frames of a drawing: children below parents, loops and all, as rows with guides and facts.
 
-A buffer holds a forest, but what comes in over a link may be anything: a frame whose
+A buffer holds a forest, but data from a link may be anything: a frame whose
 parent hangs from itself must not send a drawing round in circles.
 """
 
@@ -98,7 +98,7 @@ DEEPEST = 64
 
 @dataclass(frozen=True, slots=True)
 class Guides:
-    """The four pieces a tree is drawn with, all equally wide, and what stands before a name."""
+    """The four pieces a tree is drawn with, all equally wide, and the text before a name."""
 
     child: str
     last: str
@@ -107,12 +107,12 @@ class Guides:
     gap: str = ""
 
     def lead(self, branch: "Branch", most: int | None = None, more: str = "…") -> str:
-        """Return what is drawn before a name: guides, or its depth as a number and one guide.
+        """Return the drawing before a name: guides, or its depth as a number and one guide.
 
         Args:
             branch: The frame.
             most: Cells that guides may take; None for as many as `DEEPEST` levels take.
-            more: What stands for guides that are left out.
+            more: Sign for guides that are left out.
         """
         if not branch.depth:
             return ""

@@ -62,7 +62,7 @@ def block(
 
 
 AXIS_STYLES = ("red", "green", "bright_blue", "")
-"""Of the numbers of a line, in the order x, y, z and what comes after."""
+"""Of the numbers of a line, in the order x, y, z and the rest."""
 
 _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w.])")
 
@@ -93,7 +93,7 @@ def live_heading(target: str, source: str, age: Duration | None) -> "Text":
     Args:
         target: The frame looked up in.
         source: The frame looked up.
-        age: Nanoseconds since the answer's stamp; None for what holds at all times.
+        age: Nanoseconds since the answer's stamp; None for static transforms.
     """
     from rich.text import Text
 

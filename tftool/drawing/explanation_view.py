@@ -20,7 +20,7 @@ _WORDS = {
     LinkVerdict.ANSWERS: "answers",
     LinkVerdict.FORWARD: "newest is {} too old",
     LinkVerdict.BACKWARD: "begins {} after the question",
-    LinkVerdict.PRUNED: "the sample for it was dropped; what is left begins {} later",
+    LinkVerdict.PRUNED: "the sample for it was dropped; the rest begins {} later",
 }
 
 

@@ -37,7 +37,7 @@ _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE
 
 
 def render(diagnosis: Diagnosis, *, verbose: bool = False) -> "RenderableType":
-    """A report of one source: what was read, what is wrong, what is fine, how much."""
+    """A report of one source: the input, the findings, the areas in order, their number."""
     from rich.console import Group
     from rich.text import Text
 
@@ -187,7 +187,7 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
 
 
 def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
-    """Several sources in a table: what was found in each, or why it could not be read."""
+    """Several sources in a table: the findings of each, or why it could not be read."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -369,7 +369,7 @@ def _general(text: str) -> str:
         if spec and "|" in spec:
             parts.append(spec.partition("|")[0])
             continue
-        # What stands at a word's end without a blank is an addition that may be empty.
+        # Text at a word's end without a blank is an addition that may be empty.
         if name is not None and not literal[-1:].isalpha():
             parts.append(name.split("[")[0].upper())
     return "".join(parts)

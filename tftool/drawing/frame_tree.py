@@ -76,7 +76,7 @@ def pieces(
         snapshot: What to draw.
         ascii_only: Whether to keep to ASCII for the branches.
         moving: Of a robot description, the frames whose joint moves; None for other frames.
-        marks: What is wrong with frames: ids of the doctor's checks.
+        marks: Faults of frames: ids of the doctor's checks.
 
     Yields:
         Texts in a row, each with its style.
@@ -270,7 +270,7 @@ def _pose_object(pose: Transform | None) -> dict[str, list[float | None]] | None
 
 
 LEAST_NAME = 16
-"""Cells that names get, and what is before them, before a column is given up for them."""
+"""Cells that names get, and the guides before them, before a column is given up for them."""
 
 SHARE = 0.6
 """Of the width, what names and guides may take before guides shrink and names are cut."""
@@ -345,7 +345,7 @@ def compact(
         width: Columns there are.
         ascii_only: Whether to keep to ASCII for the guides.
         moving: Of a robot description, the frames whose joint moves; None for other frames.
-        marks: What is wrong with frames: ids of the doctor's checks.
+        marks: Faults of frames: ids of the doctor's checks.
         order: What decides the order; any but the tree's own leaves out guides.
         wanted: Only frames whose name has these letters, and in the tree what they hang from.
         most: Rows to draw; None for all.

@@ -15,9 +15,9 @@ class Label:
 
     Attributes:
         name: What it belongs to.
-        text: What is written.
-        column: The cell of what it belongs to.
-        row: The cell of what it belongs to.
+        text: The written text.
+        column: The cell of its owner.
+        row: The cell of its owner.
         reach: How many cells that takes to either side.
     """
 

@@ -3,7 +3,7 @@
 Every PDF reader brings Helvetica along, for the letters of Western Europe only. Any
 other letter is written as its number, <U+4E16>, so that nothing vanishes in silence.
 
-The font's published widths, in thousandths of its size, make the boxes fit what is written
+The font's published widths, in thousandths of its size, make the boxes fit their text
 into them; browsers draw the same sheets with a font of their own that is about as wide.
 """
 
@@ -38,7 +38,7 @@ def _char_width(char: str) -> int:
     code = ord(char) - 0x20
     if 0 <= code < len(_ASCII):
         return _ASCII[code]
-    # From Hangul's first letters on, most of what people write is about square.
+    # From Hangul's first letters on, most characters are about square.
     return _WIDE if ord(char) >= 0x1100 else _OTHER
 
 

@@ -108,7 +108,7 @@ def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str
 
     Args:
         snapshot: The frames.
-        most: Frames to draw; what lies deepest is left out, and counted in the picture.
+        most: Frames to draw; the deepest are left out, and counted in the picture.
         stale: Those that are not sent any more; their cards are marked, and say how old they are.
     """
     forest = grow(snapshot, most=most)
@@ -131,14 +131,14 @@ class _Card:
 
 
 def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
-    """One card per drawn frame; for what is left out below one, a card named with a newline."""
+    """One card per drawn frame; for frames left out below one, a card named with a newline."""
     cards = {}
     shown = distinct(forest.children)
     room = MOST_WIDTH - 2 * PADDING
     for name in forest.children:
         frame = forest.info[name]
         root = frame.parent is None
-        # What is static has no rate and no age: tf2 counts 10000 Hz and 0 s for it.
+        # A static link has no rate and no age: tf2 counts 10000 Hz and 0 s for it.
         told = () if root else facts(frame).lines(units=True)[: 1 if frame.is_static else None]
         if name in stale:
             told = tuple(_aged(line, frame.age) for line in told)

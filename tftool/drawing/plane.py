@@ -1,6 +1,6 @@
 """A picture of frames, as values: everything seen along the z axis of one fixed frame.
 
-Metres and radians in that frame. What is drawn of it, and how, is `drawing/canvas.py`.
+Metres and radians in that frame. The drawing is `drawing/canvas.py`.
 """
 
 import math
@@ -90,7 +90,7 @@ class Drawn:
         strokes: The newest of them, oldest first.
         forgotten: How many there were before the first of `strokes`.
         edition: A number that is another one for another drawing.
-        box: What holds all of them, where that is known.
+        box: Their bounding box, where that is known.
     """
 
     strokes: Sequence[Stroke] = ()

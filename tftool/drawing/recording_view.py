@@ -31,7 +31,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
         recording: Which.
         width: Cells a line may take: sentences go on in the next one, columns that have no room
             are left out. None for all.
-        name: What it is called, where that is not what was opened.
+        name: Its name, if that is not the opened path.
     """
     source = recording.source
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
@@ -237,11 +237,11 @@ def table(
     goes: tuple[str, ...] = (),
     right: tuple[str, ...] = (),
 ) -> list[str]:
-    """Lines of columns, as wide as what is in them within reason; the last one is not padded.
+    """Lines of columns, as wide as their cells within reason; the last one is not padded.
 
     Args:
-        heads: What stands above them.
-        rows: What stands in them.
+        heads: Headings.
+        rows: Their cells.
         width: Cells a line may take; None for as many as it needs.
         goes: Columns that shrink, then are left out where there is no room, in that order.
         right: Columns of numbers, which stand at the right end.
@@ -301,7 +301,7 @@ def _moment(stamp: Stamp) -> str:
 
 
 def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str:
-    """Several recordings, a line each; below them what is wrong with which.
+    """Several recordings, a line each; below them the faults of each.
 
     Args:
         rows: What each holds, or why it cannot be read.

@@ -15,7 +15,7 @@ from tftool.base.report import Judgement, Report
 
 
 def render(reports: Sequence[Report]) -> Table:
-    """A line for each report, and below it, in full, what is not as it should be."""
+    """A line for each report, and below it, in full, the failures."""
     table = Table.grid(padding=(0, 2), pad_edge=False)
     for _ in range(3):
         table.add_column(overflow="fold")
@@ -44,7 +44,7 @@ def _told(report: Report) -> str:
 
 
 def render_all(reports: Sequence[Report]) -> Table:
-    """Every judgement in a table, grouped by report; what is not as it should be stands out."""
+    """Every judgement in a table, grouped by report; failures are highlighted."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("scenario", overflow="fold")
     table.add_column("expected", overflow="fold", ratio=3)

@@ -13,8 +13,8 @@ def as_text(name: str, robot: Robot, width: int | None = None) -> str:
     """Everything about a description, in lines.
 
     Args:
-        name: What was opened, as it was given.
-        robot: What was read from it.
+        name: Name as it was given.
+        robot: The robot it describes.
         width: Cells a line may take; columns that have no room are left out. None for all.
     """
     links, joints = robot.links, robot.joints

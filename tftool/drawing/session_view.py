@@ -34,7 +34,7 @@ def lines(
         verbose: Whether to list the services that every node has.
         width: Columns of the terminal, where long lists go on in a line of their own; None for
             one line for each, however long.
-        ascii_only: Whether to keep to ASCII for what is drawn.
+        ascii_only: Whether to draw with ASCII only.
     """
     writer = _Writer(width, "~" if ascii_only else "…")
     told = _processes(writer, found["processes"])

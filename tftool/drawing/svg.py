@@ -81,7 +81,7 @@ def _box(box: Box) -> str:
 def _text(text: Text) -> str:
     length = width(text.text, text.size, bold=text.kind == "name")
     # A viewer's font may be wider than Helvetica. All that stands in a card is kept to its width:
-    # lines of which some are drawn together and others are not look like several sizes.
+    # lines drawn partly together look like several sizes.
     fitted = f' textLength="{_number(length)}" lengthAdjust="spacingAndGlyphs"'
     return (
         f'<text class="{text.kind}" x="{_number(text.x)}" y="{_number(text.y)}" '
@@ -119,7 +119,7 @@ def page(snapshot: Snapshot, svg: str, marks: Marks = NO_MARKS) -> str:
     Args:
         snapshot: The frames.
         svg: The picture of their trees.
-        marks: What is wrong with frames: ids of the doctor's checks.
+        marks: Faults of frames: ids of the doctor's checks.
 
     Returns:
         HTML; nothing in a name acts in it.

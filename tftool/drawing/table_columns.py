@@ -13,7 +13,7 @@ GAP = 2
 """Cells between two columns."""
 
 Cell: TypeAlias = tuple[str, str]
-"""What stands in it, and its style."""
+"""Its text, and its style."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +21,7 @@ class TableColumn:
     """Cells under each other.
 
     Attributes:
-        heading: What is above them.
+        heading: Text above them.
         cells: One a row.
         stands_right: Whether they stand at its right end, as numbers do.
         caps: How wide it may be at most, from wide to narrow: it shrinks before it goes.
@@ -54,8 +54,8 @@ class FittedColumns:
     Attributes:
         columns: From left to right.
         widths: How wide each is.
-        room: Cells that are left for what stands before them.
-        more: What stands for text that was left out.
+        room: Cells that are left for the text before them.
+        more: Sign for text that was left out.
     """
 
     columns: tuple[TableColumn, ...]
@@ -69,7 +69,7 @@ class FittedColumns:
         return self.room + sum(GAP + width for width in self.widths)
 
     def heading(self, first: str) -> Text:
-        """The line above the rows; `first` is above what stands before the columns."""
+        """The line above the rows; `first` is above the text before the columns."""
         shown = middle_cut(first, self.room, more=self.more)
         line = shown + " " * (self.room - cell_len(shown))
         for one, width in zip(self.columns, self.widths, strict=True):
@@ -90,14 +90,14 @@ class FittedColumns:
 def fit(
     columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
 ) -> FittedColumns:
-    """Keep as many columns as leave `wanted` cells to what stands before them.
+    """Keep as many columns as leave `wanted` cells to the text before them.
 
     Args:
         columns: From left to right; one in which nothing stands goes in any case.
         width: Cells there are.
         wanted: How many are wanted for the first.
         longest: How many it can use at all.
-        more: What stands for text that is left out.
+        more: Sign for text that is left out.
     """
     kept = [one for one in columns if any(text for text, _ in one.cells)]
     while True:

@@ -21,7 +21,7 @@ NONE = "-"
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """The two frames a monitor was asked about, and what hangs between them.
+    """The two frames a monitor was asked about, and the links between them.
 
     Attributes:
         target: The frame looked up in.
@@ -96,8 +96,8 @@ def table(
 ) -> Text:
     """Return a table for people: frames, in the order of the chain where there is one, and senders.
 
-    What is late, by the doctor's limits, is amber: dated long before it arrives, or not heard
-    of for many periods; what has been silent for longer still is red.
+    Late links, by the doctor's limits, are amber: dated long before it arrives, or not heard
+    of for many periods; those silent for longer still are red.
 
     Args:
         now: What the clock reads.
@@ -105,8 +105,8 @@ def table(
         traffic: What came.
         chain: The pair it is about; None for all frames.
         width: Columns there are.
-        height: Lines there are; of what is more, the number is told.
-        ascii_only: Whether to keep to ASCII for what is drawn.
+        height: Lines there are; the rest is counted.
+        ascii_only: Whether to draw with ASCII only.
     """
     links = _links(traffic, chain)
     if chain is not None:
@@ -177,7 +177,7 @@ def _within(rows: list[Text], room: int) -> list[Text]:
 def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
 ) -> list[TableColumn]:
-    """Rate, delay, and since when nothing came, of what sends again and again."""
+    """Rate, delay, and silence of each repeated transform."""
     rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
     late = [_late(now, one, still) for one, still in zip(series, statics, strict=True)]
 
@@ -238,7 +238,7 @@ def _is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
 
 
 def _late(now: Stamp, series: Series, is_static: bool) -> str:
-    """The style of what is late; "" of what is not."""
+    """Return the style of a late link; "" for others."""
     if _is_silent(now, series, is_static):
         return "red" if as_seconds(_silence(now, series)) > FRAME_TIMEOUT else "yellow"
     delay = series.average_delay

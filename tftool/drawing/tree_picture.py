@@ -24,7 +24,7 @@ class Drawing:
     Attributes:
         content: Text, or bytes for PDF.
         left_out: Frames that are not in it.
-        note: A sentence about what is left out or shortened; empty when nothing is.
+        note: A sentence about omitted or shortened text; empty when nothing is.
     """
 
     content: str | bytes
@@ -38,7 +38,7 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
     Args:
         snapshot: What to draw.
         form: The format.
-        marks: What is wrong with frames: ids of the doctor's checks.
+        marks: Faults of frames: ids of the doctor's checks.
 
     Raises:
         KeyError: If there is no such format.

@@ -11,7 +11,7 @@ from tftool.geometry.rigid import Transform
 
 
 def up_to(whole: Buffer, moment: Stamp) -> Buffer:
-    """Return what of a buffer is stamped up to a moment; what holds at all times stays."""
+    """Return a buffer's samples up to a moment; static transforms stay."""
     frames = whole.frames()
     found = Buffer(whole.cache_time, max_frames=max(1, len(frames)))
     for frame in frames:

@@ -12,7 +12,7 @@ from tftool.robots.robot_model import Robot, load_urdf
 from tftool.robots.static_publishers import StaticFrames, load_statics
 
 Comparable = Frames | Recording | Robot | Buffer | StaticFrames | str | os.PathLike[str]
-"""What has frames to compare; a path names a recording, a description or a launch file."""
+"""Source of frames to compare; a path names a recording, a description or a launch file."""
 
 
 def diff(

@@ -87,7 +87,7 @@ class LinkState:
         parent: What it hangs from, at last.
         kind: How it behaves.
         count: How many samples there are.
-        rate: Hertz, by the median of its periods; None of what does not move.
+        rate: Hertz, by the median of its periods; None if it does not move.
         pose: The child in the parent, where it holds at all times; else None.
     """
 
@@ -103,7 +103,7 @@ class Displacement:
     """Distance of one link's pose in B from its pose in A.
 
     Attributes:
-        millimetres: Distance; of what moves the root mean square.
+        millimetres: Distance; the root mean square if it moves.
         degrees: Turn; likewise.
         worst_millimetres: The largest distance.
         worst_degrees: The largest turn.
@@ -165,8 +165,8 @@ class Differences:
         tolerance: What counted as a difference.
         links: Every link, by the order of A, then of B.
         start: The first moment of A, from which times are told, nanoseconds.
-        shift: What was added to stamps of A to find those of B, nanoseconds.
-        notes: What was assumed, as sentences.
+        shift: Nanoseconds added to stamps of A to find those of B.
+        notes: Assumptions, as sentences.
     """
 
     first: str
@@ -224,7 +224,7 @@ def compare(
         shift = second.start - first.start
         notes.append("The two count on different clocks: each from its own start.")
     children = list(dict.fromkeys([*held[0], *held[1]]))
-    # What lies beyond what a number holds is infinitely far, and no news.
+    # A distance beyond the range of numbers is infinite, and no news.
     with np.errstate(over="ignore", invalid="ignore"):
         links = [_compared(child, first, second, held, shift, tolerance) for child in children]
     if any(one.note == APART for one in links):

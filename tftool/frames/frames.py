@@ -22,7 +22,7 @@ class Frames:
     """The frames of a recording, a robot description, a statics file, a scenario or a session.
 
     `tftool.open` makes one. Nothing is pruned: a lookup may ask for any moment. Works in a
-    `with`, at whose end the files are closed; what was read stays.
+    `with`, at whose end the files are closed; data already read stays.
 
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
@@ -47,18 +47,18 @@ class Frames:
         found: "Found | None" = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        """Take what was opened; a recording brings its own buffer, span, robot and notes.
+        """Take opened files; a recording brings its own buffer, span, robot and notes.
 
         Args:
             kind: What it was opened from.
             name: What that is called.
             buffer: All that is known of the frames.
-            span: First and last stamp; None for what holds at all times.
+            span: First and last stamp; None for static transforms.
             recording: What they were read from.
             robot: What they describe.
             log: Every transform as it arrived.
             found: The files they were read from.
-            notes: What is worth saying of them, as sentences.
+            notes: Notes on them, as sentences.
         """
         self.kind: FramesKind = kind
         self.name = name
@@ -82,7 +82,7 @@ class Frames:
         return f"<Frames of {self.title}{lasts}>"
 
     def close(self) -> None:
-        """Close the files; what was read stays."""
+        """Close the files; data already read stays."""
         if self._recording is not None:
             self._recording.close()
 
@@ -117,12 +117,12 @@ class Frames:
 
     @property
     def start(self) -> Stamp | None:
-        """First stamp, nanoseconds; None for what holds at all times."""
+        """First stamp, nanoseconds; None for static transforms."""
         return self._recording.start if self._recording is not None else self._ends[0]
 
     @property
     def end(self) -> Stamp | None:
-        """Last stamp, nanoseconds; None for what holds at all times."""
+        """Last stamp, nanoseconds; None for static transforms."""
         return self._recording.end if self._recording is not None else self._ends[1]
 
     @property
@@ -131,7 +131,7 @@ class Frames:
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last stamp, nanoseconds; 0 and 0 for what holds at all times."""
+        """First and last stamp, nanoseconds; 0 and 0 for static transforms."""
         return self.start or LATEST, self.end or LATEST
 
     @property
@@ -151,7 +151,7 @@ class Frames:
         return tuple(recording_notes(self._recording))
 
     def at(self, time: float) -> Stamp:
-        """Return the stamp so many seconds after the start; 0 for what holds at all times."""
+        """Return the stamp so many seconds after the start; 0 for static transforms."""
         start = self.start
         return LATEST if start is None else start + seconds(time)
 

@@ -1,4 +1,4 @@
-"""A moment as people name it: since the start of what they ask, or a stamp."""
+"""Moment as people name it: seconds since the start of FROM, or a stamp."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 @dataclass(frozen=True, slots=True)
 class At:
-    """A moment as `--at` names it: since the beginning of what is asked, or a stamp.
+    """A moment as `--at` names it: seconds since the start of FROM, or a stamp.
 
     Attributes:
         nanoseconds: How much, in nanoseconds.

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def recording_notes(recording: "Recording") -> list[str]:
-    """Say what is damaged or odd about a recording, and what a description adds to it."""
+    """Return notes on damage and oddities of a recording, and on links a description adds."""
     return [
         *recording.damage,
         *odometry_notes(recording),

@@ -99,7 +99,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
     Args:
         buffer: Whose frames.
         target: What the answers are expressed in.
-        source: What is asked about.
+        source: Frame to look up.
         moments: When to ask; at the stamps of the fastest link between the two if None.
 
     Raises:
@@ -140,7 +140,7 @@ def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
     above = [_ancestors(buffer, frame) for frame in (target, source)]
     shared = next((frame for frame in above[0] if frame in above[1]), None)
     if shared is None or not all(map(buffer.frame_exists, (target, source))):
-        # Says what is wrong with the two, and refuses.
+        # Refuses, with the reason.
         buffer.lookup_transform(target, source)
         return []
     return [frame for side in above for frame in side[: side.index(shared)]]

@@ -26,7 +26,7 @@ _STEP: Final = re.compile(r"(\d+(?:\.\d+)?)(m|deg)?")
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class PieceLength:
     """Length of the pieces whose motion is compared.
 
     Attributes:
@@ -38,7 +38,7 @@ class Step:
     unit: Literal["frames", "m", "deg"] = "frames"
 
     @classmethod
-    def read(cls, text: str) -> "Step":
+    def read(cls, text: str) -> "PieceLength":
         """Parse a step: "1" frames, "10m", "5deg".
 
         Raises:
@@ -105,7 +105,7 @@ class TrajectoryErrors:
     scale: float
     fit: Fit
     match: Match
-    step: Step
+    step: PieceLength
     columns: tuple[ErrorColumn, ...]
 
 
@@ -117,7 +117,7 @@ def trajectory_errors(
     kinds: tuple[str, ...] = ("ape", "rpe"),
     fit: Fit = "none",
     match: Match = "nearest",
-    step: Step | None = None,
+    step: PieceLength | None = None,
 ) -> TrajectoryErrors:
     """Measure how far one trajectory is from another.
 
@@ -134,7 +134,7 @@ def trajectory_errors(
         InputError: If a side has several chains, or too few poses match.
         TransformException: If a pair cannot be looked up.
     """
-    step = step or Step()
+    step = step or PieceLength()
     first, second = (
         _only_chain(side) if pair is None else pair
         for side, pair in zip((reference, estimate), pairs, strict=True)
@@ -255,7 +255,7 @@ def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> T
     return replace(path[ends], translations=moved, rotations=turned)
 
 
-def _pieces(path: TransformArray, step: Step) -> tuple["np.ndarray", "np.ndarray"]:
+def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.ndarray"]:
     """Return the indices at which pieces of one step begin and end, one after the other.
 
     Raises:

@@ -46,7 +46,7 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
     """Roll, pitch, yaw in radians, pitch within a quarter turn.
 
-    At the poles (pitch of a quarter turn) yaw is 0 and roll holds the whole of what the
+    At the poles (pitch of a quarter turn) yaw is 0 and roll holds the whole of the turn the
     two share, so that the angles always mean the same rotation as the quaternion. NaN
     for a zero quaternion.
     """
@@ -74,7 +74,7 @@ def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, flo
     a, b, c, d = w - y, x + z, y + w, z - x
     near, far = math.hypot(a, b), math.hypot(c, d)
     pitch = 2.0 * math.atan2(far, near) - 0.5 * math.pi
-    # At a pole one of the two is told by rounding alone.
+    # At a pole rounding alone decides one of the two.
     half_sum = math.atan2(b, a) if near > NOISE else math.nan
     half_difference = math.atan2(d, c) if far > NOISE else math.nan
     if math.isnan(half_sum):

@@ -34,7 +34,7 @@ def interpolate(pair: Pair, time: float) -> Pose:
     before, x, y, z, ax, ay, az, aw, after, ux, uy, uz, bx, by, bz, bw = pair
     if time == before:
         return (x, y, z, ax, ay, az, aw)
-    # Stamps are whole numbers, and so is what is divided: as floats they are 256 ns apart.
+    # Stamps are whole numbers, and so is the dividend: as floats they are 256 ns apart.
     share = (time - before) / (after - before)
     cosine = ax * bx + ay * by + az * bz + aw * bw
     take = 1.0

@@ -109,7 +109,7 @@ def roll_pitch_yaw(quaternions: Floats) -> Floats:
     a, b, c, d = w - y, x + z, y + w, z - x
     near, far = np.hypot(a, b), np.hypot(c, d)
     half_sum, half_difference = np.arctan2(b, a), np.arctan2(d, c)
-    # At a pole one of the two is told by rounding alone.
+    # At a pole rounding alone decides one of the two.
     level = (near > NOISE) & (far > NOISE)
     alone = np.where(near > NOISE, 2.0 * half_sum, -2.0 * half_difference)
     angles: Floats = np.stack(

@@ -2,7 +2,7 @@
 
 The fast half of `batch`, for arrays that are used again and again: nothing is allocated.
 Vectors lie as rows x, y, z, x, y, so that a cross product is three operations on three
-rows each; a quaternion has its w before them. What has one column stands for all.
+rows each; a quaternion has its w before them. A single column serves all rows.
 """
 
 from typing import NamedTuple
@@ -152,7 +152,7 @@ def rotate(
     Args:
         quaternions: By what.
         factor: 2 over the square of the quaternions' lengths.
-        vectors: What is turned.
+        vectors: Vectors to turn.
         cross: Is overwritten.
         spare: Three rows that are overwritten.
     """

@@ -37,7 +37,7 @@ _SMALLEST_TEXT: Final = 4
 class Codec:
     """One message type's bytes in one layout.
 
-    Any object that has the fields as attributes can be written; what is read is a message
+    Any object that has the fields as attributes can be written; reading gives a message
     of the class.
     """
 
@@ -326,7 +326,7 @@ class _Planner:
 
 
 def _numbers_held(value: Any) -> memoryview | None:
-    """The memory of an array's numbers as it lies there; None for what has no such."""
+    """The memory of an array's numbers in place; None for other values."""
     try:
         view = memoryview(value)
     except TypeError:

@@ -74,7 +74,7 @@ def array_check(
 
 
 def typecode(kind: str | type[Any]) -> str | None:
-    """The letter of numbers that are kept as arrays; None for what is kept as a list."""
+    """The letter of numbers that are kept as arrays; None for lists."""
     if not isinstance(kind, str):
         return None
     return INTEGERS[kind] if kind in INTEGERS else FLOATS.get(kind)

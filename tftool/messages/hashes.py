@@ -15,7 +15,7 @@ _NESTED, _BOUNDED_STRING, _BOUNDED_WSTRING = 1, 21, 22
 _NUMBERS: Final = {
     "int8": 2,
     "uint8": 3,
-    # In IDL, which is what is described, a char of a .msg file is an uint8.
+    # In IDL, which is described here, a char of a .msg file is an uint8.
     "char": 3,
     "int16": 4,
     "uint16": 5,

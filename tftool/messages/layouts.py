@@ -4,7 +4,7 @@ CDR has a header of four bytes that tells the byte order; from behind it every n
 aligned to its size, and a text ends with a zero byte that its length counts. We write
 little endian and read both. ROS 1 has no header, aligns nothing and ends no text.
 
-Bytes come from strangers: a length is compared with what has arrived before anything is
+Bytes come from strangers: a length is compared with the bytes there are before anything is
 made from it, and what does not fit is refused with a sentence.
 """
 
@@ -43,7 +43,7 @@ class Layout:
 
     Attributes:
         name: What it is called in messages to people.
-        header: What stands before the first field when we write.
+        header: Bytes before the first field when we write.
         headers: The byte order that each header we read announces; empty without a header.
         alignment: The largest power of two that positions are rounded up to; 1 for none.
         word: The same for lengths.
@@ -166,7 +166,7 @@ def _decoded(raw: bytes) -> str:
 class Writer(bytearray):
     """Collects the bytes of one message behind its header.
 
-    What it holds as a bytearray is what was written since the last large array; those are
+    Its bytearray holds the bytes written since the last large array; those are
     copied once, when all is joined.
 
     Attributes:

@@ -51,7 +51,7 @@ def list_result(names: Iterable[str], prefixes: Sequence[str], depth: int) -> An
 
     Args:
         names: The parameters there are.
-        prefixes: Names, and what goes before a dot; all parameters without one.
+        prefixes: Names, and prefixes before a dot; all parameters without one.
         depth: How many levels below a prefix to list, 0 for all.
     """
     starts = [f"{one}." for one in prefixes] or [""]

@@ -249,7 +249,7 @@ class Schema:
 
 
 def _of_action(folder: str, base: str, part: str) -> str | None:
-    """The lines of what ROS 2 derives from an action; None for what its definition says."""
+    """Return the lines of a type ROS 2 derives from an action; None for the action's own."""
     action = base.rpartition("_")[0]
     if part == "FeedbackMessage":
         return f"{_GOAL_ID}{folder}{base}_Feedback feedback"

@@ -1,4 +1,4 @@
-"""tf2_msgs/TFMessage as bytes and back: by hand, as it is most of what a session carries.
+"""tf2_msgs/TFMessage as bytes and back: by hand, as most bytes of a session are these.
 
 The same bytes as the definition gives, at a fraction of the cost; large messages can be
 read as arrays, without an object for each transform.

@@ -72,7 +72,7 @@ class Recorded:
         """Look at what a container holds.
 
         Args:
-            name: What was opened, as it was given.
+            name: Name as it was given.
             container: Its files.
         """
         self.name = name

@@ -57,7 +57,7 @@ class Publisher:
         topic: Name of the topic.
         node: Who publishes it, "/robot_state_publisher"; empty where that is not recorded
             (ROS 2 records it nowhere).
-        durability: What was offered to late subscribers: "transient_local" (ROS 1's
+        durability: Offer to late subscribers: "transient_local" (ROS 1's
             latching too), "volatile", or empty where that is not recorded.
         reliability: "reliable", "best_effort", or empty.
         offers: How many publishers' offers of service the recorder noted for the topic.
@@ -222,7 +222,7 @@ class Source(Protocol):
 
     @property
     def name(self) -> str:
-        """What was opened, as it was given."""
+        """Name as it was given."""
 
     @property
     def kind(self) -> str:

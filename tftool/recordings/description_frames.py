@@ -29,7 +29,7 @@ class DescribedFrames:
         still: Frames that hold at all times.
         moving: Frames that joint states move.
         gaps: Frames of which neither tf nor joint states say where they are.
-        prefix: What stands before a link's name in the names of its frames.
+        prefix: Prefix of a link's name in the name of its frame.
     """
 
     still: tuple[str, ...] = ()
@@ -67,7 +67,7 @@ def read_description(source: Source, topic: RecordedTopic) -> Robot:
 
 
 def prefix_of(robot: Robot, frames: Collection[str]) -> str:
-    """What stands before the names of links in those of frames: robot_state_publisher's prefix."""
+    """Prefix of the names of links in those of frames: robot_state_publisher's prefix."""
     known = frozenset(frames)
     if not known or any(link in known for link in robot.links):
         return ""
@@ -103,7 +103,7 @@ def add_described(
         robot: The description.
         joints: The joint states of the same recording.
         frames: The children that tf gave, which are left as they are.
-        prefix: What stands before the names of links in those of frames.
+        prefix: Prefix of the names of links in those of frames.
 
     Returns:
         What was added, and what is still missing.

@@ -64,7 +64,7 @@ class Cutter:
                 self.flush()
 
     def flush(self) -> None:
-        """Cut what waits."""
+        """Cut everything waiting."""
         if not self._waiting:
             return
         waiting, self._waiting = self._waiting, []

@@ -104,7 +104,7 @@ class Recording:
         """Take a source.
 
         Args:
-            source: What is read from.
+            source: The opened container.
             progress: Is told how far reading has come.
             robot: What the recorded robot is, in place of a description in the recording.
             kept: Where its columns are kept from one question to the next.
@@ -137,7 +137,7 @@ class Recording:
         )
 
     def close(self) -> None:
-        """Close its files; what was read stays."""
+        """Close its files; data already read stays."""
         self._closed = True
         self.source.close()
 
@@ -154,11 +154,11 @@ class Recording:
                 "inside its with block."
             )
 
-    # What is in it
+    # Content
 
     @property
     def name(self) -> str:
-        """What was opened, as it was given."""
+        """Name as it was given."""
         return self.source.name
 
     @property
@@ -211,7 +211,7 @@ class Recording:
 
     @cached_property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last stamp of what moves, nanoseconds; log times where nothing does.
+        """First and last stamp of moving links, nanoseconds; log times where nothing does.
 
         Of a recording with two clocks, those of the clock that most transforms have.
         """
@@ -235,12 +235,12 @@ class Recording:
 
     @property
     def start(self) -> Stamp:
-        """First stamp of what moves, nanoseconds."""
+        """First stamp of moving links, nanoseconds."""
         return self.span[0]
 
     @property
     def end(self) -> Stamp:
-        """Last stamp of what moves, nanoseconds."""
+        """Last stamp of moving links, nanoseconds."""
         return self.span[1]
 
     # Asking

@@ -127,7 +127,7 @@ class RecordingWriter:
         """Write the rest, and bring the recording to its name.
 
         Raises:
-            InputError: If that fails; what was written is gone then.
+            InputError: If that fails; the written data is gone then.
         """
         try:
             self.container.finish()
@@ -168,7 +168,7 @@ def write_recording(
             missing), "bz2", "lz4" or "none" in ROS 1 bags (none if None).
         storage: What a folder holds: "mcap" or "sqlite3".
         profile: Whose rules the channels of an MCAP file follow: "ros2", or "" for none.
-        force: Whether it may replace what stands there.
+        force: Whether it may replace an existing file.
 
     Raises:
         UsageError: If something stands there and `force` is not given, the name ends otherwise,

@@ -85,7 +85,7 @@ class RollingRecording:
             path: A name that ends in ".mcap", or one without a suffix for a folder.
             limits: When to begin a new file.
             compression: "zstd", "lz4" or "none".
-            force: Whether it may replace what has that name.
+            force: Whether it may replace existing files.
 
         Raises:
             UsageError: If there is something of that name and `force` is not given, or the name
@@ -168,7 +168,7 @@ class RollingRecording:
             transforms: How many transforms are in it.
 
         Raises:
-            InputError: If it cannot be written; what was written before stays readable.
+            InputError: If it cannot be written; data written before stays readable.
         """
         if self._closed:
             return
@@ -270,7 +270,7 @@ class RollingRecording:
         """Write what has waited for a second; call it a few times a second.
 
         Raises:
-            InputError: If it cannot be written; what was written before stays readable.
+            InputError: If it cannot be written; data written before stays readable.
         """
         if self._writer is None or now - self._flushed < CHUNK_TIME:
             return
@@ -301,7 +301,7 @@ class RollingRecording:
         """Write the rest, and give every file its name.
 
         Raises:
-            InputError: If that fails; what was written before stays readable.
+            InputError: If that fails; data written before stays readable.
         """
         if self._closed:
             return

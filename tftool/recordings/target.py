@@ -54,7 +54,7 @@ class Target:
         Args:
             path: Its name in the end.
             folder: Whether it is a folder.
-            force: Whether it may replace what has that name.
+            force: Whether it may replace existing files.
 
         Raises:
             UsageError: If something has that name and `force` is not given.

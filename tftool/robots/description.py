@@ -100,7 +100,7 @@ class RobotLink:
 
     Attributes:
         name: Its name, and its frame's.
-        visuals: What is drawn of it.
+        visuals: Its drawn shapes.
         collisions: What it collides with.
         mass: Kilograms; None without an inertial element.
     """
@@ -188,7 +188,7 @@ class RobotDescription:
         root: The link that is no joint's child.
         links: By name, in the order of the file.
         joints: By name, in the order of the file.
-        notes: What is odd and still readable, as sentences.
+        notes: Oddities that are still readable, as sentences.
         text: What it was read from, xacro expanded.
     """
 

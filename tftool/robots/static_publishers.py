@@ -108,7 +108,7 @@ def _publishers(text: str, name: str) -> Iterator[Publisher]:
 def _of_shell(text: str) -> Iterator[Publisher]:
     number = 1
     for line in text.replace("\\\r\n", "\\\n").split("\n"):
-        # What goes on in the next line was joined below.
+        # Continued lines were joined below.
         if PUBLISHER in line and not line.lstrip().startswith("#"):
             yield number, _joined_line(text, number)
         number += 1

@@ -98,7 +98,7 @@ def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -
 def is_xacro(text: str) -> bool:
     """Whether a description must be expanded before it can be read.
 
-    An expanded file may still declare xacro's namespace; what is not expanded yet has
+    An expanded file may still declare xacro's namespace; an unexpanded one has
     elements of it, or an attribute with `${…}` or `$(…)`.
     """
     parser = expat.ParserCreate("utf-8")
@@ -272,7 +272,7 @@ class _Reader:
     def _left_out(self) -> Iterator[None]:
         """Turn mistakes into notes: those that leave every frame where it is.
 
-        urdfdom reads on behind what is wrong with a link's looks or weight, so that robots run
+        urdfdom reads on behind mistakes in a link's looks or weight, so that robots run
         with such files.
         """
         before, self.mistakes = self.mistakes, []

@@ -52,7 +52,7 @@ PATIENCE = 10.0
 """Seconds to wait for a node or a topic that is named."""
 
 UNKNOWN = 1
-"""Exit status when what was named is not there."""
+"""Exit status when the named thing does not exist."""
 
 SESSIONLESS = ("interface", "pkg")
 """Commands that files answer: no session is asked."""
@@ -369,7 +369,7 @@ def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
     while core.ok() and not (times and sent >= times):
         rate.sleep()
         publish()
-    # What is on its way to another process is given time to arrive.
+    # Messages on their way to another process are given time to arrive.
     _listen(node)
 
 

@@ -61,7 +61,7 @@ class AnswerCheck(ABC):
 
 
 Make: TypeAlias = Callable[[Mapping[str, Any], Reading, TextPlace], AnswerCheck]
-"""Makes the check of what was given beside the question and in it, or notes what is wrong."""
+"""Makes the check of the words beside the question and in it, or notes the mistake."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +178,7 @@ class FrameFacts:
 
 @dataclass(frozen=True, slots=True)
 class FrameCheck(AnswerCheck):
-    """A frame of which these facts hold; what is None is not looked at."""
+    """Facts about a frame; those that are None are not checked."""
 
     name: str
     wanted: FrameFacts
@@ -238,7 +238,7 @@ class NamesCheck(AnswerCheck):
     def judge(self, answer: Iterable[str]) -> Judged:
         """Compare an answer."""
         found = frozenset(answer)
-        # What was written rightly is not meant by what was not.
+        # Names that matched are no candidates for "did you mean".
         hint = _nearest(sorted(self.wanted - found), found - self.wanted)
         return Judged(found == self.wanted, f"{listed(sorted(found)) or 'none'}{hint}")
 
@@ -346,7 +346,7 @@ class RefusalCheck(AnswerCheck):
 
 @dataclass(frozen=True, slots=True)
 class PoseCheck(AnswerCheck):
-    """A transform with these parts; what is None is not looked at."""
+    """A transform with these parts; those that are None are not checked."""
 
     x: float | None
     y: float | None
@@ -454,7 +454,7 @@ def _rotation(
 
 @dataclass(frozen=True, slots=True)
 class TurtlePoseCheck(AnswerCheck):
-    """A turtle's published pose with these parts; what is not named is not looked at."""
+    """A turtle's published pose with these parts; others are not checked."""
 
     wanted: Mapping[str, float]
     tolerance: Tolerance

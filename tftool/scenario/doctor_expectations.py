@@ -86,7 +86,7 @@ def limits(node: Node, reading: Reading) -> Mapping[str, Mapping[str, float]]:
 
 
 def rules(node: Node, reading: Reading) -> DoctorRules:
-    """Read what is asked of the doctor: `{ignore: [gap, names], limits: {gap.seconds: 2}}`."""
+    """Read the doctor's rules: `{ignore: [gap, names], limits: {gap.seconds: 2}}`."""
     known = {
         "ignore": Key(values.several(check_or_area, "checks"), ()),
         "limits": Key(limits, MappingProxyType({})),
@@ -123,7 +123,7 @@ def _parsed(text: str, name: str) -> DoctorRules:
 
 
 def heard_in(world: World) -> "tuple[TransformLog, list[Callable[[], None]]]":
-    """Begin to listen to a world's transforms; what is returned beside ends it."""
+    """Begin to listen to a world's transforms; the function returned beside ends it."""
     from tftool.frames.transform_log import TransformLog
 
     hearing = TransformLog()

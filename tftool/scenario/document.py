@@ -78,7 +78,7 @@ class Document:
         name: What to call it in messages, usually its path.
 
     Attributes:
-        mistakes: What was wrong with it and still let the rest be read.
+        mistakes: Mistakes behind which the rest could be read.
     """
 
     def __init__(self, text: str, name: str) -> None:
@@ -90,7 +90,7 @@ class Document:
         self._lines = unified.replace("\u2028", "\n").replace("\u2029", "\n").split("\n")
 
     def mistake(self, place: TextPlace, text: str) -> Mistake:
-        """Say what is wrong at a place, with its line and a caret under it."""
+        """Report the mistake at a place, with its line and a caret under it."""
         return Mistake.at(self.name, self._lines, place.line, place.column, text, width=place.width)
 
     def read(self) -> Node:

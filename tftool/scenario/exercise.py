@@ -60,7 +60,7 @@ class Exercise:
 
         Args:
             scenario: What to play.
-            watch: What goes on around the play, such as a recording.
+            watch: Context managers around the play, such as a recording.
 
         Raises:
             UsageError: If there is no such node, package or executable.
@@ -79,7 +79,7 @@ class Exercise:
         for one in self.programs:
             if not one.node:
                 self._starter(one, failures)(play.world)
-        # What is on stdout is the verdict's, not what programs print.
+        # stdout is for the verdict, not for the output of programs.
         with watch(play.world), redirect_stdout(sys.stderr):
             try:
                 run(clock, play.live())

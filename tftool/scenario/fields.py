@@ -1,6 +1,6 @@
-"""Reading a document by what is wanted, with every mistake told at once.
+"""Readers of a document by its expected shape, with every mistake reported at once.
 
-A reader is a function from a node to a value. It notes what is wrong and
+A reader is a function from a node to a value. It notes the mistake and
 raises `Unreadable`; what reads several things catches that and goes on with
 the next, so that one pass finds all mistakes. The readers of single values are
 in `units`.
@@ -25,7 +25,7 @@ REQUIRED: Any = object()
 """The default of a field that must be given."""
 
 UNREAD: Any = object()
-"""What stands where something could not be read."""
+"""Placeholder for a value that could not be read."""
 
 _ARGUMENT = re.compile(r"\$(?:\$|\{(\w+)\}|(\w+))")
 
@@ -289,7 +289,7 @@ def _tag(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> str:
-    """The one key that says what a mapping is, or what is wrong with its keys."""
+    """Return the one key that says what a mapping means, or the mistake in its keys."""
     entries = reading.entries(node, "")
     tags = [key for key in entries if key in kinds]
     if len(tags) == 1:
@@ -314,7 +314,7 @@ def _tag(
 
 
 def _entries_of(kind: type, key: Scalar) -> Reader:
-    """A reader of what stands behind a tag: a mapping, or its one main value by itself."""
+    """Return a reader of the value behind a tag: a mapping, or its one main value by itself."""
     short = getattr(kind, "short", None)
 
     def read(value: Node, reading: Reading) -> dict[str, tuple[Scalar, Node]]:

@@ -87,7 +87,7 @@ def _place(mistake: Any) -> tuple[int, int]:
 
 
 class _ScenarioReader:
-    """One pass over a scenario; what is read early checks what is read late.
+    """One pass over a scenario; earlier parts check later ones.
 
     Attributes:
         given: Arguments from outside.

@@ -89,7 +89,7 @@ StandIn: TypeAlias = Callable[[World], object]
 """Starts in a world what takes the place of one of a scenario's nodes."""
 
 Watch: TypeAlias = Callable[[World], AbstractContextManager[object]]
-"""What goes on around a play, such as a recording of its world."""
+"""Something around a play, such as a recording of its world."""
 
 NO_STAND_INS: Mapping[str, StandIn] = MappingProxyType({})
 
@@ -101,7 +101,7 @@ class Play:
     """One run of a scenario: a world with its nodes, its script and its expectations.
 
     Attributes:
-        scenario: What is played.
+        scenario: The scenario that is played.
         world: Where.
         start: The moment the play began; times in the scenario count from it.
         failure: Why it ended early, in words; empty as long as it did not.
@@ -119,7 +119,7 @@ class Play:
         Args:
             scenario: What to play.
             clock: On whose time.
-            stand_ins: What is started in place of some of its nodes, by their names.
+            stand_ins: Nodes started in place of some of its own, by their names.
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)
@@ -227,7 +227,7 @@ def run_scenario(
     Args:
         scenario: What to play.
         arguments: Values for arguments it declares.
-        watch: What goes on around the play, such as a recording.
+        watch: Context managers around the play, such as a recording.
     """
     clock = SimClock()
     play = build(scenario, clock, arguments)

@@ -168,7 +168,7 @@ class Lookup(Subject):
 
     @property
     def words(self) -> tuple[str, str, str]:
-        """Target, source, and when or by way of what, in words."""
+        """Target, source, and the moment or the fixed frame, in words."""
         if self.fixed is None:
             return self.target, self.source, "" if self.time is None else f" ({self.time})"
         latest = RelativeMoment()

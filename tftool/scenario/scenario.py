@@ -77,7 +77,7 @@ class Expectation:
 
     Attributes:
         when: When it is judged.
-        question: What is asked.
+        question: The question.
         check: What the answer must be, from `checks`.
         line: Its line in the file.
     """
@@ -134,7 +134,7 @@ class Outcome:
     """Outcome of one expectation.
 
     Attributes:
-        expectation: What was asked, in words: "distance from turtle2 to turtle1".
+        expectation: The question in words: "distance from turtle2 to turtle1".
         line: Its line in the scenario's file.
         when: When it was to hold: "by 20 s".
         expected: What the answer had to be: "below 0.5 m".

@@ -26,7 +26,7 @@ class Played:
     """A scenario after its end.
 
     Attributes:
-        scenario: What was played.
+        scenario: The scenario that was played.
         snapshot: All frames at its end.
         verdict: What held.
         defaults: The arguments its expectations were written for.
@@ -56,7 +56,7 @@ def play_through(
         scenario: What to play.
         defaults: What its arguments are unless they are set.
         duration: For how long; for the scenario's own duration when None.
-        watch: What goes on around the play, such as a recording.
+        watch: Context managers around the play, such as a recording.
     """
     clock = SimClock()
     play = build(scenario, clock)

@@ -105,13 +105,13 @@ class ActionParts:
         self._stop = world.watch_goals(name, self._follow, name)
 
     def close(self) -> None:
-        """Follow no more; what is still worked on is not told of."""
+        """Follow no more; running goals are not reported."""
         self._is_closed = True
         self._stop()
         self._tasks.cancel()
 
     def give_up(self) -> None:
-        """Ask for the end of what is under way."""
+        """Ask the running goal to end."""
         for goal, _ in self._goals.values():
             goal.cancel()
 

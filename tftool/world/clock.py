@@ -177,7 +177,7 @@ class SimClock(Clock):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """A future that is done at `stamp`; what has passed takes its turn in this instant."""
+        """A future that is done at `stamp`; a past one takes its turn in this instant."""
         return super().timer(max(whole(stamp), self._now), phase, rank)
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
@@ -212,7 +212,7 @@ class SimClock(Clock):
         return future
 
     def advance(self, loop_timer: float | None) -> bool:
-        """Jump to what is due next and wake it; False when nothing is due, ever.
+        """Jump to the next due timer and wake it; False when nothing is due, ever.
 
         Called by the clock's own event loop when every task waits.
 
@@ -396,7 +396,7 @@ class FollowedClock(WallClock):
         change = self._told - before
         if is_first:
             self.epoch = self._told
-            # What holds up the loop cannot be told by real time any more.
+            # Real time can no longer tell who holds up the loop.
             self.limit(None)
         if is_first or change < 0:
             self._shift(change)

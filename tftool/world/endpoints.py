@@ -41,7 +41,7 @@ class Quality:
     Attributes:
         depth: How many messages wait, or are kept for late subscribers.
         is_reliable: Whether none may be lost on the way.
-        is_latched: Whether late subscribers get what was sent before (transient local).
+        is_latched: Whether late subscribers get earlier messages (transient local).
         keeps_all: Whether nothing that waits is dropped, whatever the depth.
         timing: How often there are messages; None where it is not known.
     """
@@ -91,7 +91,7 @@ class Endpoint:
         role: Which of the two.
         node: The node it belongs to.
         topic: The topic's name, without a leading slash.
-        interface: What is exchanged, "std_msgs/msg/String".
+        interface: The exchanged type, "std_msgs/msg/String".
         quality: What it offers or asks for.
         is_remote: Whether it is another process's.
         deliver: Of a latched subscription here: takes what others sent it before, and who did.
@@ -124,7 +124,7 @@ class Endpoints:
         self._silent: set[Endpoint] = set()
 
     def add(self, endpoint: Endpoint) -> Callable[[], None]:
-        """Enter one; call what is returned to take it out again."""
+        """Enter one; call the returned function to remove it."""
         others = self._by_topic.setdefault(endpoint.topic, [])
         others.append(endpoint)
         for other in others:

@@ -21,7 +21,7 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
     Args:
         world: Which broadcasts them.
         cache_time: How far back the buffer remembers; all of it if None. The world's own buffer
-            prunes, and what is answered once may ask for any moment.
+            prunes, and a later question may ask for any moment.
     """
     buffer = Buffer(cache_time or NO_LIMIT, max_frames=world.buffer.max_frames)
     log = TransformLog()

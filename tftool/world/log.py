@@ -15,7 +15,7 @@ LEVELS: tuple[Level, ...] = get_args(Level)
 """From what hardly matters to what ends everything."""
 
 PROBLEMS: tuple[Level, ...] = ("WARN", "ERROR", "FATAL")
-"""The levels of what a user should hear of, from any node."""
+"""Levels that a user should see, from any node."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class LogRecord:
         stamp: When it was said, by the world's clock.
         level: How much it matters.
         node: Who said it.
-        text: What was said. It may hold strangers' names: escape it where it is shown.
+        text: The logged text. It may hold strangers' names: escape it where it is shown.
         program: The program whose node it is, where several are told apart: two of them may
             have nodes of one name.
     """
@@ -58,7 +58,7 @@ class Repeats:
         """Count a line; return how it is to be said, "" where it is only counted.
 
         Args:
-            kind: What is the same in lines that are alike.
+            kind: The common part of similar lines.
             text: The line.
         """
         others = kind not in self._counts and len(self._counts) >= MOST_KINDS
@@ -96,7 +96,7 @@ class Log:
     def listen(
         self, callback: Callable[[LogRecord], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Have `callback` called with every line to come; call what is returned to stop.
+        """Have `callback` called with every line to come; call the returned function to stop.
 
         What it raises is reported under the name of its `owner`.
         """
@@ -111,7 +111,7 @@ class Log:
         self.add("INFO", node, text)
 
     def warn(self, node: str, text: str) -> None:
-        """Say what is odd."""
+        """Log a warning."""
         self.add("WARN", node, text)
 
     def error(self, node: str, text: str) -> None:

@@ -22,7 +22,7 @@ EVERY: Final = 16_384
 """After how many samples it is looked again: a megabyte of them."""
 
 Say = Callable[[str], object]
-"""Takes a sentence about what was forgotten."""
+"""Called with a sentence about dropped samples."""
 
 
 def allowed(environment: Mapping[str, str] = os.environ) -> int:

@@ -30,7 +30,7 @@ class Node(Resident):
 
     Attributes:
         world: Where it lives.
-        name: Its name, in logs and as the authority of what it broadcasts.
+        name: Its name, in logs and as the authority of its transforms.
         rank: Its place among the nodes of the world, in the order in which they joined.
         phase: Its place within an instant.
     """
@@ -179,7 +179,7 @@ class Node(Resident):
         self.world.log.info(self.name, text)
 
     def warn(self, text: str) -> None:
-        """Log what is odd."""
+        """Log a warning."""
         self.world.log.warn(self.name, text)
 
     def error(self, text: str) -> None:

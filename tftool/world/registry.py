@@ -104,7 +104,7 @@ class NamedOffers(Generic[T]):
         self.by_name: Mapping[str, Offer[T]] = MappingProxyType(self._first)
 
     def add(self, name: str, offer: Offer[T], *, shares: bool) -> Callable[[], None]:
-        """Take one more in; call what is returned to take it out.
+        """Take one more in; call the returned function to remove it.
 
         Args:
             name: What it is called.

@@ -1,7 +1,7 @@
 """Stopping a run, whatever its nodes do.
 
 A thread of its own takes the signals and watches the loop, because a node that never awaits
-keeps the loop from doing either. The first signal cancels the run; what has not returned after
+keeps the loop from doing either. The first signal cancels the run; code that has not returned after
 two seconds is named; the second signal ends the process. A run with an end by its own clock is
 ended in the same way when a node holds up the loop beyond it.
 """

@@ -27,7 +27,7 @@ async def live(world: World, *, until: Stamp | None = None) -> None:
 
     Raises:
         NodeFailed: If a node raised; the first one is named, its error is the cause.
-        BrokenPipeError: If the reader of what a listener prints has gone.
+        BrokenPipeError: If the reader of a listener's output has gone.
     """
     supervisor = _Supervisor(world.clock, until is not None)
     world.supervise(supervisor)

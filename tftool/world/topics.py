@@ -86,7 +86,7 @@ class Topic(Generic[T]):
             self.sender = before
 
     def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
-        """Have `callback` called with every value to come; call what is returned to stop.
+        """Have `callback` called with every value to come; call the returned function to stop.
 
         What it raises is reported under the name of its `owner`, and does not reach the
         publisher.
@@ -172,7 +172,7 @@ class GoalHandle:
     """One goal of an action, as both its client and its server hold it.
 
     Attributes:
-        request: What was asked for.
+        request: The request.
         cancel_requested: Whether the client wants it stopped, and the server agreed.
         feedback: The last feedback, None before the first.
         on_cancel: Called when the client wants it stopped, for a server that decides about that

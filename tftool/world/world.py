@@ -96,7 +96,7 @@ class World:
 
     Attributes:
         clock: Whose time everything here means.
-        buffer: What is known of frames.
+        buffer: Buffer of frames.
         memory: Keeps that within a number of bytes.
         log: What the nodes said.
         nodes: The nodes, in the order in which they joined.
@@ -117,9 +117,9 @@ class World:
 
         Args:
             clock: Whose time everything here means.
-            buffer: What is known of frames already; empty when None.
+            buffer: Buffer of frames already; empty when None.
             cache_time: How far back an empty one remembers.
-            max_bytes: How many bytes the samples may take that come in; None for what is usual.
+            max_bytes: How many bytes the samples may take that come in; None for the usual limit.
         """
         self.clock = clock
         self.log = Log(clock.now, report=self.report)
@@ -185,7 +185,7 @@ class World:
         Args:
             node: Its name.
             name: The topic's name.
-            kind: The type of what it publishes.
+            kind: The published type.
             quality: What it offers.
         """
         return TopicPublisher(self, node, name, kind, quality)
@@ -198,12 +198,12 @@ class World:
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Enter a node as a subscriber of a topic; call what is returned to stop.
+        """Enter a node as a subscriber of a topic; call the returned function to stop.
 
         Args:
             node: Its name, under which a failure of the callback is reported.
             name: The topic's name.
-            kind: The type of what is published there.
+            kind: The type published there.
             callback: Called with every value to come.
             quality: What it asks for. A latched one gets at once what latched publishers of
                 this process sent before, and what those of others did as soon as it comes.
@@ -223,7 +223,7 @@ class World:
                     return None
                 return callback(value)
 
-        # Entered first: the link shows a subscriber without a name for what is not.
+        # Entered first: the link shows a subscriber without a name for those that are not.
         _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality, deliver=deliver)
         stop = topic.subscribe(taken, node)
         if deliver is not None:
@@ -274,7 +274,7 @@ class World:
         return MappingProxyType(self._topics)
 
     def remove_topic(self, name: str) -> None:
-        """Forget a topic; what is published on a `Topic` still held reaches no new subscriber."""
+        """Forget a topic; a message on a `Topic` still held reaches no new subscriber."""
         name = name.removeprefix("/")
         topic = self._topics.pop(name, None)
         if topic is not None:
@@ -293,7 +293,7 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Answer a service by `handler`; call what is returned to stop.
+        """Answer a service by `handler`; call the returned function to stop.
 
         Args:
             name: The service's name.
@@ -362,7 +362,7 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Take goals of an action by `accept`; call what is returned to stop.
+        """Take goals of an action by `accept`; call the returned function to stop.
 
         The arguments are those of `serve`.
 
@@ -380,7 +380,7 @@ class World:
     ) -> Callable[[], None]:
         """Have `callback` called with each goal of an action, before its server has it.
 
-        Call what is returned to stop; what it raises is reported as `watch` says.
+        Call the returned function to stop; what it raises is reported as `watch` says.
         """
         return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
 
@@ -420,7 +420,7 @@ class World:
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Have `callback` called when a topic, service, action or node comes or goes.
 
-        It is called before the first value on a new topic. Call what is returned to stop.
+        It is called before the first value on a new topic. Call the returned function to stop.
         What it raises is reported under the name of its `owner`.
         """
         return self._watchers.add(callback, owner)
@@ -611,7 +611,7 @@ class World:
                 self.fail(node, failure)
                 return
         if isinstance(failure, BrokenPipeError) and self._supervisor is not None:
-            # The reader of what a listener prints has gone: the run has no purpose any more.
+            # The reader of a listener's output has gone: the run has no purpose any more.
             self._supervisor.end_by(failure)
         elif not self._is_reporting:
             # A listener of the log that fails at every line fails at this one, too.
@@ -648,7 +648,7 @@ def _nothing() -> None:
 
 
 def _require(asked: Any, part: str, kind: Any, what: str) -> None:
-    """Refuse what is not the request of a service's class, or the goal of an action's.
+    """Refuse a request that is not of a service's class, or a goal not of an action's.
 
     Raises:
         TftoolError: If it is not.

@@ -227,7 +227,7 @@ class BlockArrays:
         # The square of half the angle turned, then the factor for `rotate`.
         self._squares = rows(GROUP)
         self._whole: Stamps = self._squares.view(np.int64)
-        # What is fetched is used up before the next link is turned.
+        # Fetched samples are used up before the next link is turned.
         shared = rows(8)
         self._some, self._more = shared.reshape(2, count, 4)
         self._spare, self._cross = shared[:3], VectorRows(shared[3:])

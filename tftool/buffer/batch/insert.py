@@ -221,7 +221,7 @@ def adopt(
         return False
     lent = words = _lent(records)
     for begin in range(kept, len(records), _BLOCK):
-        # With the one before: what lies in the cache is looked at only once.
+        # With the one before: rows in the cache are read only once.
         stamps = records[max(begin - 1, 0) : begin + _BLOCK, 0]
         samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
         if not (stamps[1:] > stamps[:-1]).all() or not np.isfinite(samples).all():

@@ -99,7 +99,7 @@ class _Showing:
         play = build(left_to_a_person(chosen), self.connection.providers.wall_clock(self.rate))
         world, link = play.world, found.link
         if found.alone:
-            # What was said before the screen came up is hidden behind it.
+            # Notices from before the screen came up are hidden behind it.
             world.log.warn("session", found.alone)
 
         async def life() -> None:

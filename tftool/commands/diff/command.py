@@ -22,7 +22,7 @@ from tftool.drawing import trajectory_error_view as error_view
 from tftool.frames.diff import side_of
 from tftool.frames.differences import Allowance, Side, compare
 from tftool.frames.export.trajectory_files import whole_file
-from tftool.frames.trajectory_errors import Fit, Match, Pair, Step, trajectory_errors
+from tftool.frames.trajectory_errors import Fit, Match, Pair, PieceLength, trajectory_errors
 from tftool.recordings.target import refuse_existing
 from tftool.world.link.heard_frames import NOTHING_RUNS
 
@@ -122,7 +122,7 @@ class ErrorOptions:
     pairs: tuple[Pair | None, Pair | None]
     fit: Fit
     match: Match
-    step: Step
+    step: PieceLength
     output: Path | None
     force: bool
 
@@ -159,7 +159,7 @@ class ErrorOptions:
             refuse_existing(output, force=force)
         kinds = tuple(name for name, wanted in (("ape", ape), ("rpe", rpe)) if wanted)
         asked = (pairs[0], pairs[-1]) if pairs else (None, None)
-        return cls(kinds, asked, fit, match, Step.read(per), output, force)
+        return cls(kinds, asked, fit, match, PieceLength.read(per), output, force)
 
     def measure(self, first: Side, second: Side, *, for_programs: bool) -> None:
         """Measure the errors, print them, and draw them if that is asked for."""

@@ -58,7 +58,7 @@ def print_live(
 
 
 class LivePrinter:
-    """Printer for answers of which each replaces the one before."""
+    """Printer for answers that each replace the one before."""
 
     def __init__(
         self, redrawing: Redrawing, pair: FramePair, precision: int, with_distance: bool
@@ -160,11 +160,11 @@ class Echo:
                 return
             due += self.period
             await pace.sleep_until(due, Phase.WATCH)
-            # Late by more than a period: what was missed is not made up for.
+            # Late by more than a period: missed answers are not made up for.
             due = max(due, pace.now() - self.period)
 
     async def _renewed(self) -> None:
-        """Wait for something new after a sender left; what is shown meanwhile grows old.
+        """Wait for something new after a sender left; the shown answer grows old meanwhile.
 
         Raises:
             TransformException: If it does not come in time, or never will.
@@ -173,7 +173,7 @@ class Echo:
         newest = self.pair.newest(self.world.buffer)
         waiting = asyncio.ensure_future(self.waiter.wait(newest))
         try:
-            # A clock that jumped back has cleared the buffer: what comes then is new, and older.
+            # A clock that jumped back has cleared the buffer: the next answer is new, and older.
             while not waiting.done() and self.pair.newest(self.world.buffer) in (0, newest):
                 timer = pace.timer(pace.now() + self.period)
                 try:

@@ -44,7 +44,7 @@ class Printer:
             self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
 
     def aged(self, now: Stamp) -> None:
-        """Leave what is printed as it is."""
+        """Leave the printed answers as they are."""
 
     def _line(self, what: object) -> None:
         self._write(json.dumps(what, allow_nan=False) + "\n")

@@ -84,7 +84,7 @@ def _refuse_misfits(
     at: At | None,
     style: Style,
 ) -> None:
-    """Refuse options that contradict what is written.
+    """Refuse options that contradict the output.
 
     Raises:
         UsageError: If one does.
@@ -106,7 +106,7 @@ def _refuse_misfits(
         ),
         (
             not form.is_trajectory and has_at,
-            "What holds at all times has no moment: --at goes with --with-moving.",
+            "Static transforms have no moment: --at goes with --with-moving.",
         ),
     )
     refuse_several_choices(*when.choices)
@@ -115,7 +115,7 @@ def _refuse_misfits(
 
 
 def _tell(done: Exported) -> None:
-    """Say on stderr what was written, and what was left out."""
+    """Report on stderr the written and the omitted rows."""
     for one in done.trajectories:
         if one.refused:
             reason = one.refusals[0].reason.strip()

@@ -38,13 +38,13 @@ RECORDED_SUFFIXES = (".mcap", ".bag", ".db3", ".zstd")
 def sweep(
     sources: Sequence[str], output: RowFile | None, workers: Workers, task: FleetTask
 ) -> tuple[dict[str, int], list[Row]]:
-    """Work on many recordings, and write what is found as it comes.
+    """Work on many recordings, and write each result at once.
 
     Args:
         sources: The recordings; those that the output holds already are passed over.
         output: Where rows go; None to get them back.
         workers: Who works.
-        task: What is done with each.
+        task: Work to do for each.
 
     Returns:
         How many recordings there are of each outcome, and the rows if there is no output.
@@ -149,7 +149,7 @@ def _failure(error: Exception) -> str:
         return "the workers that read it were ended (memory?)"
     if isinstance(error, CancelledError) or type(error).__module__.startswith("distributed"):
         raise InputError(
-            "The connection with the cluster was lost: --resume goes on with what is left."
+            "The connection with the cluster was lost: --resume goes on with the rest."
         ) from error
     return f"{type(error).__name__}: {error}"
 

@@ -177,7 +177,7 @@ class Examination:
         return ("id", "severity", "because_of")
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """The worst severity among what is no consequence."""
+        """The worst severity among findings that are no consequence."""
         if rows[0]["id"] in (UNREADABLE, NONE_FOUND):
             return str(rows[0]["id"])
         severities = {row["severity"] for row in rows if row.get("because_of") is None}

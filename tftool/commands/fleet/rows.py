@@ -57,9 +57,9 @@ class RowFile:
         """Open it.
 
         Args:
-            path: Its suffix says what is written: .jsonl, .csv or .parquet.
+            path: Its suffix says the format: .jsonl, .csv or .parquet.
             columns: The columns of a table.
-            judged: The columns that are kept of what it holds already; see `earlier`.
+            judged: The columns that are kept of its existing rows; see `earlier`.
             resume: Whether to keep what it holds, and go on.
 
         Raises:
@@ -125,7 +125,7 @@ class RowFile:
             self._growing.write_bytes(kept)
         lines = kept.decode("utf-8").splitlines()
         if self._suffix == ".csv":
-            # A cell without anything is what was None.
+            # An empty cell was None.
             yield from (
                 {name: cell or None for name, cell in row.items()} for row in csv.DictReader(lines)
             )
@@ -234,7 +234,7 @@ def _type(kind: ColumnKind) -> "pyarrow.DataType":
 
 
 def _clean(value: Any, kind: ColumnKind) -> Any:
-    """A cell of Parquet, whose texts are UTF-8: what is none is escaped."""
+    """A cell of Parquet, whose texts are UTF-8: other bytes are escaped."""
     if value is None or kind in (ColumnKind.INTEGER, ColumnKind.NUMBER):
         return value
     if kind is ColumnKind.EDGES:

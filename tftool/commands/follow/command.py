@@ -22,7 +22,7 @@ SETTLE = seconds(0.5)
 
 
 def _tell(record: LogRecord) -> None:
-    """Tell what the follower has to say, and what goes wrong; the link's the session tells."""
+    """Print the follower's log and its faults; the session prints the link's."""
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)
 

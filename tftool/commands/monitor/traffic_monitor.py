@@ -76,7 +76,7 @@ class TrafficReport:
             self.chain.delay.add(as_seconds(now - found.stamp))
 
     def announce(self, period: Duration, duration: Duration | None) -> None:
-        """Print what is reported on and how often, on stderr."""
+        """Print the subject and the period of reports, on stderr."""
         about = "all frames" if self.frames is None else in_words(*self.frames)
         if period == duration:
             notice(f"Gathering data on {about} for {round(as_seconds(duration), 3):g} s ...")

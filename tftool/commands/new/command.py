@@ -110,7 +110,7 @@ def _say_what_next(path: Path, example: str, count: int) -> None:
 
 
 def _tell(made: str, *lines: tuple[str, str]) -> None:
-    """Say what was made, and what to type next, each with what it is for."""
+    """List the new files and the next commands, each with its purpose."""
     sys.stdout.write(f"{made}\n")
     for line, purpose in lines:
         sys.stdout.write(f"  {line}\n      {purpose}\n")

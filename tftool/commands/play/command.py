@@ -39,7 +39,7 @@ def _refuse_to_mix(link: Link) -> None:
     if nodes:
         some = ", ".join(f"'{visible(node)}'" for node in nodes[:3])
         raise UsageError(
-            f"/tf has publishers here, {some}: what is played would mix with it, and a robot "
+            f"/tf has publishers here, {some}: the playback would mix with it, and a robot "
             "would act on both. Choose another --domain, or --force it."
         )
 

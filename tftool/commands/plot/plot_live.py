@@ -17,7 +17,7 @@ from tftool.world.stopper import leave_screen
 from tftool.world.world import World
 
 ON_ITS_WAY = seconds(1)
-"""What is no older than that may still arrive; a live plot ends where it has not."""
+"""Samples no older than that may still arrive; a live plot ends before them."""
 
 
 def plot_live(
@@ -69,7 +69,7 @@ def _newest(
     now = world.clock.now()
 
     def arrived(target: str, source: str) -> Stamp:
-        """Up to where there can be a pose: what is on its way is not missing yet."""
+        """Up to where there can be a pose: samples on their way are not missing yet."""
         newest = world.buffer.newest_common(target, source)
         return newest if now - ON_ITS_WAY < newest < now else now
 

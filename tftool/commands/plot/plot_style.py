@@ -19,7 +19,7 @@ class PlotStyle:
     """Quantities of a plot, and its appearance.
 
     Attributes:
-        quantities: What is drawn over time.
+        quantities: Quantities to draw over time.
         from_above: Draw the path from above instead.
         ascii_only: With plain characters.
         light: For a terminal with a light ground.

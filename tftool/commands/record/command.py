@@ -170,7 +170,7 @@ def run(
             sys.stdout.write(f"{_summed_up(rolling)}\n")
             raise
         finally:
-            # Whatever ends it: what was recorded is kept.
+            # Whatever ends it, the recording is kept.
             rolling.close()
     assert running is not None
     tell(rolling, running.recorder)

@@ -19,7 +19,7 @@ def ros2(
     connection: "Connection",
     words: Annotated[
         list[str],
-        typer.Argument(metavar="COMMAND VERB …", help="What stands behind ros2 with ROS."),
+        typer.Argument(metavar="COMMAND VERB …", help="The words behind ros2 with ROS."),
     ],
     place: Annotated[
         str | None, option("World to host: a scenario's name or file.", "--in", metavar="SCENARIO")

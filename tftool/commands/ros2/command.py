@@ -60,7 +60,7 @@ def run(
     try:
         return ending.judge()
     except NodeFailed as failed:
-        # No program of the user's has failed: what was named is not there.
+        # No program of the user's has failed: the named thing does not exist.
         if isinstance(failed.__cause__, UsageError):
             raise TftoolError(str(failed.__cause__)) from failed
         raise

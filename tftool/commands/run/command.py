@@ -42,7 +42,7 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
     """Hints about words for the node that look like options of this command, or of ROS 2.
 
     Args:
-        words: What stands after FILE.
+        words: The words after FILE.
         own: The names of this command's options.
     """
     told = []

@@ -186,7 +186,7 @@ class Connection:
         self._opened.append(opened)
 
     def refuse_to_share(self, word: str | None) -> None:
-        """Refuse the options of sharing for what is read, or played on simulated time.
+        """Refuse the options of sharing for files, and for scenarios on simulated time.
 
         Raises:
             UsageError: If one was given.
@@ -200,7 +200,7 @@ class Connection:
             )
 
     def refuse_to_join(self, word: str | None) -> None:
-        """Refuse --join for what is named, which is always hosted.
+        """Refuse --join for a named world, which is always hosted.
 
         Raises:
             UsageError: If it was given.

@@ -3,7 +3,7 @@
 from tftool.base.errors import UsageError
 
 Rule = tuple[object, str]
-"""What holds where options do not fit together, and the sentence that says so."""
+"""Condition of a contradiction between options, and its sentence."""
 
 
 def refuse(*rules: Rule) -> None:

@@ -24,7 +24,7 @@ def evidence_from(
     lasting: Duration | None = None,
     scope: Scope = EVERYTHING,
 ) -> Evidence:
-    """Return what is known of the frames that FROM names.
+    """Return the evidence about the frames that FROM names.
 
     A recording is read whole, a scenario played to its end, a session listened to.
 
@@ -37,7 +37,7 @@ def evidence_from(
     Raises:
         InputError: If the word names nothing, or it cannot be read.
         LinkError: If a session was asked for and there is none.
-        UsageError: If the word names a robot description, or what is no recording is to be
+        UsageError: If the word names a robot description, or a source that is no recording is to be
             looked at in part.
     """
     kind = None if word is None else named(word).kind

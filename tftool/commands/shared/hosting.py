@@ -2,7 +2,7 @@
 
 A scenario that was named is always hosted. Without a word, the session that runs on this
 machine is joined; if none runs, the command hosts one, and others join it. Processes that only
-look are no session: they wait, and share what is hosted next. While one world is hosted another
+look are no session: they wait, and share the next hosted world. While one world is hosted another
 keeps to itself, so that the two never mix.
 
 A command that works in a world while it lives (``echo``, ``monitor``, ``view``) opens a session::
@@ -64,13 +64,13 @@ def join_or_host(
 
     Args:
         connection: What the command's options say.
-        word: What was named, which is hosted; None for the session that runs.
+        word: The given name, which is hosted; None for the session that runs.
         needs_turtles: Whether only a session with a turtle simulator will do.
         cache_time: How far back the buffer of a joined world remembers.
 
     Raises:
         LinkError: If a session was asked for and there is none, or no link.
-        UsageError: If --join was given: what is named is hosted.
+        UsageError: If --join was given: a named world is hosted.
     """
     connection.refuse_to_join(word)
     link, alone = _open_link(connection)
@@ -78,7 +78,7 @@ def join_or_host(
         return JoinDecision(alone=alone)
     there = link.graph.has_sources
     if word is None and connection.mode is not Mode.HOST:
-        # --connect means what is at the other end, or comes there; turtles of our own have no
+        # --connect means the world at the other end, now or later; turtles of our own have no
         # place among a robot's frames.
         if connection.looks or (there and (not needs_turtles or _has_host(link))):
             session = joined_session(
@@ -194,7 +194,7 @@ def _scenario_to_host(
 
 
 def _refuse_files(word: str | None) -> None:
-    """Refuse what is read and not lived in.
+    """Refuse files, which are read and not hosted.
 
     Raises:
         UsageError: If the word names a recording or a description.

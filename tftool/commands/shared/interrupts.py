@@ -1,4 +1,4 @@
-"""Ctrl-C while a file is written: what is half written is taken away before the process ends."""
+"""Ctrl-C while a file is written: a partly written file is removed before the process ends."""
 
 import signal
 import sys

@@ -1,4 +1,4 @@
-"""Keys as they are pressed on the terminal, for what is no full-screen app."""
+"""Keys as they are pressed on the terminal, for commands without a full-screen app."""
 
 import asyncio
 import os
@@ -24,7 +24,7 @@ _LONGEST = max(map(len, _NAMES))
 
 
 def keys_in(typed: bytes) -> list[str]:
-    """The names of the keys whose bytes these are; what is none is left out."""
+    """The names of the keys whose bytes these are; other bytes are left out."""
     found = []
     while typed:
         for length in range(min(_LONGEST, len(typed)), 1, -1):

@@ -1,4 +1,4 @@
-"""FROM on the command line: opened behind a bar, with what is odd about it on stderr."""
+"""FROM on the command line: opened behind a bar, its oddities on stderr."""
 
 import math
 import sys
@@ -54,7 +54,7 @@ def open_from(
         until: How far to play a scenario, where --for does not say; see `open_frames`.
         margin: How far to play on behind that, seconds.
         cache_time: How far back the buffer of a scenario or a session remembers.
-        tells: Whether to say what is odd about the frames.
+        tells: Whether to print oddities of the frames.
         shares: Whether the options of sharing are for another of several sources.
         watch: Called with the world of a scenario or a session before it lives.
 
@@ -71,7 +71,7 @@ def open_from(
             return frames
     if not shares:
         if lasting is not None and place is not None and named(place).kind is not Kind.SCENARIO:
-            raise UsageError("--for is for what goes on; of a recording, --to leaves out the rest.")
+            raise UsageError("--for is for sources that go on: --to leaves out a recording's end.")
         connection.refuse_to_share(place)
     if place is None:
         refuse_options_of_files(connection.robot, connection.recording, None)
@@ -138,7 +138,7 @@ def _bar(place: str) -> "Iterator[Bar | None]":
 
 
 def _tell(frames: Frames, *, notes: bool) -> None:
-    """Say which files were passed over, and what is odd about the frames."""
+    """Print which files were passed over, and oddities of the frames."""
     for text in () if frames.found is None else frames.found.told():
         notice(visible(text))
     if notes:

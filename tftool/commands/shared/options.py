@@ -133,7 +133,7 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
     """
     if lasting is not None and lasting > LONGEST_SIMULATED:
         raise UsageError(
-            f"--for {as_seconds(lasting):g} is too long for simulated time, of which a day is "
+            f"--for {as_seconds(lasting):g} is too long for simulated time: a day is "
             f"played at most: --for {as_seconds(LONGEST_SIMULATED):.0f}"
         )
 
@@ -144,7 +144,7 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
 def moment(text: str) -> At:
     """Read a moment: seconds since the start; from 10⁸ on, or written as a date, a stamp.
 
-    `12.5` and `+12.5` count from the start (`+` also what is larger); `1663952504.7` is a
+    `12.5` and `+12.5` count from the start (`+` also larger numbers); `1663952504.7` is a
     stamp, and so is `2022-09-23T17:01:44.7Z`; without a time zone it is UTC.
 
     Raises:
@@ -171,7 +171,7 @@ def moment(text: str) -> At:
 def _date(text: str) -> At:
     from datetime import UTC, datetime
 
-    # Its own reader drops what is less than a microsecond.
+    # Its own reader drops digits below a microsecond.
     fraction = _FRACTION.search(text)
     try:
         found = datetime.fromisoformat(_FRACTION.sub("", text, count=1))
@@ -200,7 +200,7 @@ def option(words: str, *names: str, metavar: str | None = None, panel: str | Non
     Args:
         words: What the help says of it.
         names: What it is called; by its parameter where none is given.
-        metavar: What stands for its value in the help.
+        metavar: Name of its value in the help.
         panel: The heading it is listed under; None for that of all others.
     """
     return typer.Option(*names, metavar=metavar, rich_help_panel=panel, help=words)
@@ -238,12 +238,12 @@ def seconds_option(
 
 
 def moment_option(words: str, *names: str, panel: str | None = WHEN) -> Any:
-    """An option that takes a moment; `words` say in the help of what."""
+    """Return an option that takes a moment; `words` are its help."""
     return typer.Option(*names, metavar="MOMENT", parser=moment, rich_help_panel=panel, help=words)
 
 
 def decimals(words: str) -> Any:
-    """The option `--precision N` of a command that prints numbers; `words` say of what."""
+    """Return the option `--precision N` of a command that prints numbers; `words` are its help."""
     return typer.Option(
         "--precision", "-p", min=0, max=17, metavar="N", rich_help_panel=OUTPUT, help=words
     )
@@ -277,11 +277,11 @@ AtOption = Annotated[
 FromOption = Annotated[
     At | None,
     moment_option(
-        "Leave out what is before: seconds since the start of FROM, or a stamp.", "--from"
+        "Leave out everything before: seconds since the start of FROM, or a stamp.", "--from"
     ),
 ]
 
-ToOption = Annotated[At | None, moment_option("Leave out what is after; likewise.", "--to")]
+ToOption = Annotated[At | None, moment_option("Leave out everything after; likewise.", "--to")]
 
 Every = Annotated[
     Duration | None,
@@ -334,7 +334,7 @@ Junit = Annotated[
     Path | None, option("Write a JUnit report for a build server.", "--junit", metavar="FILE")
 ]
 
-Force = Annotated[bool, option("Replace what is there.", "--force", panel=OUTPUT)]
+Force = Annotated[bool, option("Replace existing files.", "--force", panel=OUTPUT)]
 
 Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT)]
 

@@ -101,7 +101,7 @@ class PairWait:
                 if refusal.requested > refusal.available:
                     await self._available(pair.moment(now))
                 elif pair.offset:
-                    # The moment moves on with the clock, until it reaches what is remembered.
+                    # The moment moves on with the clock, until the buffer reaches it.
                     await clock.sleep_until(refusal.available - pair.offset, Phase.WATCH)
                 elif isinstance(refusal, BackwardExtrapolationException):
                     raise

@@ -23,10 +23,10 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
     """Write a renderable to stdout, and `end` after it.
 
     Args:
-        what: What is written.
-        end: What comes after it.
+        what: Text to write.
+        end: Text after it.
         is_wide: Whether lines are up to `LOG_WIDTH` long where there is no terminal: in a log,
-            which may be searched by line, what is one sentence stays in one.
+            which may be searched by line, a sentence stays in one line.
     """
     from rich.console import Console
 
@@ -43,7 +43,7 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
 def write_file(path: Path, content: str | bytes) -> None:
     """Write a file as a whole, a text in UTF-8; a pipe or a device is written as it is.
 
-    What had the name stays until the new file is complete: a full disk loses nothing.
+    The old file stays until the new file is complete: a full disk loses nothing.
 
     Raises:
         InputError: If that fails.

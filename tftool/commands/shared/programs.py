@@ -26,7 +26,7 @@ def workspace_here(*, verbose: bool) -> Workspace:
 
 
 def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = None) -> None:
-    """Show what is logged in a world from now on.
+    """Show a world's log from now on.
 
     Args:
         world: Which.

@@ -50,7 +50,7 @@ class RecordingRun:
 
         Args:
             recorder: What listens.
-            rolling: What is written.
+            rolling: Writer of the recording.
             clock: When to look.
             finding: Which finding ends it, by its id; None for none.
         """
@@ -68,7 +68,7 @@ class RecordingRun:
         """Record for `duration` nanoseconds or until a finding; until stopped without either.
 
         Raises:
-            InputError: If it cannot be written any more; what was is readable.
+            InputError: If it cannot be written any more; the data so far is readable.
         """
         clock = self._clock
         end = None if duration is None else clock.now() + duration
@@ -159,7 +159,7 @@ def heard(messages: list[Kept]) -> TransformLog:
 
 
 def tell(rolling: RollingRecording, recorder: Recorder) -> None:
-    """Say what was recorded, and what was not."""
+    """Report the recorded and the missed messages."""
     for name, reason in recorder.left_out.items():
         notice(f"'{visible(name)}' is not recorded: {visible(reason)}.")
     for name in recorder.missing:

@@ -17,7 +17,7 @@ def can_redraw() -> bool:
 
 
 class Redrawing:
-    """Draws over what it drew; what is said on stderr meanwhile goes above.
+    """Draws over what it drew; lines on stderr go above.
 
     Nothing is drawn, and the cursor stays, until the first picture.
     """

@@ -1,4 +1,4 @@
-"""Ctrl-Z: the shell gets the terminal as it was, and `fg` what was drawn on it."""
+"""Ctrl-Z: the shell gets the terminal as it was, and `fg` restores the drawing."""
 
 import asyncio
 import os

@@ -33,7 +33,7 @@ TEXTS = {
 
 
 WITHOUT_MARKS = (TreeFormat.dot, TreeFormat.mermaid, TreeFormat.yaml)
-"""What has no place for the doctor's marks."""
+"""Forms without a place for the doctor's marks."""
 
 
 def run(

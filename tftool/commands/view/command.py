@@ -306,7 +306,7 @@ def _show_frames(
     meshes: Sequence[Path],
     open_browser: bool,
 ) -> None:
-    """Show what is all there, from its beginning on; it stands still."""
+    """Show a complete source from its beginning on; its time stands still."""
     shown_frames = at_rest(connection, frames)
     clock, start = shown_frames.clock, max(frames.span[0], 1)
     page = serve(shown_frames, name=frames.title)

@@ -34,7 +34,7 @@ def _table(texts: Sequence[bytes]) -> Words:
 
 _PLAIN: Final = _table([b"%04d" % n for n in range(_FOUR)])
 _LEADING: Final = _table([b"%d" % n for n in range(_FOUR)])
-# What stands before the first digit leaves no trace.
+# Zeros before the first digit leave no trace.
 _LEADING_OR_NOTHING: Final = np.where(np.arange(_FOUR) == 0, 0, _LEADING).astype(np.uint32)
 _POINT: Final = _table([b".%d" % n for n in range(10)])
 

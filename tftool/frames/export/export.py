@@ -36,7 +36,7 @@ class Exported:
         paths: The files.
         format: What they are.
         count: How many poses, or links, or transforms.
-        trajectories: What was asked, with what was refused; empty for links.
+        trajectories: The answers, with the refused spans; empty for links.
     """
 
     paths: tuple[Path, ...]
@@ -87,34 +87,34 @@ def export(
         tftool.export(recording, "robot.urdf")
 
     The file is whole, or not there. Moments at which a lookup refuses are left out, and told
-    in what is returned.
+    in the result.
 
     Args:
-        frames: What was opened, a recording, a buffer, or a robot description.
+        frames: Opened frames, a recording, a buffer, or a robot description.
         path: Where to; its end says what: .tum .kitti .csv .npz .parquet of pairs,
             .urdf .launch.py .launch.xml .launch.yaml .sh .mcap of links.
         target_frame: What poses are expressed in; None to write links.
         source_frame: Whose poses they are.
         pairs: Several of (target, source), in CSV, npz and Parquet.
         format: What to write whatever the name ends in: "euroc", or another of `Format`.
-        start: Leave out what is before, nanoseconds.
-        end: Leave out what is after, nanoseconds.
+        start: Leave out everything before, nanoseconds.
+        end: Leave out everything after, nanoseconds.
         period: Ask so often, nanoseconds; at the stamps of the fastest link if None.
         stamps: Ask at these stamps instead, nanoseconds, shape (n,).
         decimals: See `Style`, as what follows.
         rpy: Add roll, pitch and yaw to CSV and Parquet.
         foxglove: Write MCAP as foxglove.FrameTransforms.
         with_moving: Write links that move to a URDF, as floating joints.
-        root: Write only what hangs below this frame.
+        root: Write only the frames below this one.
         time: The moment of links that move, nanoseconds.
-        force: Whether the file may replace what stands there.
+        force: Whether the file may replace an existing file.
         progress: Is told how far it is, in bytes.
 
     Raises:
         InputError: If it cannot be written.
         TransformException: If a frame is unknown, or a pair is joined at no moment.
-        TypeError: If what is to be written has no frames.
-        UsageError: If what is asked for does not fit together, or an extra is missing.
+        TypeError: If there are no frames to write.
+        UsageError: If the options contradict each other, or an extra is missing.
     """
     place = Path(path)
     form = _named(format) if format is not None else format_of(place)
@@ -203,7 +203,7 @@ def write_links(
     if style.foxglove:
         raise UsageError(f"foxglove.FrameTransforms go into an MCAP file, not into {form}.")
     if style.with_moving and form is not Format.urdf:
-        raise UsageError(f"{form} publishes what holds at all times: links that move do not.")
+        raise UsageError(f"{form} publishes static transforms: moving links have none.")
     links = static_files.fixed_links(
         buffer, with_moving=style.with_moving, time=style.time, root=style.root
     )
@@ -240,7 +240,7 @@ def refuse_input(frames: object, path: Path) -> None:
         return
     inside = os.path.isdir(name) and path.parent.exists() and os.path.samefile(name, path.parent)
     if inside or (path.exists() and os.path.samefile(name, path)):
-        raise UsageError(f"'{path}' is what is read: write to another name.")
+        raise UsageError(f"'{path}' is being read: write to another name.")
 
 
 def _stamps(stamps: npt.ArrayLike) -> Stamps:

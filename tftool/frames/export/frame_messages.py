@@ -32,7 +32,7 @@ def write_frames(
         buffer: Whose transforms.
         path: Where to; its name ends in ".mcap".
         foxglove: Whether as foxglove.FrameTransforms in protobuf, not as tf2_msgs/TFMessage.
-        force: Whether it may replace what stands there.
+        force: Whether it may replace an existing file.
         progress: Is told how far it is.
 
     Returns:

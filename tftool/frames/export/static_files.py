@@ -40,7 +40,7 @@ def fixed_links(
         buffer: Whose frames.
         with_moving: Whether to add those that move, with their pose at one moment.
         time: That moment, nanoseconds; 0 for each link's latest.
-        root: Take only what hangs below this frame; all if None.
+        root: Take only the frames below this one; all if None.
 
     Raises:
         TransformException: If a link that moves has no pose at that moment, or there is no

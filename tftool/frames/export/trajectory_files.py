@@ -59,7 +59,7 @@ def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
 
     Args:
         paths: What they are called; the last is that by which the others are found.
-        force: Whether they may replace what has those names.
+        force: Whether they may replace existing files.
 
     Raises:
         UsageError: If something has one of the names and `force` is not given.
@@ -86,7 +86,7 @@ TrajectoryWriter: TypeAlias = Callable[
 ]
 """Writes pairs (one, where its format holds one) to a path; returns the files it made.
 
-The flag says whether they may replace what stands there.
+The flag says Whether they may replace an existing file.
 """
 
 

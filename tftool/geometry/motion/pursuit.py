@@ -8,7 +8,7 @@ from tftool.geometry.motion import pid
 from tftool.geometry.motion.twist import Twist2D
 
 COINCIDENT = 1e-9
-"""Below this distance, in metres, a goal has no bearing: what is left is rounding."""
+"""Below this distance, in metres, a goal has no bearing: the rest is rounding."""
 
 TUTORIAL_DISTANCE = pid.Gains(0.5)
 """The tutorial's forward gain: m/s per metre."""
@@ -52,7 +52,7 @@ class PursuitState:
 
 
 FRESH = PursuitState()
-"""What is remembered before the first step."""
+"""State before the first step."""
 
 
 def steer(
@@ -69,7 +69,7 @@ def steer(
 
     Returns:
         The command, and what to remember. Within the dead band the command is to
-        stop, and what was remembered is dropped.
+        stop, and the state is dropped.
     """
     distance = math.hypot(x, y)
     if distance < law.dead_band:

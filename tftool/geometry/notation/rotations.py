@@ -1,6 +1,6 @@
 """Rotations and poses as people paste them: read from text in any program's notation.
 
-What is labelled (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) says itself what it is.
+A label (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) says what the numbers mean.
 Three or four bare numbers do not, and are refused unless the form is named.
 """
 
@@ -71,7 +71,7 @@ class Written:
         transform: The pose; its quaternion of length 1.
         has_translation: Whether the text said where, too.
         form: What it was read as, in words.
-        notes: What was odd about it, as sentences.
+        notes: Oddities, as sentences.
     """
 
     transform: Transform
@@ -84,7 +84,7 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
     """Read a rotation, or a pose, from pasted text.
 
     Args:
-        text: What was pasted.
+        text: The pasted text.
         form: What bare numbers are, one of `FORMS`; None where they say so themselves.
         degrees: Whether angles are degrees; the text may say so itself. What URDF and
             static_transform_publisher's lines hold are radians whatever is said.
@@ -218,7 +218,7 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
             raise UsageError(f"'{match['other']}' is no part of a rotation.")
     degrees = degrees or "°" in text
     if degrees:
-        # What is told in π is in radians among degrees, too.
+        # A multiple of π is in radians among degrees, too.
         numbers = [math.degrees(n) if k in in_radians else n for k, n in enumerate(numbers)]
     if not all(map(math.isfinite, numbers)):
         raise UsageError("A number in there is too large to be one.")

@@ -113,7 +113,7 @@ def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
     """Read a whole line of a shell, of ROS 1's publisher as well.
 
     Args:
-        line: What stands behind "static_transform_publisher" is read; all of it, if that is
+        line: Read behind the word "static_transform_publisher"; as a whole, if that is
             not there.
         frames: Parent and child where options leave them out.
 

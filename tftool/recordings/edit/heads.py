@@ -59,8 +59,8 @@ class StaticHeads:
         """Begin with none.
 
         Args:
-            edits: What is changed.
-            tapes: What is read.
+            edits: The changes.
+            tapes: The inputs.
             changer: Changes the statics as it changes messages.
             start: Log time of the result's first message.
             by_tape: Whether each tape becomes a file of its own.

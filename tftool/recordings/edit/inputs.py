@@ -28,7 +28,7 @@ class EditedInput:
         is_folder: Whether it is a folder of rosbag2's.
         metadata: What its metadata.yaml says.
         mode: "file" or "message" where rosbag2 compressed it beyond its storage.
-        damage: What is wrong with the folder.
+        damage: Damage of the folder.
         notes: What else is worth saying of it.
     """
 

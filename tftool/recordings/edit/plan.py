@@ -123,7 +123,7 @@ def _refuse_outside(
 
     Args:
         edits: Whose cut.
-        recordings: What is cut.
+        recordings: Recordings to cut.
         moments: When there is something, in no order.
 
     Raises:

@@ -72,7 +72,7 @@ def edit(
         names: The recordings: files or folders; several are joined.
         output: What to write: its suffix names the container, none a folder as of rosbag2.
         edits: What to change.
-        force: Whether it may replace what has that name.
+        force: Whether it may replace existing files.
         dry_run: Whether only to find out what would be done.
         progress: Is told how far it has come.
 

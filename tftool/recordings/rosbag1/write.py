@@ -48,7 +48,7 @@ class Rosbag1Writer:
     def __init__(
         self, path: Path, *, compression: str = "none", chunk_size: int = CHUNK_SIZE
     ) -> None:
-        """Begin the file, in the place of what is there.
+        """Begin the file, replacing an existing file.
 
         Args:
             path: Where it is.
@@ -217,7 +217,7 @@ class Rosbag1Writer:
             self._file.close()
 
     def abandon(self) -> None:
-        """Close the file as it is; what is in it can be read up to its end."""
+        """Close the file as it is; its content can be read up to its end."""
         self._file.close()
 
     def _head(self, place: int) -> bytes:

@@ -223,7 +223,7 @@ class _Unpacked:
         return self._inner.counts
 
     def close(self) -> None:
-        """Close the file and let go of what was unpacked."""
+        """Close the file and remove the unpacked file."""
         self._inner.close()
         self._folder.cleanup()
 

@@ -33,7 +33,7 @@ class SqliteWriter:
     """
 
     def __init__(self, path: Path) -> None:
-        """Begin the file, in the place of what is there.
+        """Begin the file, replacing an existing file.
 
         Raises:
             OSError: If the file cannot be written.

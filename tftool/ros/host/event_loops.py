@@ -13,7 +13,7 @@ SLICE: Duration = seconds(0.01)
 
 
 class _WorldSelector(selectors.DefaultSelector):
-    """Looks for what has come, and waits as `time.sleep` does in a user's program."""
+    """Looks for arrivals, and waits as `time.sleep` does in a user's program."""
 
     def select(self, timeout: float | None = None) -> Any:
         ready = super().select(0)

@@ -281,7 +281,7 @@ COMMANDS = {
 }
 """Programs of ROS that have a command of tftool, which `tftool run` runs in their place."""
 
-# What has a command of its own here.
+# Executables with a command of their own here.
 _ELSEWHERE = {
     ("turtlesim", "turtle_teleop_key"): "tftool teleop",
     **{names: shlex.join(("tftool", *words)) for names, words in COMMANDS.items()},

@@ -122,7 +122,7 @@ class _Finder(MetaPathFinder):
     def __init__(self) -> None:
         self.roots: list[Path] = []
         self.tested: Path | None = None
-        """The folder of tests, and of what they test; others load what is in it."""
+        """The folder of tests and of their subject; others load it."""
         self.on_import: dict[str, Callable[[], object]] = {}
         """Called when a program first imports a package of that name."""
 
@@ -226,7 +226,7 @@ class _Arguments(UserList[str]):
     def data(self, value: list[str]) -> None:
         """Nothing: programs' arguments are theirs."""
 
-    # A part must be a plain list: what is of this kind always shows all the arguments.
+    # A part must be a plain list: pytest shows all arguments of such a list.
 
     def __getitem__(self, index: Any) -> Any:
         return self.data[index]

@@ -25,7 +25,7 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
 
     Args:
         module: The module.
-        name: What was asked of it.
+        name: The name that was asked for.
         known: The names it has.
     """
     # Only what may be a slip: another name of ROS 2's is none.

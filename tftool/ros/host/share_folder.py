@@ -33,7 +33,7 @@ class ShareFolder:
                 _link(file, target)
 
     def _show(self, source: Path, below: str, parents: set[str]) -> None:
-        """Show what lies in one folder of the sources, except folders that are generated."""
+        """Show the files of one folder of the sources, except folders that are generated."""
         (self.path / below).mkdir(parents=True, exist_ok=True)
         there = source / below
         for one in there.iterdir() if there.is_dir() else ():

@@ -28,7 +28,7 @@ def file_body(path: Path) -> Callable[[], None]:
         folder = path.resolve().parent
         module = ModuleType("__main__")
         if (folder / "__init__.py").is_file():
-            # A node's file in its package imports that package by name, and what stands beside
+            # A node's file in its package imports that package by name, and files beside
             # it by a dot, as when installed.
             importing.look_in(folder.parent)
             module.__package__ = folder.name

@@ -75,6 +75,6 @@ def _pack_transforms(message: Any) -> TransformMessage:
 
 
 def unpack_transforms(value: TransformMessage) -> Any:
-    """The tf2_msgs TFMessage of what travels on `tf`."""
+    """Return the tf2_msgs TFMessage of a value on `tf`."""
     kind = INTERFACES.message("tf2_msgs/TFMessage")
     return kind(transforms=[unpack_transform(one) for one in value.transforms])

@@ -36,7 +36,7 @@ class Action(LaunchDescriptionEntity):
             )
 
     def visit(self, context: LaunchContext) -> Any:
-        """Do it, if its condition holds; what is to be done next."""
+        """Do it, if its condition holds; return the next actions."""
         if self.condition is not None and not self.condition.evaluate(context):
             return None
         following = self.execute(context)

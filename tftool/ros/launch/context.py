@@ -19,7 +19,7 @@ class LaunchContext:
     """Arguments, environment, the scope one is in, and the launch itself.
 
     Attributes:
-        launch_configurations: Arguments and their values; and what holds for the nodes of the
+        launch_configurations: Arguments and their values; and settings for the nodes of the
             scope, as `scope` keeps it.
         environment: Environment variables, a copy.
         environments: Those that were kept by PushEnvironment.
@@ -29,7 +29,7 @@ class LaunchContext:
         launch: What runs it.
         argv: What the launch was given on its command line.
         noninteractive: Whether questions are left out, as in ROS 2: here none is ever asked.
-        event: What is being handled, None while nothing is.
+        event: The event being handled, None while nothing is.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class LaunchContext:
 
     @property
     def locals(self) -> SimpleNamespace:
-        """Return the local values: the event that is being handled, and what was added."""
+        """Return the local values: the event that is being handled, and added ones."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
@@ -78,7 +78,7 @@ class LaunchContext:
         return {**known, **self._locals}
 
     def register_event_handler(self, event_handler: Any) -> None:
-        """Have a handler told of events.
+        """Register a handler of events.
 
         Raises:
             UsageError: Where nothing is launched.

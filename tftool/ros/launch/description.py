@@ -13,7 +13,7 @@ class LaunchDescriptionEntity:
     """Entity of a launch description."""
 
     def visit(self, context: LaunchContext) -> Any:
-        """Be carried out; what is to be done next."""
+        """Carry it out; return the next actions."""
         return None
 
     def describe(self) -> str:

@@ -24,7 +24,7 @@ class Element:
     Attributes:
         tag: What it is.
         values: Its attributes.
-        children: What is inside.
+        children: Child elements.
         where: "file:line".
         asked: Attributes that were asked for: those it may have.
         known: Tags of children that were asked for.

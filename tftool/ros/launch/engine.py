@@ -78,7 +78,7 @@ class Launch(Node):
             workspace: Where packages are looked for; here when None.
             arguments: Values for the arguments it declares.
             say: Takes the launch's lines.
-            context: What is known while it runs; a new one when None.
+            context: State of the launch; a new one when None.
             name: Its own name in the world.
             contained: Whether a fault of the description ends the launch alone: not the world.
 
@@ -169,7 +169,7 @@ class Launch(Node):
             raise InputError(f"{where}: {error_sentence(error)}") from error
 
     def emit(self, event: Event) -> None:
-        """Tell the handlers an event, once what is being carried out is done."""
+        """Tell the handlers an event, once the current action is done."""
         self._events.add(event)
 
     def _tell(self, event: Event) -> None:
@@ -242,7 +242,7 @@ class Launch(Node):
         self._say("INFO", "launch", text)
 
     def warn(self, text: str) -> None:
-        """Say what is odd."""
+        """Log a warning."""
         self._say("WARNING", "launch", text)
 
     def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
@@ -484,7 +484,7 @@ class Launch(Node):
         return True
 
     def _guarded(self, work: Callable[[], object]) -> None:
-        """Do something later than the launch began: what is wrong ends the launch."""
+        """Do something later than the launch began: a fault ends the launch."""
         try:
             work()
         except Exception as error:

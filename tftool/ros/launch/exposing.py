@@ -15,7 +15,7 @@ from tftool.ros.launch.substitutions import TextSubstitution, is_true
 T = TypeVar("T")
 
 ParseMethod = Callable[["Entity", "Parser"], tuple[Any, dict[str, Any]]]
-"""Gives what is to be called, and with which keywords."""
+"""Returns a callable, and its keywords."""
 
 ACTIONS: dict[str, ParseMethod] = {}
 """What reads each element of people's own, by its tag."""
@@ -96,7 +96,7 @@ def _read(value: Any, data_type: Any) -> Any:
 
 
 class Parser:
-    """Reads what is in an element."""
+    """Reads the content of an element."""
 
     @classmethod
     def load(cls, file: Any) -> tuple[Entity, "Parser"]:

@@ -138,5 +138,5 @@ def get_logger(name: str | None = None) -> logging.Logger:
 
 
 def reset() -> None:
-    """Forget every logger and what was set."""
+    """Forget every logger and setting."""
     launch_config.reset()

@@ -52,7 +52,7 @@ class Node(Startable):
         shell: Any = False,
         **kwargs: Any,
     ) -> None:
-        """Say what is to be started.
+        """Declare the program to start.
 
         Raises:
             TypeError: If the parameters are no list of mappings and files, or the remappings

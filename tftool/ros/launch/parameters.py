@@ -320,5 +320,5 @@ def _is_parts(value: Any) -> bool:
 
 
 def _holds_texts(value: Any) -> bool:
-    """Whether it is a list of which some are texts that are known when the launch runs."""
+    """Whether some items of a list are texts known only when the launch runs."""
     return isinstance(value, list | tuple) and any(_is_text(one) for one in value)

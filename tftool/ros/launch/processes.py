@@ -78,7 +78,7 @@ class Startable(Action):
         self.respawn, self.respawn_delay = respawn, respawn_delay
 
     def handle_exit(self, context: LaunchContext) -> None:
-        """Have done what is to be done once it has ended."""
+        """Do what follows its end."""
         if self.on_exit is not None:
             context.launch.handlers.append(
                 OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
@@ -95,7 +95,7 @@ class Startable(Action):
         return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
 
     def say_unused(self, context: LaunchContext, *names: str) -> None:
-        """Say what was given and has no effect here."""
+        """Name arguments without an effect here."""
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
             verb = "has" if len(given) == 1 else "have"

@@ -224,7 +224,7 @@ class ActionServer(WorkQueue):
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Take no more goals; what is not decided yet is refused."""
+        """Take no more goals; undecided ones are refused."""
         super().withdraw()
         for stop in self._stops:
             stop()

@@ -39,7 +39,7 @@ class Context:
         if self._valid:
             raise RuntimeError("Context.init() must only be called once")
         for word in args or ():
-            word.encode()  # as in ROS 2, what is no text is refused
+            word.encode()  # as in ROS 2, only text is taken
         if args is not None and "--ros-args" in args and list(args) != self._program.argv:
             self.options, _ = names.parse(list(args))
         if domain_id is not None and domain_id < 0:
@@ -79,7 +79,7 @@ class Context:
         self._on_shutdown.append(callback)
 
     def on_change(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Have what waits told of the end; call what is returned to be told no more."""
+        """Notify waiting code of the end; call the returned function to stop that."""
         self._listeners.append(callback)
         return lambda: self._listeners.remove(callback)
 

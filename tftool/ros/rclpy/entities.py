@@ -13,7 +13,7 @@ from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat
 
 Work = Callable[[], Any]
-"""What is left to do on the fiber once an entity was taken from; may return a coroutine."""
+"""The rest of the work on the fiber once an entity was taken from; may return a coroutine."""
 
 
 MOST_WAITING: Final = 1000
@@ -31,7 +31,7 @@ class RequiredHandle:
         return self
 
     def __exit__(self, *args: object) -> None:
-        """Nothing to let go of."""
+        """Nothing to release."""
 
 
 class NodeEntity:

@@ -1,6 +1,6 @@
-"""rclpy's executors: they take what is ready, in a fixed order, and call the callbacks.
+"""rclpy's executors: they take ready entities, in a fixed order, and call the callbacks.
 
-What is ready is decided on the loop's thread; the callbacks run on the fiber that
+Readiness is decided on the loop's thread; the callbacks run on the fiber that
 spins. Timers wait for their turn within an instant, so a listener's timer sees all
 that the simulator and the broadcasters of that instant have said.
 """
@@ -149,7 +149,7 @@ class Executor:
             if not self._context.ok() or self._over:
                 return
             did_something = self._step(deadline, future)
-            # What is due at the deadline itself is still done, however much it is.
+            # Work due at the deadline itself is still done, however much it is.
             if self._late(deadline) and (not did_something or self._late(deadline, by=1)):
                 return
 
@@ -193,7 +193,7 @@ class Executor:
         return True
 
     def _raise_failure(self) -> None:
-        """Raise what has ended another thread of this executor."""
+        """Raise the exception that ended another thread of this executor."""
         failure, self._failure = self._failure, None
         if failure is not None:
             raise failure

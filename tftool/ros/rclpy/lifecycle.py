@@ -26,7 +26,7 @@ SUCCESS = TransitionCallbackReturn.SUCCESS
 
 
 class ManagedEntity:
-    """Something that is told of every transition of its node."""
+    """Entity that is notified of every transition of its node."""
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Get ready."""
@@ -157,7 +157,7 @@ class LifecycleNodeMixin(ManagedEntity):
         return change(self, "shutdown")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
-        """Have something told of every transition."""
+        """Notify an entity of every transition."""
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:

@@ -130,7 +130,7 @@ class RcutilsLogger:
         return self.log(message, LoggingSeverity.INFO, **kwargs)
 
     def warning(self, message: object, **kwargs: Any) -> bool:
-        """Say what is odd."""
+        """Log a warning."""
         return self.log(message, LoggingSeverity.WARN, **kwargs)
 
     warn = warning

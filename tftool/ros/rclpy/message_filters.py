@@ -168,7 +168,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Take a filter's message in; what lies nearest to it goes with it."""
+        """Take a filter's message in; the nearest one goes with it."""
         time = _stamp(msg, self.allow_headerless, "message_filters_approx")
         if time is None:
             return

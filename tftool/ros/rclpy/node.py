@@ -213,7 +213,7 @@ class Node(NodeGraph, NodeParameters):
         return made
 
     def __watch(self, made: Any, group: Any, wanted: Any) -> None:
-        """Have callbacks told of the other ends of a topic."""
+        """Notify callbacks about the other ends of a topic."""
         if wanted is None:
             return
         group = group or self._default_callback_group

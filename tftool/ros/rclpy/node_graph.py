@@ -55,7 +55,7 @@ class NodeGraph:
     # Topics
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
-        """Every topic, and what is exchanged on it."""
+        """Return every topic, and its types."""
         return self.__look(self.__topics)
 
     def __topics(self) -> NamesAndTypes:
@@ -63,7 +63,7 @@ class NodeGraph:
         found = {
             name: {kind}
             for name, topic in world.topics().items()
-            # What has no type stays among nodes of tftool's own: the keys that are pressed, say.
+            # Topics without a type stay among tftool's own nodes: the keys that are pressed, say.
             if (kind := interface_name(topic.kind))
         }
         for name in world.endpoints.topics():

@@ -68,7 +68,7 @@ class NodeParameters:
         Raises:
             ParameterAlreadyDeclaredException: If it is known.
             ValueError: If the type is NOT_SET, or a type is given with `dynamic_typing`.
-            InvalidParameterTypeException: If what was given is of another type.
+            InvalidParameterTypeException: If the given value is of another type.
         """
         return self.__declare_one(name, value, descriptor, ignore_override)
 
@@ -395,7 +395,7 @@ class NodeParameters:
         self._pre_set_parameters_callbacks.append(callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Have `callback` told of every change."""
+        """Notify `callback` of every change."""
         self._post_set_parameters_callbacks.append(callback)
 
 

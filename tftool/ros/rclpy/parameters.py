@@ -155,7 +155,7 @@ def parameter_dict_from_yaml_file(
 
     Args:
         parameter_file: Its path.
-        use_wildcard: Whether what stands under `/**` counts, too.
+        use_wildcard: Whether entries under `/**` count, too.
         target_nodes: The nodes whose parameters are wanted, all without any.
         namespace: What the parameters' names begin with.
 

@@ -50,7 +50,7 @@ class ReliabilityPolicy(_Policy):
 
 
 class DurabilityPolicy(_Policy):
-    """Whether late subscribers get what was sent before."""
+    """Whether late subscribers get earlier messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT = 0
@@ -140,7 +140,7 @@ class QoSProfile:
 
 
 def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
-    """Return the part of a profile that decides who hears whom, and what is kept.
+    """Return the part of a profile that decides who hears whom, and which messages are kept.
 
     Args:
         profile: The profile.

@@ -1,4 +1,4 @@
-"""rclpy.event_handler: being told of the other ends of a topic.
+"""rclpy.event_handler: notifications about the other ends of a topic.
 
 Told are those that come and go ("matched"), those whose quality does not fit
 ("incompatible_qos"), those that are silent for too long ("deadline"), and those that no longer say
@@ -134,7 +134,7 @@ class Silence:
             self._timer.cancel()
 
     def _wait(self, limit: int) -> None:
-        # Not restarted at each sign of life, of which there may be thousands: checked at its end.
+        # Not restarted at each sign of life, as there may be thousands: checked at its end.
         clock = self._seat.program.clock
         self._timer = clock.timer(self._last + limit, Phase.WATCH)
         self._timer.add_done_callback(lambda timer: self._look(timer, limit))

@@ -78,7 +78,7 @@ class NodeSeat:
                 f"Give it a name of its own: --ros-args -r __node:=…",
             )
         elif name in self.world.far_nodes and not self.name.startswith("_"):
-            # Hidden ones are tools, of which there may be many: 'ros2 topic echo' in two terminals.
+            # Hidden ones are tools, and there may be many: 'ros2 topic echo' in two terminals.
             self.program.say("WARN", name, names.named_twice(name))
         if self.program.name == name:
             # The executable and its node share a name, as they often do.

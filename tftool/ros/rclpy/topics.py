@@ -108,11 +108,11 @@ class Publisher(NodeEntity):
             self.event_watch.lease_expired()
 
     def wait_for_all_acked(self, timeout: Any = None) -> bool:
-        """True: what is sent is with everybody in the world when `publish` returns."""
+        """Return True: everybody in the world has the message when `publish` returns."""
         return True
 
     def withdraw(self) -> None:
-        """Leave the graph; what was kept for those who come late goes along."""
+        """Leave the graph; messages kept for late subscribers are dropped."""
         super().withdraw()
         self._withdrawn = True
         if self._lease is not None:

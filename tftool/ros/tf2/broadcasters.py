@@ -20,7 +20,7 @@ _TOLERANCE = 10e-3
 """How far the square of a quaternion's length may be from 1 for tf2 to take it."""
 
 AUTHORITY = "default_authority"
-"""Who sent what was sent before one listened; of later transforms the sender is known."""
+"""Sender of earlier transforms; that of later ones is known."""
 
 DEFAULT_TF_TOPIC = "/tf"
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
@@ -157,7 +157,7 @@ class TransformBroadcaster:
         seat.program.ask(lambda: seat.world.broadcast(sent, seat.authority, static=static))
 
     def _judge(self, sample: TransformStamped) -> None:
-        """Say once of each child whose rotation ROS 2 would not take what is wrong with it."""
+        """Report once for each child the rotation that ROS 2 would refuse."""
         turn = sample.transform.rotation
         square = sum(number * number for number in turn)
         # NaN is refused in tf2's words; None is what no rotation at all is written as.

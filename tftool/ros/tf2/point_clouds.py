@@ -69,7 +69,7 @@ def read_points(
     Args:
         cloud: A PointCloud2.
         field_names: Which fields, and in which order; all of them without.
-        skip_nans: Leave points out of which a number is NaN.
+        skip_nans: Leave out points with a NaN.
         uvs: Which points: their numbers, or (u, v) pairs of an organized cloud.
         reshape_organized_cloud: Give an organized cloud's points in its rows.
 

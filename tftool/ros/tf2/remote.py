@@ -31,7 +31,7 @@ _NUMBERS: tuple[tuple[type[TransformException], int], ...] = (
     (TimeoutException, 5),
     (TransformException, 6),
 )
-"""Each refusal's number in a TF2Error, what is most special first."""
+"""Each refusal's number in a TF2Error, the most special first."""
 
 
 def _action() -> Any:

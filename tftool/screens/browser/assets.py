@@ -6,7 +6,7 @@ from importlib import resources
 
 from tftool.base.errors import TftoolError
 
-# Where each lies: what is built has a folder of its own.
+# The folder of each: built files have one of their own.
 _FILES = {
     "index.html": ("page", "text/html; charset=utf-8"),
     "page.css": ("page", "text/css; charset=utf-8"),

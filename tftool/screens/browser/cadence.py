@@ -10,7 +10,7 @@ class Cadence:
     """Turns at a steady rate, each at the earliest as long after the last as that took.
 
     A turn that comes late moves none of those after it, as long as all of them are short: the
-    rate on average stays what was asked for.
+    average rate stays the requested one.
     """
 
     def __init__(self, period: Duration, start: Stamp) -> None:

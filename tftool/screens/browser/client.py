@@ -122,7 +122,7 @@ class PageClient:
         self._wake.set()
 
     async def feed(self) -> None:
-        """Send what is offered whenever the page is ready for it; ends with the connection."""
+        """Send offered data whenever the page is ready for it; ends with the connection."""
         while True:
             await self._wake.wait()
             self._wake.clear()

@@ -34,15 +34,15 @@ class _HeardTopic:
     """One topic that is listened to.
 
     Attributes:
-        drawn: What the page is told of it; its one message is the one told last.
+        drawn: Its drawing on the page; its one message is the last one.
         draw: How its messages are drawn.
         quality: How it is subscribed.
         stop: Ends the subscription.
         newest: The last message, until it is drawn.
         waiting: The message that was drawn, until it can be placed.
         rounds: For how many rounds it has waited.
-        is_news: Whether the page was not told of a fault yet.
-        block: What was told last.
+        is_news: Whether a fault was not reported to the page yet.
+        block: The last block sent.
     """
 
     drawn: DrawnTopic
@@ -91,7 +91,7 @@ class LiveDisplays:
         return found
 
     def round(self) -> dict[str, bytes]:
-        """The blocks of topics of which there is news; of many large ones some wait for the next.
+        """The blocks of topics with news; some of many large ones wait for the next.
 
         Called at the rate at which pages are told.
         """

@@ -21,7 +21,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
     """Gaps and findings as a message for the page; moments in seconds since the epoch.
 
     Args:
-        buffer: What is judged; it keeps no log times, so what needs them is not looked for.
+        buffer: The judged source; it keeps no log times, so checks that need them are left out.
         epoch: The moment from which the page counts.
     """
     frames = buffer.snapshot(0).frames

@@ -108,7 +108,7 @@ class PackedBlock:
         return known
 
     def plain(self, header: object) -> bytes:
-        """The whole block as it is, for what is not kept; `header` is written in front."""
+        """The whole block as it is, for data that is not kept; `header` is written in front."""
         return b"".join([_head(header), *self._sections])
 
     def deflated(
@@ -122,7 +122,7 @@ class PackedBlock:
         """The whole block, deflated as zlib does it.
 
         Args:
-            header: What is written as JSON in front.
+            header: JSON in front of it.
             most: How many bytes it may take.
             progress: Is told how far it has come.
             level: How hard to try, from 1 to 9.

@@ -143,7 +143,7 @@ def parse(message: str | bytes) -> Said:
     """Read what a page sent.
 
     Raises:
-        InputError: If it is none of the eight messages; says what is wrong.
+        InputError: If it is none of the eight messages; names the mistake.
     """
     if isinstance(message, bytes):
         raise InputError("the page speaks text, not bytes")
@@ -415,7 +415,7 @@ _TRAIL_DIGITS = 5
 
 
 def _stamps(epoch: Stamp, asked: SeriesRequest | TrailsRequest) -> list[Stamp]:
-    """Moments spread evenly over what is asked about."""
+    """Moments spread evenly over the requested span."""
     first, last = stamp_at(epoch, asked.first), stamp_at(epoch, asked.last)
     steps = asked.count - 1
     return [first + (last - first) * step // steps for step in range(asked.count)]

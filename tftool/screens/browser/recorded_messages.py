@@ -44,7 +44,7 @@ class Limits:
 
 
 IN_A_FILE: Final = Limits(20_000, 600_000)
-"""What has room in a page that is sent around."""
+"""Limits of a page that is sent around."""
 
 
 @dataclass(slots=True)
@@ -57,7 +57,7 @@ class DrawnTopic:
         kind: What they become: "ball", "line" or "points".
         messages: In the order of their stamps.
         count: How many were recorded.
-        faults: What was wrong with messages, and with how many.
+        faults: Faults of messages, each with its count.
     """
 
     topic: str

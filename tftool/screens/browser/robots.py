@@ -32,7 +32,7 @@ class ShownRobot:
         robot: What it is.
         folders: Where its meshes lie.
         mover: What moves its joints, where we publish them; else None.
-        prefix: What stands before the names of its links.
+        prefix: Prefix of the names of its links.
         rest: Where its joints are, where nothing publishes them: then a page moves them by itself.
     """
 
@@ -43,7 +43,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Find out what stands before the names of its links; whether that has changed."""
+        """Find out the prefix of its links' names; whether that has changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix

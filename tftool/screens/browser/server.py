@@ -60,7 +60,7 @@ RANGE_EVERY = 10
 """Ticks between two words about the buffer's reach to a page that shows the past."""
 
 DISPLAYS_RATE = 10.0
-"""How often pages are told of messages that are drawn, hertz."""
+"""Rate at which pages get drawn messages, hertz."""
 
 TREES_KEPT = 8
 """Shapes of the tree whose names need not be written again."""
@@ -157,7 +157,7 @@ class PageServer:
                 client.show_robot(self._robot_text)
 
     def _move(self, said: protocol.Move) -> None:
-        """Put a joint elsewhere; what is no joint of ours is passed over."""
+        """Put a joint elsewhere; other names are passed over."""
         robot = self._robot
         if robot is not None and robot.mover is not None and robot.robot.takes(said.joint):
             lower, upper = slide_range(robot.robot.joints[said.joint])
@@ -298,7 +298,7 @@ class PageServer:
             while len(self._trees) >= TREES_KEPT:
                 del self._trees[next(iter(self._trees))]
             self._trees[key] = tree
-            # The frames that have come may say what stands before the names of the links.
+            # The frames that have come may say the prefix of the links' names.
             if self._robot is not None and self._robot.place(
                 frozenset(self.source.buffer.frames())
             ):

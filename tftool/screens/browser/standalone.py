@@ -45,7 +45,7 @@ class StandaloneData:
         begin: Where it begins to look; None for the latest of everything.
         robot: The robot among them, and where its meshes lie.
         tracks: Messages that are drawn beside the frames.
-        view: What is chosen at first, as an address of the page has it behind its #.
+        view: First choice, as an address of the page has it behind its #.
     """
 
     name: str
@@ -79,7 +79,7 @@ def standalone_page(
     Args:
         data: What it shows.
         most: From how many bytes on numbers are rounded, to a micrometre and 1e-7 in
-            quaternions. What is rounded may still be larger.
+            quaternions. A rounded value may still be larger.
         progress: Is told how far it has come.
 
     Raises:

@@ -55,7 +55,7 @@ def in_snapshot(snapshot: Snapshot) -> Lookup:
 
 
 def moving(snapshot: Snapshot, fixed: str) -> list[str]:
-    """The frames that may move as seen from `fixed`, but for what is bolted to one of them."""
+    """The frames that may move as seen from `fixed`, without those bolted to one of them."""
     moves: dict[str, bool] = {}
     for info in snapshot.frames:
         chain: list[FrameInfo] = []
@@ -229,7 +229,7 @@ class FrameTrails:
         self._box = None
 
     def _forget(self, before: Stamp) -> None:
-        """Drop what is old; the rest is another drawing."""
+        """Drop old parts; the rest is another drawing."""
         while self._stamps and self._stamps[0] < before:
             self._stamps.popleft()
             self._strokes.popleft()

@@ -21,7 +21,7 @@ from tftool.screens.terminal.text_style import Look, wrapped
 
 
 class Row(NamedTuple):
-    """A frame's place in the tree: what is drawn before its name."""
+    """A frame's place in the tree: the drawing before its name."""
 
     guide: str
     info: FrameInfo
@@ -394,7 +394,7 @@ class PairPlot:
         """Look the pair up over the last seconds, or round an earlier moment.
 
         Args:
-            moment: What is shown.
+            moment: The shown state.
             scene: Where the pair is looked up.
             width: Cells across.
             height: Lines.

@@ -15,7 +15,7 @@ MOST, LEAST = 1e9, 1e-4
 """Metres to a row beyond which the zoom does not go."""
 
 ROOMY = 0.4
-"""What is shown shrinks only when less than this share of it is needed."""
+"""The view shrinks only when less than this share of it is needed."""
 
 
 class Camera:

@@ -11,7 +11,7 @@ PATIENCE = seconds(4.0)
 
 
 class SceneQuestion:
-    """Keeps what is asked while the user moves through frames and time.
+    """Question that is kept while the user moves through frames and time.
 
     Args:
         scene: Who is asked.
@@ -106,7 +106,7 @@ class SceneQuestion:
         simulator = self.scene.simulator
         turtles = simulator is not None and bool(simulator.turtles)
         soon = turtles and moment.elapsed < PATIENCE
-        # What is shown in place of the pair may get another root as long as links come.
+        # The pair shown in place of the chosen one may get another root as long as links come.
         settled = asked == self._wished or moment.elapsed >= self._first_link_at + PATIENCE
         if soon or (settled and all(name in snapshot for name in asked)):
             return asked

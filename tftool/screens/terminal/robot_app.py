@@ -45,7 +45,7 @@ class RobotApp(PanelApp):
         world: Where the robot's frames are.
         sliders: Its joints.
         link: The link whose pose is shown; the one farthest from the root if None.
-        prefix: What stands before the name of every link.
+        prefix: Prefix of the names of every link.
         setting: How to show it.
     """
 

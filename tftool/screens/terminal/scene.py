@@ -80,7 +80,7 @@ class SimulatedTurtle(Protocol):
 
 
 class Simulator(Protocol):
-    """Source of turtles: the simulator itself, or what is seen of one elsewhere."""
+    """Source of turtles: the simulator itself, or one elsewhere as it is seen."""
 
     trail: Trail
     revision: int

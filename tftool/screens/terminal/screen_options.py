@@ -41,7 +41,7 @@ def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting)
     Args:
         environment: Its TERM, NO_COLOR, COLORFGBG and LC_ALL count.
         encoding: What the terminal's text is encoded in.
-        wanted: What was asked for; it is only ever restricted.
+        wanted: The wish; it is only ever restricted.
     """
     terminal = environment.get("TERM", "")
     ascii_only = (

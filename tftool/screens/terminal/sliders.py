@@ -60,8 +60,8 @@ class Sliders:
 
     Attributes:
         robot: The robot.
-        entry: What has been typed of a position; empty while nothing is.
-        refusal: Why what was typed last is no position; empty where it was.
+        entry: The typed part of a position; empty while nothing is.
+        refusal: Why the last typed text is no position; empty where it was one.
     """
 
     def __init__(self, robot: Robot, mover: Positions | None, *, seed: int = 0) -> None:
@@ -136,7 +136,7 @@ class Sliders:
         self._move(joint, min(upper, max(lower, position)))
 
     def type(self, sign: str) -> None:
-        """Add a sign to what is typed: a digit, ".", "-", or a backspace, which takes one away."""
+        """Add a sign to the typed text: a digit, ".", "-", or a backspace, which takes one away."""
         self.refusal = ""
         if sign == "\b":
             self.entry = self.entry[:-1]
@@ -144,7 +144,7 @@ class Sliders:
             self.entry += sign
 
     def enter(self) -> None:
-        """Put the chosen joint where what was typed says."""
+        """Move the chosen joint to the typed position."""
         text, self.entry = self.entry, ""
         joint = self.chosen
         if not text or joint is None or self._mover is None:

@@ -79,7 +79,7 @@ class TreeWatch(WorldApp):
 
     Args:
         world: Whose frames.
-        marks: Says what is wrong with frames.
+        marks: Finds faults of frames.
         setting: What the terminal can show.
     """
 
@@ -96,7 +96,7 @@ class TreeWatch(WorldApp):
         marks: Callable[[Snapshot], Marks],
         setting: Setting | None = None,
     ) -> None:
-        # What is drawn is text, and belongs among the user's text.
+        # The drawing is text, and belongs among the user's text.
         super().__init__(world, setting, terminal_colors=True)
         self._marks_now = marks
         self.window = TreeWindow()
@@ -128,11 +128,11 @@ class TreeWatch(WorldApp):
     # Looking
 
     def look(self) -> None:
-        """Take in what is there now, and draw it."""
+        """Read the present state, and draw it."""
         self._shown(self._look)
 
     def draw(self) -> None:
-        """Draw what was taken in last, as it is wanted now."""
+        """Draw the state read last, with the present options."""
         self._shown(self._draw)
 
     def _shown(self, work: Callable[[], None]) -> None:

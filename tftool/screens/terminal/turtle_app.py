@@ -144,7 +144,7 @@ class TurtleApp(PanelApp):
         scene.world.log.listen(self._journal.add, "screen")
 
     def begin(self, stamp: Stamp) -> None:
-        """Count time from now on: the world begins to live. What is all there began before."""
+        """Count time from now on: the world begins to live. A complete source began before."""
         if self.setting.at is None:
             self.scene.start = stamp
 
@@ -317,11 +317,11 @@ class TurtleApp(PanelApp):
     # The mouse
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Come nearer to what is under the pointer."""
+        """Zoom in at the pointer."""
         self._wheel(event, 1)
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Go back from what is under the pointer."""
+        """Zoom out at the pointer."""
         self._wheel(event, -1)
 
     def _wheel(self, event: events.MouseEvent, step: int) -> None:

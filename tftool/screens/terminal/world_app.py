@@ -58,7 +58,7 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
                 try:
                     super().run_input_thread()
                 except UnicodeDecodeError as error:
-                    # What was read together with them is kept; the next round reads what follows.
+                    # Input read together with them is kept; the next round reads what follows.
                     for event in input_events(error.object.decode(errors="ignore")):
                         self.process_message(event)
                     continue

@@ -80,7 +80,7 @@ class TopicFeed:
             self._read(moment)
 
     def send_until(self, moment: Stamp) -> None:
-        """Send what is due up to a moment."""
+        """Send everything due up to a moment."""
         self._read(moment)
         while self._waiting and self._waiting[0][0] <= moment:
             message = self._take()

@@ -90,7 +90,7 @@ class Graph:
     """Entities of all other processes.
 
     Attributes:
-        own: This process's session, of which nothing is entered.
+        own: This process's session, whose entities are not entered.
         domain: The domain we are in.
     """
 
@@ -106,7 +106,7 @@ class Graph:
         """Enter something under the key by which it is taken out again.
 
         Returns:
-            What is new by it; None when nothing is.
+            The new entity; None when nothing is new.
         """
         if key in self._entities or key in self._processes or found.session == self.own:
             return None
@@ -127,7 +127,7 @@ class Graph:
         """Take something out.
 
         Returns:
-            What is gone by it; None when it was not known.
+            The entity that is gone; None when it was not known.
         """
         gone = self._entities.pop(key, None)
         if gone is None:

@@ -1,4 +1,4 @@
-"""From the transport's threads to our event loop: what comes in waits here, within bounds."""
+"""From the transport's threads to our event loop: incoming messages wait here, within bounds."""
 
 import asyncio
 import contextlib
@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import Any, Final
 
 MOST_WAITING: Final = 50_000
-"""Messages that may wait for the event loop; what comes on top is lost, and counted."""
+"""Messages that may wait for the event loop; further ones are lost, and counted."""
 
 MOST_BYTES: Final = 256 * 1024 * 1024
 """Bytes of payload that may wait."""
@@ -62,7 +62,7 @@ class Inbox:
         Args:
             callback: What to call.
             argument: With what.
-            size: Bytes a message carries; None for what is no message and never dropped.
+            size: Bytes a message carries; None for events, which are never dropped.
         """
         with self._lock:
             if self._closed:
@@ -82,7 +82,7 @@ class Inbox:
             loop.call_soon_threadsafe(self._drain)
 
     def _drain(self) -> None:
-        """Call what waits, a slice at a time, so that a flood does not starve the world.
+        """Call everything waiting, a slice at a time, so that a flood does not starve the world.
 
         A callback that raises is reported to the loop; those behind it are called all the same.
         """

@@ -78,7 +78,7 @@ class LinkContext:
 
     @property
     def awaits_statics(self) -> bool:
-        """Whether a publisher of static transforms is there of which none have come yet."""
+        """Whether a publisher of static transforms is there whose transforms have not come yet."""
         if b"" in self.heard_statics:
             return False  # one that does not say who it is
         publishers = self.graph.entities(PUBLISHER, name="tf_static")

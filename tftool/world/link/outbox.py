@@ -23,7 +23,7 @@ MOST_BYTES: Final = 256 * 1024 * 1024
 """Bytes of payload that may wait in the same way: a few images weigh more than many poses."""
 
 LONGEST_WAIT: Final = 2.0
-"""Seconds the loop waits for room in all; what is sent while there is none is dropped then."""
+"""Seconds the loop waits for room in all; later messages are dropped while there is none."""
 
 _PAUSE = 0.0002
 _STUCK = 50  # pauses without progress, after which the sender counts as stuck
@@ -78,7 +78,7 @@ class Outbox:
             self._let_catch_up()
 
     def close(self) -> None:
-        """Send what waits, for as long as that makes sense, and nothing after it."""
+        """Send everything waiting, for as long as that makes sense, and nothing after it."""
         if not self._closed:
             self._closed = True
             self._queue.put(None)

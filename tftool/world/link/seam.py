@@ -125,10 +125,10 @@ class Middleware(Protocol):
         """Messages that were dropped because too many waited to be taken in."""
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Show this process to the others, until what is returned is called."""
+        """Show this process to the others, until the returned function is called."""
 
     def node(self, name: str) -> Callable[[], None]:
-        """Show a node, until what is returned is called."""
+        """Show a node, until the returned function is called."""
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
         """Publish a topic, as a node of this process."""
@@ -136,7 +136,7 @@ class Middleware(Protocol):
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Show that a node subscribes a topic, until what is returned is called.
+        """Show that a node subscribes a topic, until the returned function is called.
 
         Several subscriptions of a process share what one `listen` brings in.
         """
@@ -149,19 +149,19 @@ class Middleware(Protocol):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Have `on_message` called with what others publish, until what is returned is called.
+        """Have `on_message` called with what others publish, until the returned function is called.
 
         Args:
             name: The topic.
             ros_type: Its type; publishers of another one are not heard.
             on_message: Called with every message.
-            is_latched: Whether to ask for what was sent before.
+            is_latched: Whether to ask for earlier messages.
         """
 
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Serve a service as a node of this process, until what is returned is called."""
+        """Serve a service as a node of this process, until the returned function is called."""
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
         """Ask a service as a node of this process."""

@@ -149,7 +149,7 @@ class Link(LinkContext):
         self._reconcile_soon()
 
     def _reconcile(self) -> None:
-        """Bring what is declared in line with what the world and the others have."""
+        """Align the declarations with the entities of the world and of the others."""
         self._reconciling = False
         self._match(
             self._match_nodes,
@@ -320,8 +320,8 @@ class Link(LinkContext):
     def _came(self, process: Process) -> None:
         is_only_host = process.role is Role.HOST and len(hosts(self.graph.processes())) == 1
         if is_only_host and self.departures > self._forgotten:
-            # Another world under the same names, perhaps by another clock: what is known of
-            # the way things moved in the one before would only be in its way.
+            # Another world under the same names, perhaps by another clock: samples of the
+            # one before would only be in its way.
             self._forgotten = self.departures
             self.world.buffer.clear()
             self.world.log.warn(NAME, f"{process} hosts now.")
@@ -337,9 +337,9 @@ class Link(LinkContext):
         self.world.log.warn(NAME, f"{process}{hosted} has left; what it sent stays as it was.")
 
     def _count_departure(self, session: str) -> None:
-        """Count a process once the last is gone of what it showed, in whatever order that goes.
+        """Count a process once the last of its entities is gone, in whatever order they go.
 
-        A node may leave a process that stays, and what is not a tftool shows no process.
+        A node may leave a process that stays, and other programs show no process.
         """
         senders = self.graph.entities(PUBLISHER, name="tf")
         stays = self.graph.process(session) or any(one.session == session for one in senders)

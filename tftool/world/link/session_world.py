@@ -171,7 +171,7 @@ def session_name(link: "Link", place: str) -> str:
     others = sorted({one.node for one in link.graph.entities()})
     if others:
         return f"'{visible(others[0])}' at {visible(place)}"
-    return f"what is at {visible(place)}, where nothing has answered yet"
+    return f"the session at {visible(place)}, where nothing has answered yet"
 
 
 def twins(world: World) -> list[str]:
@@ -190,7 +190,7 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
 
     Args:
         link: What joins it to the others; None to keep to itself.
-        world: What is shared.
+        world: The shared world.
         role: What this process is to the others, as `link.graph.Role` has it.
     """
     if link is None:

@@ -24,8 +24,8 @@ class TopicBridge:
     """A topic of messages.
 
     Nodes that state what they publish and subscribe, and with what quality, are shown one
-    by one; all others together as the first node of the world. What comes in is taken once
-    for all, except by latched subscriptions: each is sent what was there before it.
+    by one; all others together as the first node of the world. Incoming messages are taken once
+    for all, except by latched subscriptions: each gets earlier messages.
     """
 
     def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
@@ -94,7 +94,7 @@ class TopicBridge:
     # In
 
     def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
-        """Show a subscription, and ask for what was sent before if it is latched."""
+        """Show a subscription, and ask for earlier messages if it is latched."""
         link, name, ros_type = self._link, self._topic.name, self._type
         node = link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality

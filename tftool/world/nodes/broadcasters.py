@@ -217,7 +217,7 @@ class Noise(Node):
 
     Each broadcast is off by an error of its own, normally distributed in each coordinate and
     about each axis. The drift is a random walk in the plane: after t seconds it is normally
-    distributed too, with the square root of t times what is said of one second. The same seed
+    distributed too, with the square root of t times the value for one second. The same seed
     gives the same errors on every machine.
     """
 

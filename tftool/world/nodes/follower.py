@@ -154,7 +154,7 @@ class Spawning:
         self._confirmed = False
 
     def step(self) -> bool:
-        """Do what is next; True once the turtle was there before this step."""
+        """Do the next step; True once the turtle was there before this step."""
         if self._confirmed:
             return True
         if not self._is_asked:

@@ -112,7 +112,7 @@ class RobotStatePublisher(Node):
         self._is_running = False
 
     async def run(self) -> None:
-        """Say what holds for all time, and listen from now on."""
+        """Publish the static transforms, and listen from now on."""
         self._is_running = True
         self._begin()
         self.subscribe(self.topics[0], joint_state_type(), self._on_joint_state)
@@ -309,7 +309,7 @@ class MovingRobot(RobotStatePublisher):
             motion: How the others move: not at all; there and back between their limits
                 (a turn without limits: a radian); from limit to limit by way of the middle,
                 a third of a cycle at each; or as recorded.
-            recording: Of recorded motion, what was recorded.
+            recording: The recording of recorded motion.
             cycle: How long there and back takes; for each joint a little longer than for
                 the one before it, so that no two move alike.
             period: How often joint states are published.
@@ -358,7 +358,7 @@ class MovingRobot(RobotStatePublisher):
         return (middle, upper, middle, lower)[math.floor(4.0 * share) % 4]
 
     async def _replay(self) -> None:
-        """Publish what was recorded, each at its moment after the first."""
+        """Publish recorded states, each at its moment after the first."""
         rows = sorted(
             (int(stamp), place, row)
             for place, states in enumerate(self.recording)

@@ -1,4 +1,4 @@
-"""A recording as a node: what was recorded is broadcast again, at its own pace or another."""
+"""A recording as a node: its transforms are broadcast again, at its own pace or another."""
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 
@@ -23,7 +23,7 @@ AT_ONCE: Final = 500
 """Messages that are sent before anything else gets a turn."""
 
 RECENT: Final = seconds(1)
-"""How much of what came before is sent with what was known at a moment, at most `AT_ONCE`."""
+"""Time before a moment that is sent together with its frames, at most `AT_ONCE`."""
 
 SLOWEST, FASTEST = 0.01, 100.0
 """Rates that a player takes."""
@@ -36,7 +36,7 @@ class Feed(Protocol):
         """Go on from a moment."""
 
     def send_until(self, moment: Stamp) -> None:
-        """Send what is due up to a moment."""
+        """Send everything due up to a moment."""
 
     def next_due(self) -> Stamp | None:
         """The moment of the next message; None where there is none any more."""
@@ -86,7 +86,7 @@ class Player(Node):
                 no `/clock`.
             is_silent: Whether to publish no `/clock` though stamps are the recording's.
             names_topics: Whether the topic stands for who sent it where no node is recorded,
-                as in what is told of a recording; else this node does, which sends it.
+                as in the description of a recording; else this node does, which sends it.
             feed: Sends other topics along.
         """
         super().__init__(world, name)
@@ -152,7 +152,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Go to a moment: what was known of the frames by then is sent, and the second before."""
+        """Seek: send the frames as they were known at a moment, and the second before."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()
@@ -193,15 +193,15 @@ class Player(Node):
     def _start_over(self) -> None:
         self.laps += 1
         self.seek(self.start)
-        # What lies at the very beginning is sent once more, as in the first round.
+        # The very first messages are sent once more, as in the first round.
         self._place = self._timeline.place(self.start)
 
     def _send_due(self) -> bool:
-        """Send what is due by now; whether more is left than is sent at once."""
+        """Send everything due by now; whether more is left than is sent at once."""
         position = self.position
         last = min(self._timeline.place(position, after=True), self._place + AT_ONCE)
         while self._place < last:
-            # Before what is stamped then, so that it lies in the past of its listeners.
+            # Before the transforms of that moment, so that it lies in the past of its listeners.
             self._tell(int(self._timeline.moments[self._place]))
             self._send(self._place)
             self._place += 1
@@ -278,7 +278,7 @@ class Player(Node):
 
 
 def _restamped(sample: TransformStamped, later: Duration, static: bool) -> TransformStamped:
-    # What holds at all times may have the stamp 0, which says nothing of when.
+    # Static transforms may have the stamp 0, which says nothing of when.
     if static and not sample.stamp:
         return sample
     return sample._replace(stamp=max(sample.stamp + later, 1))

@@ -51,8 +51,8 @@ class Recorder:
 
         Args:
             world: Whose topics.
-            taker: What is given every message.
-            link: What has joined the world to the session it is a guest of; None for a world
+            taker: Receiver of every message.
+            link: The link that joined the world to the session it is a guest of; None for a world
                 of this process.
             names: Other topics, without a leading slash.
             everything: Whether to record all there are.

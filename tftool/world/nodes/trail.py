@@ -58,7 +58,7 @@ class Trail:
         self.segments.append(segment)
         self.drawn += 1
         self._unpainted.append(segment)
-        # What waits is bounded too: beyond it one old stroke is painted per new one.
+        # Waiting strokes are bounded too: beyond it one old stroke is painted per new one.
         if len(self._unpainted) > KEPT_SEGMENTS:
             self._pixels.paint(self._unpainted.popleft())
 
@@ -204,7 +204,7 @@ class FarDrawing:
     """
 
     def __init__(self, trail: Trail) -> None:
-        """Take what is told into `trail`."""
+        """Add a reported point to `trail`."""
         self.is_whole = False
         self._trail = trail
         self._began = -1

@@ -152,7 +152,7 @@ class Turtle:
         self._goal_start, self._goal_delta = self.place.theta, 0.0
 
     def leave(self) -> None:
-        """End what is under way, because the turtle goes."""
+        """End the current action, because the turtle goes."""
         if self._goal is not None:
             self._end_goal("aborted")
 

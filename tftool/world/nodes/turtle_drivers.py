@@ -245,7 +245,7 @@ class IdleDrawing(Node):
             self.is_drawing = False
 
     def _send(self, command: Any) -> None:
-        # In one process what is published is heard before this returns.
+        # In one process subscribers get a message before this returns.
         self._is_sending = True
         try:
             self.publish(f"{self.turtle}/cmd_vel", command)

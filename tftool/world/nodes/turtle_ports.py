@@ -81,7 +81,7 @@ class TickQueue:
             self._waiting.popleft()[1](tick)
 
     def close(self, reason: str) -> None:
-        """Drop what waits; those that await an outcome are refused with `reason`."""
+        """Drop everything waiting; those that await an outcome are refused with `reason`."""
         self._waiting.clear()
         for answer in list(self._unanswered):
             if not answer.done():
@@ -89,7 +89,7 @@ class TickQueue:
 
 
 class TurtlePorts:
-    """A turtle's topics, services and action; what comes in waits for the next tick.
+    """A turtle's topics, services and action; incoming requests wait for the next tick.
 
     Attributes:
         pose: Where its poses go.

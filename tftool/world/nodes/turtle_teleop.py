@@ -136,7 +136,7 @@ class Teleop(Node):
             key: "up", "down", "left", "right" or a letter of either case.
 
         Returns:
-            The kind of what was done; None for a key that does nothing.
+            The kind of action; None for a key that does nothing.
         """
         meaning = KEYS.get(key.lower())
         if meaning is None:

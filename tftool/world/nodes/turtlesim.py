@@ -236,7 +236,7 @@ class Turtlesim(Node):
         ports.remove_topics()
         self.revision += 1
 
-    # What is asked of the simulator
+    # Requests to the simulator
 
     async def _on_spawn(self, request: Any) -> Any:
         place = requested_placement(request)

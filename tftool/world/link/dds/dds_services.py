@@ -25,7 +25,7 @@ QUALITY: Final = Quality(depth=10)
 """ROS 2's quality of services."""
 
 NUMBERED: Final = (("client_guid", "uint64"), ("sequence_number", "int64"))
-"""What lies in front of each request and each reply: whose it is, and which."""
+"""Header of each request and each reply: its client, and its number."""
 
 _HEAD: Final = 4
 _NUMBER: Final = 16
@@ -166,7 +166,7 @@ class CycloneClient:
         if not self._close:
             self._open()
         clock = WallClock()
-        # What is written before both sides know each other no server gets.
+        # No server gets a request written before both sides know each other.
         while not self._is_matched():
             await clock.sleep(_PAUSE)
         beside = struct.pack("<Qq", self._guid, number)

@@ -1,7 +1,7 @@
 """Discovery in DDS: its built-in topics, and what ROS 2's nodes publish about themselves.
 
 DDS knows participants and their endpoints; which node an endpoint belongs to is written on
-`ros_discovery_info`, of which every participant of ROS 2 sends its own.
+`ros_discovery_info`, which every participant of ROS 2 publishes.
 """
 
 import threading
@@ -131,7 +131,7 @@ class Discovery:
     """
 
     def __init__(self, participant: Participant, domain: int) -> None:
-        """Begin to look; what is there comes in by `look`.
+        """Begin discovery; `look` reads its results.
 
         Args:
             participant: Ours.
@@ -176,7 +176,7 @@ class Discovery:
             self._writer.close()
 
     def start(self, report: Callable[[GraphEntity | Process | None, bool], None]) -> None:
-        """Call back from now on with what comes and goes."""
+        """Call back from now on with every arrival and departure."""
         self._report = report
         self._changed = self._look_soon
         self._look_soon()
@@ -311,7 +311,7 @@ class Discovery:
         self._exchange(f"process {participant.hex()}", None)
 
     def _exchange(self, key: str, new: GraphEntity | Process | None) -> None:
-        """Enter something in place of what stood under its key, and report both."""
+        """Replace the entry under its key, and report both."""
         old = self.graph.get(key)
         if old == new:
             return
@@ -357,7 +357,7 @@ class Discovery:
     # What we say
 
     def show_node(self, name: str) -> Callable[[], None]:
-        """Show a node of ours until what is returned is called."""
+        """Show a node of ours until the returned function is called."""
         self._own.setdefault(name, (set(), set()))
         self._say()
 
@@ -368,7 +368,7 @@ class Discovery:
         return hide
 
     def show_endpoint(self, node: str, role: str, gid: bytes) -> Callable[[], None]:
-        """Show that an endpoint of ours is a node's, until what is returned is called."""
+        """Show that an endpoint of ours is a node's, until the returned function is called."""
         which = 1 if role == PUBLISHER else 0
         self._own.setdefault(node, (set(), set()))[which].add(gid)
         self._say()

@@ -35,7 +35,7 @@ class LibraryLog:
         self._stream: int | None = None
 
     def listen(self, callback: Callable[[str], object]) -> Callable[[], None]:
-        """Have `callback` called on another thread with what is to be said.
+        """Have `callback` called on another thread with sentences to print.
 
         Returns:
             A function that ends this.

@@ -43,7 +43,7 @@ class DdsMiddleware:
     Attributes:
         graph: Who else is there.
         session: The GUID of our participant, in hexadecimal.
-        unanswering: None; what is stopped cannot be told from what is not there.
+        unanswering: None; a stopped process cannot be told from a missing one.
         notices: What the user should know before anything else, as sentences.
     """
 
@@ -152,7 +152,7 @@ class DdsMiddleware:
         self._readers.clear()
         self._participant.close()
 
-    # What is shown
+    # Shown entities
 
     def process(self, process: Process) -> Callable[[], None]:
         """Show this process."""
@@ -232,7 +232,7 @@ class DdsMiddleware:
         return stop
 
     def _asks_reliable(self, name: str, ros_type: str) -> bool:
-        """Whether a reader may ask for reliability: tf2 does, others take what is offered."""
+        """Whether a reader may ask for reliability: tf2 does, others take any offer."""
         if name in ("tf", "tf_static"):
             return True
         offered = self.graph.entities(PUBLISHER, name=name)

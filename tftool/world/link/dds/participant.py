@@ -1,7 +1,7 @@
 """This process as a participant of DDS: its readers and writers, and the threads behind.
 
 `cyclonedds` is imported with this module, and this module when `DdsReach` joins. What the
-library calls back on its own threads goes through an inbox to the event loop; what is written
+library calls back on its own threads goes through an inbox to the event loop; data written
 goes through an outbox.
 """
 
@@ -110,7 +110,7 @@ class Participant:
             domain: Number of the domain.
             network: Where it looks for others.
             name: What others may call it.
-            user_data: What is written beside it.
+            user_data: User data beside it.
 
         Raises:
             LinkError: If there is no way in.
@@ -160,7 +160,7 @@ class Participant:
         Args:
             topic: The name of the topic in DDS.
             kind: The class of its messages.
-            quality: What is asked for.
+            quality: Requested quality of service.
             on_sample: Called with every message.
             on_refused: Called with the number of the policy by which a writer does not fit.
         """
@@ -193,11 +193,11 @@ class Participant:
         Args:
             topic: The name of the topic in DDS.
             kind: The class of its messages.
-            quality: What is offered.
-            user_data: What is written beside it: the hash of its type.
+            quality: Offered quality of service.
+            user_data: User data beside it: the hash of its type.
         """
         kept = Policy.History.KeepLast(max(1, quality.depth))
-        # What is not kept for late readers is kept until those that are there have it.
+        # Samples not kept for late readers are kept until the present ones have them.
         keeps_all = quality.keeps_all or (quality.is_reliable and not quality.is_latched)
         policies = _policies(quality, Policy.History.KeepAll if keeps_all else kept)
         policies.append(Policy.Userdata(user_data))
@@ -221,7 +221,7 @@ class Participant:
         return BuiltinDataReader(self.entity, topic, listener=Telling())
 
     def tell(self, user_data: bytes) -> None:
-        """Change what is written beside it."""
+        """Change its user data."""
         self.entity.set_qos(Qos(Policy.Userdata(user_data)))
 
     def at_close(self, close: Callable[[], None]) -> None:
@@ -239,7 +239,7 @@ class Participant:
         return self._topics[key]
 
     def _take(self, reader: Any, on_sample: Callable[[DdsSample], object]) -> None:
-        """Hand over what waits (on a thread of the library's)."""
+        """Hand over everything waiting (on a thread of the library's)."""
         while True:
             taken = reader.take(AT_ONCE)
             for one in taken:

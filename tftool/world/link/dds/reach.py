@@ -30,7 +30,7 @@ class DdsReach(Reach):
         "dds": LinkOption(
             bool,
             "--dds",
-            "A ROS 2 robot over DDS, not zenoh: what is sent stays on this machine's loopback "
+            "A ROS 2 robot over DDS, not zenoh: messages stay on this machine's loopback "
             "(DDS receives on 0.0.0.0 all the same).",
         ),
         "dds_on": LinkOption(

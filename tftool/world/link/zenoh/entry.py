@@ -126,7 +126,7 @@ class Opening:
             raise LinkError(_no_answer_at(reach))
 
     def _take_in_tokens(self, *, is_expected: bool) -> None:
-        """Fill the graph with what is there now; wait for it where a process should be."""
+        """Fill the graph with the present entities; wait for it where a process should be."""
 
         def all_are_known() -> bool:
             for prefix in (keys.LIVELINESS, keys.OURS):

@@ -64,7 +64,7 @@ TYPE_HASHES: Final = {
         "RIHS01_6e9e54cb05e1a789f982bf8c93d27fc899cee099746c4ea8c7cb64e8a90297d6"
     ),
 }
-"""Hashes (RIHS01) of what every session carries; a test computes them from the definitions."""
+"""Hashes (RIHS01) of every session's types; a test computes them from the definitions."""
 
 LIVELINESS: Final = "@ros2_lv"
 OURS: Final = "@tftool"
@@ -102,7 +102,7 @@ def dds_name(ros_type: str) -> str:
 
 
 def ros_name(dds_type: str) -> str:
-    """A type as people write it; what is not a DDS name comes back as it is."""
+    """A type as people write it; other names come back as they are."""
     parts = dds_type.split("::")
     if len(parts) != 4 or parts[2] != "dds_" or not parts[3].endswith("_"):
         return dds_type
@@ -136,7 +136,7 @@ def quality(stated: Quality) -> str:
 
 
 def read_quality(text: str) -> Quality:
-    """The quality of service that a token tells; what is left out or unheard of is default."""
+    """The quality of service of a token; missing or unknown parts are default."""
     parts = [*text.split(":"), "", "", ""]
     history, _, depth = parts[2].partition(",")
     return Quality(

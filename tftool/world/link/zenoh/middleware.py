@@ -74,7 +74,7 @@ class ZenohMiddleware:
             stop()
         self._opening.close()
 
-    # What is shown
+    # Shown entities
 
     def process(self, process: Process) -> Callable[[], None]:
         """Show this process."""
@@ -186,7 +186,7 @@ class ZenohMiddleware:
         return self._numbers
 
     def show(self, key: str) -> Callable[[], None]:
-        """Show a token until what is returned is called; one that only looks shows none."""
+        """Show a token until the returned function is called; one that only looks shows none."""
         return _nothing if self._options.read_only else self.wire.token(key)
 
     def _on_token(self, change: tuple[str, bool]) -> None:

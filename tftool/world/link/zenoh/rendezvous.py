@@ -348,7 +348,7 @@ def _text_of(path: Path) -> str:
 
 
 def _content_of(path: Path, longest: int) -> bytes:
-    """A file's first bytes; none of what is no plain file, a pipe say, which would hold us up."""
+    """Return a file's first bytes; none unless it is a plain file: a pipe would block us."""
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
     try:
         with open(os.open(path, flags), "rb") as file:

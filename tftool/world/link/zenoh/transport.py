@@ -183,12 +183,12 @@ class Wire:
     def subscriber(
         self, key: str, on_message: Callable[[Sample], object], *, is_latched: bool = False
     ) -> Callable[[], None]:
-        """Have `on_message` called with what comes in; call what is returned to stop.
+        """Have `on_message` called with every sample; call the returned function to stop.
 
         Args:
             key: The key, wildcards allowed.
             on_message: Called on the loop.
-            is_latched: Whether to ask for what was sent before.
+            is_latched: Whether to ask for earlier messages.
         """
 
         def arrived(sample: Any) -> None:
@@ -228,7 +228,7 @@ class Wire:
     # Questions
 
     def server(self, key: str, on_query: Callable[[Query], object]) -> Callable[[], None]:
-        """Have `on_query` called with every request; call what is returned to stop."""
+        """Have `on_query` called with every request; call the returned function to stop."""
 
         def asked(query: Any) -> None:
             payload, attachment = query.payload, query.attachment
