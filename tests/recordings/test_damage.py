@@ -30,8 +30,8 @@ from tftool.recordings.compression import compressor
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
 from tftool.recordings.mcap import format as mcap_records
+from tftool.recordings.mcap.read import Mcap
 from tftool.recordings.rosbag1 import format as rosbag1_records
-from tftool.recordings.rosbag2 import folder as rosbag2
 
 SENT = content()
 SINGLE = [name for name in CONTAINERS if "split" not in name]
@@ -189,10 +189,10 @@ def test_a_part_that_may_not_be_read_or_is_none_is_left_out_of_a_split_recording
 def test_too_many_open_files_are_no_damage_of_one(tmp_path, monkeypatch):
     path = write_split(tmp_path / "run", SENT, 3)
 
-    def none_left(*_):
+    def none_left(*_, **options):
         raise OSError(errno.EMFILE, "Too many open files")
 
-    monkeypatch.setattr(rosbag2, "Mcap", none_left)
+    monkeypatch.setattr(Mcap, "__init__", none_left)
 
     with pytest.raises(InputError, match="Too many open files"):
         open_recording(path)

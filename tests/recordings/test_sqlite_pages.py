@@ -10,7 +10,7 @@ from tests.recordings.scanning import REASON, is_native
 from tftool import InputError
 from tftool.messages.native_scan import SCAN
 from tftool.recordings.rosbag2 import read as sqlite
-from tftool.recordings.rosbag2.sqlite_pages import read_pages
+from tftool.recordings.rosbag2.format import read_pages
 
 needs_scan = pytest.mark.skipif(not is_native(), reason=REASON)
 TOPICS = ["/tf", "/image", "/tf_static"]

@@ -15,6 +15,7 @@ from tftool.messages.transform_rows import LONGEST_NAME
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel
 from tftool.recordings.columns import Batch, Table
 from tftool.recordings.container import Container
+from tftool.recordings.containers import ZSTD_MAGIC
 from tftool.recordings.contract import (
     Headers,
     Progress,
@@ -25,7 +26,6 @@ from tftool.recordings.contract import (
     Transforms,
 )
 from tftool.recordings.decompression import LARGEST, unpack_beginning
-from tftool.recordings.find import ZSTD_MAGIC
 from tftool.recordings.foreign_transforms import decoder_of, is_foreign
 from tftool.recordings.message_cutter import AnyCutter, Cutter, Decoding, cutter
 

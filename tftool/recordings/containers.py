@@ -1,185 +1,151 @@
-"""What a recording is written into, by the name it is to have."""
+"""One table of the containers that recordings come in: how each is known, read and written."""
 
-from collections import Counter
 from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Any, Final
 
 from tftool.base.errors import UsageError
-from tftool.base.stamps import Stamp
-from tftool.recordings.channel import Channel, ContainerWriter
-from tftool.recordings.compression import best_compression
-from tftool.recordings.mcap.write import McapWriter
-from tftool.recordings.message_conversion import as_ros1
-from tftool.recordings.rosbag1.write import Rosbag1Writer
-from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
-from tftool.recordings.rosbag2.write import SqliteWriter
 
-CONTAINERS: Final = {".mcap": "mcap", ".db3": "db3", ".bag": "bag"}
-"""The container that each suffix names."""
+if TYPE_CHECKING:
+    from tftool.recordings.channel import ContainerWriter
+    from tftool.recordings.container import Reader
 
-STORAGES: Final = {"mcap": ".mcap", "sqlite3": ".db3"}
-"""What a folder of rosbag2's may hold, and the suffix of its files."""
+MCAP_MAGIC: Final = b"\x89MCAP0\r\n"
+SQLITE_MAGIC: Final = b"SQLite format 3\x00"
+ROS1_MAGIC: Final = b"#ROSBAG V2.0\n"
+ZSTD_MAGIC: Final = b"\x28\xb5\x2f\xfd"
+
+PACKED_SUFFIX: Final = ".zstd"
+"""How the name of a file ends that rosbag2 compressed as a whole."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContainerFormat:
+    """One container.
+
+    Attributes:
+        name: Name in code: "mcap", "db3", "bag".
+        words: Name in words.
+        magic: First bytes of a file.
+        suffix: Ending of a file's name.
+        storage: rosbag2's name for it; "" where rosbag2 does not record it.
+        reader_at: Module and class of its reader: they are imported when a file is opened.
+        writer_at: Module and class of its writer.
+        options: Options of its writer beside a path.
+    """
+
+    name: str
+    words: str
+    magic: bytes
+    suffix: str
+    storage: str
+    reader_at: tuple[str, str]
+    writer_at: tuple[str, str]
+    options: tuple[str, ...]
+
+    def open(self, path: Path, *, by_index: bool = True) -> "Reader":
+        """Open a file of it.
+
+        Args:
+            path: Where it is.
+            by_index: Whether it is read by its index; otherwise from front to back.
+
+        Raises:
+            InputError: If it cannot be read.
+            OSError: If it cannot be opened.
+        """
+        found: Reader = _imported(self.reader_at)(path, by_index=by_index)
+        return found
+
+    def create(self, path: Path, **options: Any) -> "ContainerWriter":
+        """Begin a file of it, with those of some options that it has.
+
+        Raises:
+            UsageError: If it has no such compression, or that is not installed.
+            OSError: If it cannot be written.
+        """
+        known = {name: value for name, value in options.items() if name in self.options}
+        found: ContainerWriter = _imported(self.writer_at)(path, **known)
+        return found
+
+
+def _imported(place: tuple[str, str]) -> Callable[..., Any]:
+    module, name = place
+    found: Callable[..., Any] = getattr(import_module(f"tftool.recordings.{module}"), name)
+    return found
+
+
+CONTAINERS: Final = (
+    ContainerFormat(
+        "mcap",
+        "MCAP",
+        MCAP_MAGIC,
+        ".mcap",
+        "mcap",
+        ("mcap.read", "Mcap"),
+        ("mcap.write", "McapWriter"),
+        ("compression", "profile", "library"),
+    ),
+    ContainerFormat(
+        "db3",
+        "rosbag2 (sqlite3)",
+        SQLITE_MAGIC,
+        ".db3",
+        "sqlite3",
+        ("rosbag2.read", "Sqlite"),
+        ("rosbag2.write", "SqliteWriter"),
+        ("compression",),
+    ),
+    ContainerFormat(
+        "bag",
+        "ROS 1 bag",
+        ROS1_MAGIC,
+        ".bag",
+        "",
+        ("rosbag1.read", "Rosbag1"),
+        ("rosbag1.write", "Ros1Messages"),
+        ("compression",),
+    ),
+)
+"""Every container; those that a folder of rosbag2's may hold have a storage."""
+
+SUFFIXES: Final = (*(one.suffix for one in CONTAINERS), PACKED_SUFFIX)
+"""How the names of recorded files end."""
 
 
 def container_of(path: Path) -> str:
-    """The container that a name asks for; "" for a folder.
+    """Return the container that a name asks for; "" for a folder.
 
     Raises:
         UsageError: If it asks for one that is not written.
     """
     if not path.suffix:
         return ""
-    found = CONTAINERS.get(path.suffix)
-    if found is None:
-        raise UsageError(
-            f"'{path.name}' names no container to write: .mcap, .db3 and .bag do, and a name "
-            "without a suffix is a folder as rosbag2 records it."
-        )
-    return found
+    for one in CONTAINERS:
+        if one.suffix == path.suffix:
+            return one.name
+    *others, last = (one.suffix for one in CONTAINERS)
+    raise UsageError(
+        f"'{path.name}' names no container to write: {', '.join(others)} and {last} do, and a "
+        "name without a suffix is a folder as rosbag2 records it."
+    )
 
 
-class Ros1Messages:
-    """A ROS 1 bag that is given messages of ROS 2; see `ContainerWriter`."""
-
-    def __init__(self, bag: Rosbag1Writer) -> None:
-        """Take the bag."""
-        self._bag = bag
-        self._payloads: dict[int, Callable[[bytes], bytes]] = {}
-
-    @property
-    def size(self) -> int:
-        """Bytes written so far, those that wait included."""
-        return self._bag.size
-
-    def channel(self, channel: Channel) -> int:
-        """Make a stream known.
-
-        Raises:
-            InputError: If ROS 1 has nothing like its type.
-        """
-        conversion = as_ros1(channel)
-        number = self._bag.channel(conversion.channel)
-        self._payloads[number] = conversion.payload
-        return number
-
-    def write(
-        self,
-        channel: int,
-        log_time: Stamp,
-        payload: bytes,
-        publish_time: Stamp | None = None,
-        sequence: int = 0,
-    ) -> None:
-        """Append one message."""
-        self._bag.write(channel, log_time, self._payloads[channel](payload))
-
-    def finish(self) -> None:
-        """Close the file."""
-        self._bag.finish()
-
-    def abandon(self) -> None:
-        """Close the file as it is."""
-        self._bag.abandon()
+def container_named(name: str) -> ContainerFormat:
+    """Return the container of a name in code."""
+    return next(one for one in CONTAINERS if one.name == name)
 
 
-class FolderWriter:
-    """A folder of one file and its metadata, as rosbag2 records it; see `ContainerWriter`."""
-
-    def __init__(self, folder: Path, file: Path, storage: str, inner: ContainerWriter) -> None:
-        """Take the folder and what writes its file.
-
-        Args:
-            folder: The folder.
-            file: The file in it.
-            storage: "mcap" or "sqlite3".
-            inner: What writes the file.
-        """
-        self._folder = folder
-        self._file = file
-        self._storage = storage
-        self._inner = inner
-        self._channels: dict[int, Channel] = {}
-        self._counts: Counter[int] = Counter()
-        self._low: Stamp = 2**63 - 1
-        self._high: Stamp = 0
-
-    @property
-    def size(self) -> int:
-        """Bytes written so far, those that wait included."""
-        return self._inner.size
-
-    def channel(self, channel: Channel) -> int:
-        """Make a stream known."""
-        number = self._inner.channel(channel)
-        self._channels.setdefault(number, channel)
-        return number
-
-    def write(
-        self,
-        channel: int,
-        log_time: Stamp,
-        payload: bytes,
-        publish_time: Stamp | None = None,
-        sequence: int = 0,
-    ) -> None:
-        """Append one message."""
-        self._inner.write(channel, log_time, payload, publish_time, sequence)
-        self._counts[channel] += 1
-        self._low, self._high = min(self._low, log_time), max(self._high, log_time)
-
-    def finish(self) -> None:
-        """Close the file, and write the metadata."""
-        self._inner.finish()
-        count = sum(self._counts.values())
-        facts = FileFacts(self._file.name, self._low if count else 0, self._high, count)
-        topics = {channel: self._counts[number] for number, channel in self._channels.items()}
-        write_metadata(self._folder, metadata_text(self._storage, [facts], topics))
-
-    def abandon(self) -> None:
-        """Close the file as it is."""
-        self._inner.abandon()
-
-
-def open_container(
-    part: Path,
-    name: Path,
-    *,
-    storage: str = "mcap",
-    compression: str | None = None,
-    profile: str = "ros2",
-    library: str = "",
-) -> ContainerWriter:
-    """Begin what a name asks for; given messages of ROS 2.
-
-    Args:
-        part: Where it is written.
-        name: What it is to be called.
-        storage: What a folder holds: "mcap" or "sqlite3".
-        compression: Of the container; what is usual in it if None.
-        profile: Of an MCAP file.
-        library: Likewise.
+def container_stored(storage: str) -> ContainerFormat:
+    """Return the container that is a storage of rosbag2.
 
     Raises:
-        UsageError: If it has no such compression, or that is not installed.
-        OSError: If it cannot be written.
+        UsageError: If there is none.
     """
-    container = container_of(name)
-    if storage not in STORAGES:
-        raise UsageError(f"'{storage}' is no storage of rosbag2: {' and '.join(STORAGES)} are.")
-    file = part
-    if not container:
-        file = part / f"{name.name}_0{STORAGES[storage]}"
-        container = CONTAINERS[STORAGES[storage]]
-    inner: ContainerWriter
-    if container == "mcap":
-        inner = McapWriter(
-            file, profile=profile, library=library, compression=compression or best_compression()
-        )
-    elif container == "bag":
-        inner = Ros1Messages(Rosbag1Writer(file, compression=compression or "none"))
-    else:
-        if compression not in (None, "none"):
-            raise UsageError(f"rosbag2's sqlite files are not compressed with {compression}.")
-        inner = SqliteWriter(file)
-    return inner if file is part else FolderWriter(part, file, storage, inner)
+    for one in CONTAINERS:
+        if one.storage == storage and storage:
+            return one
+    known = " and ".join(one.storage for one in CONTAINERS if one.storage)
+    raise UsageError(f"'{storage}' is no storage of rosbag2: {known} are.")

@@ -16,18 +16,15 @@ from typing import Final
 
 from tftool.base.errors import InputError
 from tftool.base.named_files import open_regular
+from tftool.recordings.containers import CONTAINERS, ZSTD_MAGIC, ContainerFormat
 from tftool.recordings.poses.pose_options import options_of, path_behind_prefix
 from tftool.recordings.remote_files import is_url
 
-MCAP_MAGIC = b"\x89MCAP0\r\n"
-SQLITE_MAGIC = b"SQLite format 3\x00"
-ROS1_MAGIC = b"#ROSBAG V2.0\n"
-ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 METADATA = "metadata.yaml"
+"""What rosbag2 calls the description beside its files."""
 
 ACTIVE: Final = ".active"
 """What the name of a file ends in until its recorder has finished it, as in ROS 1."""
-"""What rosbag2 calls the description beside its files."""
 
 MOST_FILES = 10_000
 """Files of one folder or glob that are looked at."""
@@ -76,7 +73,20 @@ class Kind(Enum):
         return self not in (Kind.SCENARIO, Kind.DESCRIPTION, Kind.STATICS)
 
 
-_RECORDINGS = (Kind.MCAP, Kind.SQLITE, Kind.ROS1, Kind.ZSTD)
+_CONTAINERS: Final = {Kind(one.words): one for one in CONTAINERS}
+_RECORDINGS: Final = (*_CONTAINERS, Kind.ZSTD)
+
+
+def container_in(path: Path, kind: Kind) -> ContainerFormat:
+    """Return the container of a file of that kind.
+
+    Raises:
+        InputError: If it is none.
+    """
+    found = _CONTAINERS.get(kind)
+    if found is None:
+        raise InputError(f"'{path}' is a {kind.value}, not a recording.")
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,14 +238,11 @@ def kind_of_file(path: Path) -> Kind:
     if not head:
         nothing = "" if path.suffix in _WRITTEN else ": nothing was recorded"
         raise InputError(f"'{path}' is an empty file (0 bytes){nothing}.")
-    for magic, kind in (
-        (MCAP_MAGIC, Kind.MCAP),
-        (SQLITE_MAGIC, Kind.SQLITE),
-        (ROS1_MAGIC, Kind.ROS1),
-        (ZSTD_MAGIC, Kind.ZSTD),
-    ):
-        if head.startswith(magic):
-            return kind
+    for one in CONTAINERS:
+        if head.startswith(one.magic):
+            return Kind(one.words)
+    if head.startswith(ZSTD_MAGIC):
+        return Kind.ZSTD
     if head.startswith(_MCAP_MANGLED):
         raise InputError(
             f"'{path}' is an MCAP file whose line ends were converted (git without "
@@ -323,7 +330,8 @@ def _folder(word: str, path: Path) -> Found:
     if len(paths) == 1:
         return Found(word, kinds.pop(), paths, others)
     # The parts of one recording whose metadata is lost, else recordings of their own.
-    is_split = kinds in ({Kind.SQLITE}, {Kind.MCAP}) and len({_stem(one) for one in paths}) == 1
+    stored = [kind for kind, one in _CONTAINERS.items() if one.storage]
+    is_split = kinds in [{kind} for kind in stored] and len({_stem(one) for one in paths}) == 1
     if is_split:
         return Found(word, Kind.ROSBAG2, (path,), others)
     return Found(word, Kind.SEVERAL, paths, others)

@@ -12,8 +12,9 @@ from tftool.messages.classes import INTERFACES, Message
 from tftool.messages.codec import codec
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel, ContainerWriter
-from tftool.recordings.containers import container_of, open_container
+from tftool.recordings.containers import container_named, container_of, container_stored
 from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
+from tftool.recordings.rosbag2.folder_writer import FolderWriter
 from tftool.recordings.target import Target, failed
 
 
@@ -176,16 +177,18 @@ def write_recording(
         InputError: If it cannot be written there.
     """
     place = Path(path)
-    target = Target(place, folder=not container_of(place), force=force)
+    name = container_of(place)
+    target = Target(place, folder=not name, force=force)
     try:
-        container = open_container(
-            target.part,
-            place,
-            storage=storage,
-            compression=compression,
-            profile=profile,
-            library=library_name(),
+        form = container_stored(storage)
+        file = target.part / f"{place.name}_0{form.suffix}"
+        if name:
+            form, file = container_named(name), target.part
+        container = form.create(
+            file, compression=compression, profile=profile, library=library_name()
         )
+        if not name:
+            container = FolderWriter(target.part, file, storage, container)
     except OSError as error:
         target.discard()
         raise failed(place, error) from error

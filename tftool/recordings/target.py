@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Final
 
 from tftool.base.errors import InputError, UsageError
+from tftool.recordings.containers import SUFFIXES
 
 PART: Final = ".part"
 """What is added to a name while it is written."""
@@ -229,9 +230,6 @@ def _megabytes(size: int) -> str:
 def _is_recording_folder(path: Path) -> bool:
     """Whether nothing is in a folder but a recording."""
     return all(
-        one.is_file() and (one.name == "metadata.yaml" or one.suffix in _SUFFIXES)
+        one.is_file() and (one.name == "metadata.yaml" or one.suffix in SUFFIXES)
         for one in path.iterdir()
     )
-
-
-_SUFFIXES: Final = (".mcap", ".db3", ".bag", ".zstd")

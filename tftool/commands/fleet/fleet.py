@@ -27,10 +27,7 @@ from tftool.commands.fleet.fleet_tasks import NONE_FOUND, UNREADABLE, FleetTask
 from tftool.commands.fleet.rows import Row, RowFile
 from tftool.commands.fleet.workers import Processes, Workers
 from tftool.commands.shared.notices import notice
-
-RECORDED_SUFFIXES = (".mcap", ".bag", ".db3", ".zstd")
-"""Files of a glob that are meant as recordings, whatever is in them."""
-
+from tftool.recordings.containers import SUFFIXES
 
 # The work
 
@@ -189,7 +186,7 @@ def expanded(words: Sequence[str]) -> list[str]:
             found += [
                 match
                 for match in matches
-                if match.lower().endswith(RECORDED_SUFFIXES)
+                if match.lower().endswith(SUFFIXES)
                 or (Path(match) / METADATA).exists()
                 or (os.path.isfile(match) and _is_recording(match))
             ]

@@ -9,10 +9,8 @@ from typing import Any
 
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.container import Reader
-from tftool.recordings.find import Found, Kind, find, kind_of_file, refusal
-from tftool.recordings.mcap.read import Mcap
+from tftool.recordings.find import Found, Kind, container_in, find, kind_of_file, refusal
 from tftool.recordings.poses.pose_container import open_poses
-from tftool.recordings.rosbag1.read import Rosbag1
 from tftool.recordings.rosbag2.folder import files_of_folder, read_metadata, unpack_file
 from tftool.recordings.rosbag2.read import Sqlite
 
@@ -150,11 +148,7 @@ def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) ->
         InputError: If it is no recording, or cannot be read.
         OSError: If it cannot be opened.
     """
-    kind = kind or kind_of_file(path)
-    if kind is Kind.MCAP:
-        return Mcap(path, by_index=False)
-    if kind is Kind.ROS1:
-        return Rosbag1(path, by_index=False)
-    if kind is Kind.SQLITE:
-        return Sqlite(path, unpacks=unpacks)
-    raise InputError(f"'{path}' is a {kind.value}, not a recording.")
+    tape = container_in(path, kind or kind_of_file(path)).open(path, by_index=False)
+    if isinstance(tape, Sqlite):
+        tape.unpacks = unpacks
+    return tape

@@ -20,7 +20,7 @@ from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk, ChunkedReader
 from tftool.recordings.container import Block, Reader
-from tftool.recordings.containers import container_of
+from tftool.recordings.containers import PACKED_SUFFIX, container_named, container_of
 from tftool.recordings.contract import Progress
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.database import EditedDatabase, Unsound
@@ -323,7 +323,7 @@ class _Job:
         """Place of a file of the result."""
         if not self._is_folder:
             return part
-        suffix = {"mcap": ".mcap", "db3": ".db3", "bag": ".bag"}[self._container]
+        suffix = container_named(self._container).suffix
         return part / f"{self._path.name}_{number}{suffix}"
 
     def _write_block(self, source: int, tape: Reader, block: Block, part: Path) -> None:
@@ -473,9 +473,9 @@ class _Job:
                 name = _packed(output.path).name
             facts.append(FileFacts(name, start, output.end, count))
         self.report.files = [one.name for one in facts]
-        if self._container == "bag":
+        storage = container_named(self._container).storage
+        if not storage:
             return
-        storage = {"mcap": "mcap", "db3": "sqlite3"}[self._container]
         compression = ("zstd", self._mode.upper()) if self._mode else ("", "")
         old: Mapping[str, object] | None = None
         if len(self._inputs) == 1:
@@ -529,7 +529,7 @@ def _packed(path: Path) -> Path:
     """A file compressed as a whole, in its place."""
     from tftool.recordings.decompression import zstandard
 
-    packed = path.with_name(path.name + ".zstd")
+    packed = path.with_name(path.name + PACKED_SUFFIX)
     with path.open("rb") as source, packed.open("wb") as out:
         writer = zstandard().ZstdCompressor(level=1).stream_writer(out, closefd=False)
         with writer:

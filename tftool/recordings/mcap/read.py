@@ -18,9 +18,9 @@ from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk, ChunkedReader, Head, Walked, reason_of
 from tftool.recordings.columns import Batch, in_order
 from tftool.recordings.container import MOST_STREAMS, CopiedAttachment, Taken, check_told
+from tftool.recordings.containers import MCAP_MAGIC
 from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import Ahead
-from tftool.recordings.find import MCAP_MAGIC
 from tftool.recordings.mcap.format import (
     ATTACHMENT,
     CHANNEL,

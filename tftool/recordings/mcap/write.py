@@ -17,7 +17,7 @@ from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk
 from tftool.recordings.compression import compressor
 from tftool.recordings.container import CopiedAttachment
-from tftool.recordings.find import MCAP_MAGIC
+from tftool.recordings.containers import MCAP_MAGIC
 from tftool.recordings.mcap.format import (
     ATTACHMENT_INDEX,
     CHANNEL,
@@ -77,7 +77,7 @@ class McapWriter:
         *,
         profile: str = "ros2",
         library: str = "",
-        compression: str = "zstd",
+        compression: str | None = None,
         chunk_size: int = CHUNK_SIZE,
         with_crc: bool = True,
     ) -> None:
@@ -87,7 +87,7 @@ class McapWriter:
             path: Where it is.
             profile: What its channels follow: "ros2", "ros1", or "".
             library: What wrote it.
-            compression: "zstd", "lz4" or "none", of each chunk.
+            compression: "zstd", "lz4" or "none", of each chunk; "zstd" if None.
             chunk_size: Bytes of messages in a chunk before they are compressed; 0 for no chunks.
             with_crc: Whether chunks and the data as a whole carry CRCs.
 
@@ -95,6 +95,7 @@ class McapWriter:
             UsageError: If the compression is not known, or not installed.
             OSError: If the file cannot be written.
         """
+        compression = compression or "zstd"
         if compression not in COMPRESSIONS:
             raise UsageError(
                 f"'{compression}' is no compression of MCAP: {', '.join(COMPRESSIONS)} are."

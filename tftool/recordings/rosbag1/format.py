@@ -16,8 +16,8 @@ from tftool.messages.native_scan import SCAN
 from tftool.messages.transform_rows import Bytes
 from tftool.recordings.columns import words_at
 from tftool.recordings.container import File
+from tftool.recordings.containers import ROS1_MAGIC
 from tftool.recordings.contract import Stamps
-from tftool.recordings.find import ROS1_MAGIC
 
 Entries: TypeAlias = npt.NDArray[np.uint32]
 """Of each message seconds, nanoseconds, and where its record begins, shape (n, 3)."""

@@ -13,9 +13,9 @@ from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, Head, reason_of
 from tftool.recordings.columns import Batch, in_order
 from tftool.recordings.container import Taken, check_told
+from tftool.recordings.containers import ROS1_MAGIC
 from tftool.recordings.contract import Progress
 from tftool.recordings.decompression import Ahead, Packed
-from tftool.recordings.find import ROS1_MAGIC
 from tftool.recordings.rosbag1.format import (
     BAG,
     CHUNK,

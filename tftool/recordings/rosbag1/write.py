@@ -7,7 +7,7 @@ import io
 import os
 import struct
 from array import array
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
@@ -16,7 +16,8 @@ from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk
 from tftool.recordings.compression import compressor
-from tftool.recordings.find import ROS1_MAGIC
+from tftool.recordings.containers import ROS1_MAGIC
+from tftool.recordings.message_conversion import as_ros1
 from tftool.recordings.rosbag1.format import (
     BAG,
     CHUNK,
@@ -238,6 +239,37 @@ class Rosbag1Writer:
         while view:
             view = view[self._file.write(view) or 0 :]
         self.position += len(piece)
+
+
+class Ros1Messages(Rosbag1Writer):
+    """A ROS 1 bag that takes messages of ROS 2; see `ContainerWriter`."""
+
+    def __init__(self, path: Path, *, compression: str | None = None) -> None:
+        """Begin the file; see `Rosbag1Writer`."""
+        super().__init__(path, compression=compression or "none")
+        self._payloads: dict[int, Callable[[bytes], bytes]] = {}
+
+    def channel(self, channel: Channel, number: int | None = None) -> int:
+        """Make a stream known.
+
+        Raises:
+            InputError: If ROS 1 has nothing like its type.
+        """
+        conversion = as_ros1(channel)
+        number = super().channel(conversion.channel, number)
+        self._payloads[number] = conversion.payload
+        return number
+
+    def write(
+        self,
+        channel: int,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append one message."""
+        super().write(channel, log_time, self._payloads[channel](payload))
 
 
 def packed_fields(fields: Mapping[str, bytes]) -> bytes:

@@ -13,14 +13,21 @@ from typing import Any, Final
 from tftool.base.errors import InputError
 from tftool.base.named_files import open_regular
 from tftool.recordings.container import Container
+from tftool.recordings.containers import CONTAINERS
 from tftool.recordings.decompression import most_of, zstandard
-from tftool.recordings.find import BESIDE, METADATA, Found, Kind, kind_of_file, refusal
+from tftool.recordings.find import (
+    BESIDE,
+    METADATA,
+    Found,
+    Kind,
+    container_in,
+    kind_of_file,
+    refusal,
+)
 from tftool.recordings.joined import Joined
-from tftool.recordings.mcap.read import Mcap
 from tftool.recordings.poses.pose_container import open_poses
-from tftool.recordings.rosbag1.read import Rosbag1
-from tftool.recordings.rosbag2.read import Sqlite
 
+_PARTS: Final = (*(Kind(one.words) for one in CONTAINERS if one.storage), Kind.ZSTD)
 _LARGEST_METADATA: Final = 1 << 24
 _LARGEST_UNPACKED: Final = 1 << 34
 _STEP: Final = 1 << 20
@@ -48,15 +55,9 @@ def _open_file(path: Path) -> Container:
     if path.is_dir():
         return _open_folder(path)
     kind = kind_of_file(path)
-    if kind is Kind.MCAP:
-        return Mcap(path)
-    if kind is Kind.SQLITE:
-        return Sqlite(path)
-    if kind is Kind.ROS1:
-        return Rosbag1(path)
     if kind is Kind.ZSTD:
         return _Unpacked(path)
-    raise InputError(f"'{path}' is a {kind.value}, not a recording.")
+    return container_in(path, kind).open(path)
 
 
 def _open_folder(folder: Path) -> Container:
@@ -176,7 +177,7 @@ def _is_part(path: Path) -> bool:
     if path.name == METADATA or path.name.endswith(BESIDE):
         return False
     try:
-        return kind_of_file(path) in (Kind.MCAP, Kind.SQLITE, Kind.ZSTD)
+        return kind_of_file(path) in _PARTS
     except PermissionError:
         return True  # it may be one: that it is left out is told
     except InputError:

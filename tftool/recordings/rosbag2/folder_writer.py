@@ -1,12 +1,13 @@
 """A folder as rosbag2 records it: files of one kind, and what its metadata.yaml says of them."""
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from tftool.base.stamps import Stamp
-from tftool.recordings.channel import Channel
+from tftool.recordings.channel import Channel, ContainerWriter
 from tftool.recordings.find import METADATA
 from tftool.recordings.rosbag2.offered_qos import offers_text, restyled
 
@@ -133,3 +134,61 @@ def _offers(text: str, version: int) -> Any:
     # Readers want every policy, and not every recorder writes them all.
     (defaults,) = yaml.safe_load(offers_text(static=False))
     return [{**defaults, **one} for one in loaded if isinstance(one, dict)]
+
+
+class FolderWriter:
+    """A folder of one file and its metadata, as rosbag2 records it; see `ContainerWriter`."""
+
+    def __init__(self, folder: Path, file: Path, storage: str, inner: ContainerWriter) -> None:
+        """Take the folder and what writes its file.
+
+        Args:
+            folder: The folder.
+            file: The file in it.
+            storage: "mcap" or "sqlite3".
+            inner: What writes the file.
+        """
+        self._folder = folder
+        self._file = file
+        self._storage = storage
+        self._inner = inner
+        self._channels: dict[int, Channel] = {}
+        self._counts: Counter[int] = Counter()
+        self._low: Stamp = 2**63 - 1
+        self._high: Stamp = 0
+
+    @property
+    def size(self) -> int:
+        """Bytes written so far, those that wait included."""
+        return self._inner.size
+
+    def channel(self, channel: Channel) -> int:
+        """Make a stream known."""
+        number = self._inner.channel(channel)
+        self._channels.setdefault(number, channel)
+        return number
+
+    def write(
+        self,
+        channel: int,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append one message."""
+        self._inner.write(channel, log_time, payload, publish_time, sequence)
+        self._counts[channel] += 1
+        self._low, self._high = min(self._low, log_time), max(self._high, log_time)
+
+    def finish(self) -> None:
+        """Close the file, and write the metadata."""
+        self._inner.finish()
+        count = sum(self._counts.values())
+        facts = FileFacts(self._file.name, self._low if count else 0, self._high, count)
+        topics = {channel: self._counts[number] for number, channel in self._channels.items()}
+        write_metadata(self._folder, metadata_text(self._storage, [facts], topics))
+
+    def abandon(self) -> None:
+        """Close the file as it is."""
+        self._inner.abandon()

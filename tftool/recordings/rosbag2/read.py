@@ -17,10 +17,10 @@ from tftool.messages.native_scan import SCAN
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
 from tftool.recordings.container import MOST_STREAMS, Extras, Taken
+from tftool.recordings.containers import ZSTD_MAGIC
 from tftool.recordings.contract import Progress
 from tftool.recordings.decompression import LARGEST, unpack_beginning
-from tftool.recordings.find import ZSTD_MAGIC
-from tftool.recordings.rosbag2.sqlite_pages import read_pages
+from tftool.recordings.rosbag2.format import read_pages
 
 _ROWS: Final = 2048  # fetched at a time
 _ROOM: Final = bytes(8)
@@ -51,25 +51,26 @@ class Sqlite:
 
     Attributes:
         path: Where it is.
+        unpacks: Whether `blocks` unpacks messages that rosbag2 compressed each by itself.
         topic_ids: The number that its own rows have for each stream.
     """
 
     kind = "rosbag2 (sqlite3)"
     container = "db3"
 
-    def __init__(self, path: Path, *, unpacks: bool = False) -> None:
+    def __init__(self, path: Path, *, by_index: bool = True) -> None:
         """Open it and find out what is in it.
 
         Args:
             path: Where it is.
-            unpacks: Whether `blocks` unpacks messages that rosbag2 compressed each by itself.
+            by_index: Makes no difference: rows are read in their order in any case.
 
         Raises:
             InputError: If it is damaged, or no recording.
             OSError: If it cannot be opened.
         """
         self.path = path
-        self._unpacks = unpacks
+        self.unpacks = False
         self.size = path.stat().st_size
         self.damage: list[str] = []
         self._copy: tempfile.TemporaryDirectory[str] | None = None
@@ -208,7 +209,7 @@ class Sqlite:
                 # Kept while further ones are read, into the same memory. No other container has
                 # moments before 1970.
                 kept, moments = batch.buffer.copy(), np.maximum(batch.log_times, 0)
-                yield Rows(replace(batch, buffer=kept, log_times=moments), self._unpacks)
+                yield Rows(replace(batch, buffer=kept, log_times=moments), self.unpacks)
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None

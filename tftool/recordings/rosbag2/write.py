@@ -4,7 +4,7 @@ import sqlite3
 from pathlib import Path
 from typing import Final
 
-from tftool.base.errors import InputError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 
@@ -32,12 +32,19 @@ class SqliteWriter:
         counts: Messages by topic.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, compression: str | None = None) -> None:
         """Begin the file, replacing an existing file.
 
+        Args:
+            path: Where it is.
+            compression: "none": the container has no other.
+
         Raises:
+            UsageError: If another compression is asked for.
             OSError: If the file cannot be written.
         """
+        if compression not in (None, "none"):
+            raise UsageError(f"rosbag2's sqlite files are not compressed with {compression}.")
         path.unlink(missing_ok=True)
         self._path = path
         self._rows: list[tuple[int, int, bytes]] = []
