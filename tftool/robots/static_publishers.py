@@ -67,6 +67,24 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
         InputError: If it cannot be read, or publishes none.
     """
     name = name or str(path)
+    links, mistakes, computed = read_statics(path, name)
+    notes = sorted((*mistakes, *computed))
+    if not links:
+        why = f" {notes[0][1]}" if notes else f" No {PUBLISHER} is in it."
+        raise InputError(f"'{name}' publishes no static transform that can be read.{why}")
+    return StaticFrames(name, tuple(links), tuple(text for _, text in notes))
+
+
+Remark = tuple[int, str]
+"""The line of a publisher that was passed over, and a sentence about it."""
+
+
+def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Remark], list[Remark]]:
+    """Return the static transforms of a file, the mistakes in it, and what only running it tells.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
     try:
         if path.stat().st_size > LARGEST:
             raise InputError(f"'{name}' is larger than {LARGEST} bytes: it is no launch file.")
@@ -75,20 +93,21 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}.") from error
     start = text.lstrip()
     links: list[StaticArguments] = []
-    notes: list[str] = []
+    mistakes: list[Remark] = []
+    computed: list[Remark] = []
     for line, words in _publishers(start if start.startswith("<") else text, name):
         try:
             if words is None:
-                raise UsageError("its words are computed when it runs")
-            said = of_line(words)
-            if said is not None:
+                computed.append(_remark(name, line, "its words are computed when it runs"))
+            elif (said := of_line(words)) is not None:
                 links.append(said)
         except UsageError as error:
-            notes.append(f"{name}:{line}: a {PUBLISHER} was passed over: {error}")
-    if not links:
-        why = f" {notes[0]}" if notes else f" No {PUBLISHER} is in it."
-        raise InputError(f"'{name}' publishes no static transform that can be read.{why}")
-    return StaticFrames(name, tuple(links), tuple(notes))
+            mistakes.append(_remark(name, line, str(error)))
+    return links, mistakes, computed
+
+
+def _remark(name: str, line: int, why: str) -> Remark:
+    return line, f"{name}:{line}: a {PUBLISHER} was passed over: {why}"
 
 
 Publisher = tuple[int, str | None]

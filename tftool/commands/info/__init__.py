@@ -15,7 +15,9 @@ def info(
     places: Annotated[
         list[str],
         typer.Argument(
-            metavar="FROM...", help="A recording (file, folder, glob) or a robot description."
+            metavar="FROM...",
+            help="A recording (file, folder, glob), a robot description, or a launch file or "
+            "script of static transforms.",
         ),
     ],
     for_programs: Json = False,
@@ -31,6 +33,7 @@ def info(
     later than its stamp it was received; what is damaged, what is odd, and what the doctor
     finds. On a terminal columns that have no room are left out.
     Of a robot description: joints with limits and mimics, the root, masses where given.
+    Of several descriptions and launch files, how many transforms each gives, and every mistake.
     Of several recordings, a line each; with -o, a row each in a file. Where the terminal is
     narrow, columns are left out: 'tftool info run.mcap | cat' has them all.
 

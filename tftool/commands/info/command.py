@@ -4,11 +4,12 @@ import json
 import sys
 from pathlib import Path
 
+from tftool.base.counts import count
 from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.notices import notice
+from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.printer import line_width
 from tftool.drawing import recording_view
@@ -19,6 +20,7 @@ from tftool.recordings.find import Kind
 from tftool.recordings.recording import Recording
 from tftool.recordings.remote_files import fetched
 from tftool.robots.robot_model import load_urdf
+from tftool.robots.static_publishers import read_statics
 
 
 def run(
@@ -34,9 +36,11 @@ def run(
     """Run `tftool info`; the parameters are its options."""
     if output is None and (resume or scheduler):
         raise UsageError("--resume and --scheduler make rows: add -o FILE.")
-    if output is None and len(places) == 1:
+    if output is None and len(places) == 1 and not _is_launch_file(places[0]):
         with fetched(places[0]) as path:
             return _show(connection, path, places[0], for_programs=for_programs)
+    if output is None and all(_is_text(place) for place in places):
+        return _list_texts(connection, places, for_programs=for_programs)
     from tftool.commands.fleet import fleet, fleet_tasks
     from tftool.commands.fleet.workers import workers_of
 
@@ -50,6 +54,46 @@ def run(
         else:
             sys.stdout.write(recording_view.as_lines(rows, line_width()))
     return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
+
+
+def _is_launch_file(place: str) -> bool:
+    return Path(place).is_file() and named(place).kind is Kind.STATICS
+
+
+def _is_text(place: str) -> bool:
+    """Whether it is a robot description, or a launch file or script, and no recording."""
+    try:
+        return Path(place).is_file() and named(place).kind in (Kind.DESCRIPTION, Kind.STATICS)
+    except InputError:
+        return False
+
+
+def _list_texts(connection: Connection, places: list[str], *, for_programs: bool) -> ExitStatus:
+    """Print a line for each robot description or launch file, and every mistake in them."""
+    rows: list[dict[str, object]] = []
+    for place in places:
+        kind, path = named(place).kind, Path(place)
+        noun = "joint" if kind is Kind.DESCRIPTION else "static transform"
+        number = 0
+        mistakes: list[str] = []
+        try:
+            if kind is Kind.DESCRIPTION:
+                number = len(load_urdf(path, connection.robot.arguments).joints)
+            else:
+                statics, wrong, _ = read_statics(path, place)
+                number, mistakes = len(statics), [text for _, text in wrong]
+        except InputError as error:
+            mistakes = [str(error)]
+        rows.append(
+            {"source": place, "kind": kind.value, "transforms": number, "mistakes": mistakes}
+        )
+        if not for_programs:
+            sys.stdout.write(f"{visible(place)}: {kind.value}, {count(number, noun)}\n")
+        for mistake in mistakes:
+            complain("tftool info", mistake)
+    if for_programs:
+        sys.stdout.write(json.dumps(rows, indent=2) + "\n")
+    return ExitStatus.UNREADABLE if any(row["mistakes"] for row in rows) else ExitStatus.DONE
 
 
 def _show(connection: Connection, place: str, name: str, *, for_programs: bool) -> ExitStatus:
