@@ -30,6 +30,12 @@ if TYPE_CHECKING:
     from tftool.doctor.findings import Finding
     from tftool.doctor.judge import diagnose
     from tftool.drawing.figure import plot
+    from tftool.frames.calibration.calibrate import Calibration, calibrate
+    from tftool.frames.calibration.clock_offset import (
+        CalibrationRefused,
+        ClockOffset,
+        clock_offset,
+    )
     from tftool.frames.diff import diff
     from tftool.frames.differences import Differences
     from tftool.frames.export.export import Exported, export
@@ -53,7 +59,10 @@ __all__ = [
     "LATEST",
     "BackwardExtrapolationException",
     "Buffer",
+    "Calibration",
+    "CalibrationRefused",
     "Clock",
+    "ClockOffset",
     "ConnectivityException",
     "Differences",
     "Explanation",
@@ -89,6 +98,8 @@ __all__ = [
     "WallClock",
     "World",
     "as_seconds",
+    "calibrate",
+    "clock_offset",
     "diagnose",
     "diff",
     "explain",
@@ -132,6 +143,12 @@ _HOMES = {
     "tftool.world.node": ("Node",),
     "tftool.world.supervisor": ("live",),
     "tftool.world.world": ("World",),
+    "tftool.frames.calibration.calibrate": ("Calibration", "calibrate"),
+    "tftool.frames.calibration.clock_offset": (
+        "CalibrationRefused",
+        "ClockOffset",
+        "clock_offset",
+    ),
     "tftool.frames.diff": ("diff",),
     "tftool.frames.frames": ("Frames",),
     "tftool.frames.differences": ("Differences",),

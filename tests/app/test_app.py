@@ -94,6 +94,8 @@ def test_one_option_is_spelt_alike_in_all_commands():
     other |= {("edit", "--set"), ("edit", "--restamp")}
     # One world's recording, and those of many.
     other |= {("check", "--record")}
+    # A joint to change, and positions of joints.
+    other |= {("calibrate", "--joint")}
     spelt = {}
     commands = app.build()
     context = typer.Context(commands)

@@ -232,24 +232,3 @@ def test_a_recorded_description_with_elements_of_xacro_is_not_run(
     assert result.status == 3
     assert "has elements of xacro, which were not expanded" in result.err
     assert [one.name for one in tmp_path.iterdir()] == ["run.mcap"]
-
-
-def test_info_lists_descriptions_and_launch_files_with_their_mistakes(tftool, robot, tmp_path):
-    launch = tmp_path / "mounts.launch.xml"
-    node = '<node pkg="tf2_ros" exec="static_transform_publisher" args="0 0 {} 0 0 0 a {}"/>'
-    launch.write_text(f"<launch>{node.format('1', 'b')}{node.format('1,5', 'c')}</launch>")
-    empty = tmp_path / "none.launch.xml"
-    empty.write_text("<launch/>")
-
-    result = tftool("info", robot, empty, launch)
-
-    assert result.status == 3
-    assert result.out.splitlines() == [
-        f"{robot}: robot description, 2 joints",
-        f"{empty}: file of static transforms, 0 static transforms",
-        f"{launch}: file of static transforms, 1 static transform",
-    ]
-    assert "'1,5' is not a finite number" in result.err
-    assert tftool("info", robot, empty).status == 0
-    rows = json.loads(tftool("info", launch, "--json").out)
-    assert [(row["transforms"], len(row["mistakes"])) for row in rows] == [(1, 1)]

@@ -117,5 +117,5 @@ def test_a_launch_file_is_asked_like_any_frames(tmp_path):
 
     assert main(["echo", "base", "laser", str(path)]) == 0
     assert main(["doctor", str(path)]) == 2
-    assert main(["info", str(path)]) == 0
+    assert main(["info", str(path)]) == 2
     assert main(["tree", str(path), "--joint", "a=1"]) == 2

@@ -34,8 +34,9 @@ GROUPS = {
         "play": "Play a recording as a live session (ros2 bag play).",
         "record": "Record a session (ros2 bag record).",
         "export": "Write a pair over time, or links, to files of other tools.",
+        "calibrate": "Find a sensor's mount and clock offset from motion.",
         "diff": "Say what differs between two sets of frames, link by link.",
-        "edit": "Change the frames of a recording; repair, join, cut or convert it.",
+        "edit": "Change the frames of a recording; repair, join, cut, convert.",
     },
     "Run your own nodes": {
         "new": "Make a package of nodes to begin with (ros2 pkg create).",

@@ -6,7 +6,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Duration, Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import Buffer
@@ -119,6 +119,24 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
         buffer.lookup_transform(target, source, int(asked[0]))
     path = replace(path, rotations=continuous(path.rotations, path.valid))
     return Trajectory(path, _refusals(buffer, path), words)
+
+
+def only_chain(buffer: Buffer) -> tuple[str, str]:
+    """Return the two ends of the only chain of frames: the root and the one leaf.
+
+    Raises:
+        InputError: If there are several.
+    """
+    frames = buffer.frames()
+    parents = {frame: buffer.parent(frame) for frame in frames}
+    roots = [frame for frame in frames if parents[frame] is None]
+    leaves = sorted(set(frames) - set(parents.values()))
+    if len(roots) != 1 or len(leaves) != 1 or len(frames) < 2:
+        raise InputError(
+            f"There is not one chain of frames but {len(leaves)}, to {', '.join(leaves[:5])}"
+            f"{' …' if len(leaves) > 5 else ''}: --pair TARGET:SOURCE names one."
+        )
+    return roots[0], leaves[0]
 
 
 def trajectory_of(path: TransformArray) -> Trajectory:

@@ -10,7 +10,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Duration
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import Buffer
-from tftool.frames.pair_samples import Stamps, sample
+from tftool.frames.pair_samples import Stamps, only_chain, sample
 from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.conversions import quaternion_from_matrix
 
@@ -136,7 +136,7 @@ def trajectory_errors(
     """
     step = step or PieceLength()
     first, second = (
-        _only_chain(side) if pair is None else pair
+        only_chain(side) if pair is None else pair
         for side, pair in zip((reference, estimate), pairs, strict=True)
     )
     a = sample(reference, *first).answered()
@@ -165,24 +165,6 @@ def trajectory_errors(
     return TrajectoryErrors(
         (first, second), len(a), counts, scale, fit, match, step, tuple(columns)
     )
-
-
-def _only_chain(buffer: Buffer) -> Pair:
-    """Return the two ends of the only chain of frames: the root and the one leaf.
-
-    Raises:
-        InputError: If there are several.
-    """
-    frames = buffer.frames()
-    parents = {frame: buffer.parent(frame) for frame in frames}
-    roots = [frame for frame in frames if parents[frame] is None]
-    leaves = sorted(set(frames) - set(parents.values()))
-    if len(roots) != 1 or len(leaves) != 1 or len(frames) < 2:
-        raise InputError(
-            f"There is not one chain of frames but {len(leaves)}, to {', '.join(leaves[:5])}"
-            f"{' …' if len(leaves) > 5 else ''}: --pair TARGET:SOURCE names one."
-        )
-    return roots[0], leaves[0]
 
 
 def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, TransformArray]:

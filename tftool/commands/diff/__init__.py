@@ -72,6 +72,14 @@ def diff(
         option("Measure its relative pose error.", "--rpe", panel=TRAJECTORIES),
     ] = False,
     pairs: Pairs = None,
+    clock_offset: Annotated[
+        bool,
+        option(
+            "Measure the offset between the clocks of two motions of one body, t_A = t_B + offset.",
+            "--clock-offset",
+            panel=TRAJECTORIES,
+        ),
+    ] = False,
     fit: Annotated[
         Literal["none", "first", "se3", "sim3"],
         option(
@@ -118,4 +126,5 @@ def diff(
     tftool diff calibrated.launch.py session --mm 0.5
     tftool diff run1.mcap run2.mcap --align start --json
     tftool diff truth.tum estimate.tum --ape --rpe --fit se3
+    tftool diff vicon.csv camera.csv --clock-offset
     """

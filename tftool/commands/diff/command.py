@@ -19,9 +19,12 @@ from tftool.commands.shared.printer import line_width
 from tftool.drawing import difference_view as view
 from tftool.drawing import figure
 from tftool.drawing import trajectory_error_view as error_view
+from tftool.drawing.calibration_view import clock_object
+from tftool.frames.calibration.clock_offset import CalibrationRefused, clock_offset
 from tftool.frames.diff import side_of
 from tftool.frames.differences import Allowance, Side, compare
 from tftool.frames.export.trajectory_files import whole_file
+from tftool.frames.pair_samples import only_chain, sample
 from tftool.frames.trajectory_errors import Fit, Match, Pair, PieceLength, trajectory_errors
 from tftool.recordings.target import refuse_existing
 from tftool.world.link.heard_frames import NOTHING_RUNS
@@ -43,6 +46,7 @@ def run(
     ape: bool,
     rpe: bool,
     pairs: list[str] | None,
+    clock_offset: bool,
     fit: Fit,
     match: Match,
     per: str,
@@ -63,6 +67,13 @@ def run(
             "The session that runs is one: name what it is compared with.",
         ),
     )
+    if clock_offset:
+        refuse(
+            (ape or rpe, "--clock-offset goes without --ape and --rpe."),
+            (markdown or output is not None, "--clock-offset goes without --markdown and -o."),
+        )
+        sides = _side(connection, first, lasting), _side(connection, second, lasting)
+        return _measure_clocks(*sides, pairs or [], for_programs=for_programs)
     errors = ErrorOptions.of(ape, rpe, pairs, fit, match, per, output, force)
     if errors is not None:
         refuse(
@@ -89,6 +100,31 @@ def run(
     return ExitStatus.FAILED if found else ExitStatus.DONE
 
 
+def _measure_clocks(
+    first: Side, second: Side, words: list[str], *, for_programs: bool
+) -> ExitStatus:
+    pairs = pairs_of_sides(words)
+    paths = [
+        sample(side.buffer, *(only_chain(side.buffer) if pair is None else pair)).answered()
+        for side, pair in zip((first, second), pairs, strict=True)
+    ]
+    try:
+        found = clock_offset(*paths)
+    except CalibrationRefused as refusal:
+        if for_programs:
+            sys.stdout.write(json.dumps({"clock_offset": None, "why": str(refusal)}) + "\n")
+        notice(visible(f"{refusal} To record next: {refusal.next_motion}."))
+        return ExitStatus.FAILED
+    if for_programs:
+        sys.stdout.write(json.dumps({"clock_offset": clock_object(found)}) + "\n")
+    else:
+        sys.stdout.write(
+            f"t_A = t_B {found.seconds:+.6f} s ± {found.interval95 * 1e3:.1f} ms "
+            f"(correlation {found.correlation:.3f}, next peak {found.second:.3f})\n"
+        )
+    return ExitStatus.DONE
+
+
 def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
     """Open what a word names, as one side.
 
@@ -102,6 +138,18 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
     if frames is None:
         raise LinkError(NOTHING_RUNS)
     return side_of(frames, word)
+
+
+def pairs_of_sides(words: list[str]) -> tuple[Pair | None, Pair | None]:
+    """Return the pairs of A and of B that --pair names; None for the only chain.
+
+    Raises:
+        UsageError: If there are more than two, or a word is no pair.
+    """
+    pairs, _ = pairs_and_place([], words)
+    if len(pairs) > 2:
+        raise UsageError("--pair is given once for both files, or twice: for A, then for B.")
+    return (pairs[0], pairs[-1]) if pairs else (None, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,16 +198,14 @@ class ErrorOptions:
                     "--pair, --fit, --match, --per, -o and --force go with --ape or --rpe: add one."
                 )
             return None
-        pairs, _ = pairs_and_place([], words or [])
-        if len(pairs) > 2:
-            raise UsageError("--pair is given once for both files, or twice: for A, then for B.")
         if output is not None:
             if output.suffix.lower().removeprefix(".") not in figure.FORMATS:
                 raise UsageError(f"cannot draw to '{output}': end it in .svg, .pdf or .png.")
             refuse_existing(output, force=force)
         kinds = tuple(name for name, wanted in (("ape", ape), ("rpe", rpe)) if wanted)
-        asked = (pairs[0], pairs[-1]) if pairs else (None, None)
-        return cls(kinds, asked, fit, match, PieceLength.read(per), output, force)
+        return cls(
+            kinds, pairs_of_sides(words or []), fit, match, PieceLength.read(per), output, force
+        )
 
     def measure(self, first: Side, second: Side, *, for_programs: bool) -> None:
         """Measure the errors, print them, and draw them if that is asked for."""

@@ -146,7 +146,7 @@ def edit(
     ] = False,
     for_programs: Json = False,
 ) -> None:
-    """Change the frames of a recording; repair, join, cut or convert it.
+    """Change the frames of a recording; repair, join, cut, convert.
 
     What is not touched stays as it is, byte for byte. Without any change a damaged
     recording becomes a whole one with an index, several become one, and the suffix of FILE

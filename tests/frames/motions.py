@@ -1,0 +1,152 @@
+"""Made motions of one rigid body with a known mount, clock offset and noise."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tftool import Quaternion, Transform, TransformArray, Vector3
+from tftool.base.stamps import NANOSECONDS
+
+
+@dataclass(frozen=True)
+class World:
+    """Two motions, and the truth about them."""
+
+    a: TransformArray
+    b: TransformArray
+    mount: Transform
+    fixed_mount: Transform
+    offset: float
+
+
+def quaternions(vectors):
+    """Return the quaternions of rotation vectors, shape (n, 4)."""
+    angles = np.linalg.norm(vectors, axis=1, keepdims=True)
+    half = 0.5 * angles
+    return np.concatenate([vectors * np.sinc(half / np.pi) * 0.5, np.cos(half)], axis=1)
+
+
+def product(p, q):
+    """Return the quaternion products, row by row."""
+    v, w, x, y = p[:, :3], p[:, 3:], q[:, :3], q[:, 3:]
+    vector = w * x + y * v + np.cross(v, x)
+    return np.concatenate([vector, w * y - np.sum(v * x, axis=1, keepdims=True)], axis=1)
+
+
+def turned(q, vectors):
+    """Return vectors turned by quaternions, row by row."""
+    twice = 2.0 * np.cross(q[:, :3], vectors)
+    return vectors + q[:, 3:] * twice + np.cross(q[:, :3], twice)
+
+
+def path(stamps, frame, child, positions, rotations):
+    rows = np.ones(len(stamps), dtype=bool)
+    return TransformArray(frame, child, stamps, positions, rotations, rows)
+
+
+def world(
+    seed=0,
+    *,
+    kind="3d",
+    seconds=40.0,
+    rates=(100.0, 30.0),
+    noise=(0.003, 0.3),
+    offset=0.37,
+    outliers=0.0,
+    ppm=0.0,
+    scale=1.0,
+    upside=False,
+):
+    """Make a body move smoothly, and two chains that measure it.
+
+    Args:
+        seed: Of all random numbers.
+        kind: "3d", "axis" (turns about z alone), "planar" (x, y and yaw alone), "still" (no turns).
+        seconds: Length.
+        rates: Poses a second of A and B.
+        noise: Deviation of one pose, metres and degrees an axis.
+        offset: Clock of A less that of B, seconds.
+        outliers: Share of B's poses that are anywhere.
+        ppm: Drift of A's clock.
+        scale: Factor by which A's translations are too long.
+        upside: Whether B is given as the inverse.
+    """
+    dice = np.random.default_rng(seed)
+
+    def waves(times, size):
+        total = np.zeros((len(times), 3))
+        for axis in range(3):
+            for _ in range(6):
+                frequency, phase = dice.uniform(0.05, 0.4), dice.uniform(0.0, 6.28)
+                total[:, axis] += dice.normal() * np.sin(6.2832 * frequency * times + phase)
+        return size * total / np.sqrt(3.0)
+
+    grids = [np.arange(0.0, seconds, 1.0 / rate) for rate in rates]
+    everything = np.concatenate(grids)
+    positions, vectors = waves(everything, 0.5), waves(everything, 0.6)
+    if kind in ("axis", "planar"):
+        vectors[:, :2] = 0.0
+    if kind == "planar":
+        positions[:, 2] = 0.0
+    if kind == "still":
+        vectors[:] = 0.0
+    rotations = quaternions(vectors)
+    split = len(grids[0])
+    flat = kind == "planar"
+    shift, turn = dice.normal(size=3) * 0.2, dice.normal(size=(1, 3)) * 0.8
+    far, round_ = dice.normal(size=3) * 2.0, dice.normal(size=(1, 3))
+    if flat:
+        turn[:, :2] = round_[:, :2] = 0.0
+        far[2] = 0.0
+    mount_q, join_q = quaternions(turn), quaternions(round_)
+    back_q = join_q * [-1.0, -1.0, -1.0, 1.0]
+    rows = len(everything) - split
+
+    def all_rows(values):
+        return np.broadcast_to(values, (rows, np.shape(values)[-1]))
+
+    mounted = positions[split:] + turned(rotations[split:], all_rows(shift))
+    b_positions = turned(all_rows(back_q), mounted - far)
+    b_rotations = product(all_rows(back_q), product(rotations[split:], all_rows(mount_q)))
+    a_positions, a_rotations = scale * positions[:split], rotations[:split]
+
+    def noisy(places, turns):
+        pushes = dice.normal(size=places.shape) * noise[0]
+        twists = dice.normal(size=places.shape) * np.radians(noise[1])
+        if flat:
+            pushes[:, 2] = 0.0
+            twists[:, :2] = 0.0
+        return places + pushes, product(turns, quaternions(twists))
+
+    a_positions, a_rotations = noisy(a_positions, a_rotations)
+    b_positions, b_rotations = noisy(b_positions, b_rotations)
+    bad = dice.random(rows) < outliers
+    b_positions[bad] += dice.normal(size=(bad.sum(), 3)) * 0.5
+    b_rotations[bad] = product(
+        b_rotations[bad], quaternions(dice.normal(size=(bad.sum(), 3)) * 1.5)
+    )
+    names = ("world", "camera")
+    if upside:
+        b_rotations = b_rotations * [-1.0, -1.0, -1.0, 1.0]
+        b_positions = -turned(b_rotations, b_positions)
+        names = ("camera", "world")
+    base = 1_700_000_000
+    clock = grids[0] + offset + (grids[0] - seconds / 2) * ppm * 1e-6
+    stamps = [
+        base * NANOSECONDS + (one * NANOSECONDS).astype(np.int64) for one in (clock, grids[1])
+    ]
+    return World(
+        path(stamps[0], "odom", "base_link", a_positions, a_rotations),
+        path(stamps[1], *names, b_positions, b_rotations),
+        Transform(Vector3(*shift), Quaternion(*mount_q[0])),
+        Transform(Vector3(*far), Quaternion(*join_q[0])),
+        offset,
+    )
+
+
+def errors(found, truth):
+    """Return how far a mount is from the truth: metres by axis, degrees about B's axes."""
+    shift = np.subtract(found.translation, truth.translation)
+    back = np.array([truth.rotation]) * [-1.0, -1.0, -1.0, 1.0]
+    (off,) = product(back, np.array([found.rotation]))
+    return shift, np.degrees(2.0 * off[:3] * np.sign(off[3]))

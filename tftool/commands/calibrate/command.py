@@ -1,0 +1,299 @@
+"""Find a mount from recorded motion; print it, compare it, write it."""
+
+import json
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, NoReturn
+
+import numpy as np
+
+from tftool.base.errors import InputError, LookupException, TransformException, UsageError
+from tftool.base.escaping import visible
+from tftool.base.exit_status import ExitStatus
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.buffer.buffer import Buffer
+from tftool.commands.calibrate.calibration_report import page
+from tftool.commands.calibrate.mount_files import MOUNT_FILES, write_mount
+from tftool.commands.shared.contradictions import refuse
+from tftool.commands.shared.notices import notice
+from tftool.commands.shared.printer import line_width, write_file
+from tftool.commands.shared.reading_bar import Bar
+from tftool.drawing import calibration_view as view
+from tftool.frames.calibration.calibrate import ANGLES, AXES, Calibration, calibrate
+from tftool.frames.calibration.clock_offset import CalibrationRefused, clock_offset
+from tftool.frames.frames import Frames
+from tftool.frames.pair_samples import links_between, only_chain, sample
+from tftool.geometry import rigid_arrays as batch
+from tftool.geometry.rigid import Transform
+from tftool.opener import open_frames
+from tftool.recordings.odometry import implying
+from tftool.recordings.target import refuse_existing
+from tftool.robots.robot_model import Robot, load_urdf
+
+
+def run(
+    places: list[str],
+    *,
+    moving: list[str] | None,
+    planar: bool,
+    time_only: bool,
+    scale: bool,
+    check: bool,
+    urdf: Path | None,
+    mounted: str | None,
+    joint: str | None,
+    seed: int,
+    no_cache: bool,
+    output: Path | None,
+    report: Path | None,
+    force: bool,
+    for_programs: bool,
+) -> ExitStatus:
+    """Run `tftool calibrate`; the parameters are its options."""
+    refuse(
+        (len(places) > 2, "Two motions are compared: name one FROM with both, or one for each."),
+        (len(moving or []) > 2, "--moving is given twice at most, once for each motion."),
+        (
+            time_only and (planar or scale or check or output is not None or report is not None),
+            "--time-only measures the clock offset alone: leave out the options of the mount.",
+        ),
+        (joint is not None and output is None, "--joint goes with -o FILE."),
+    )
+    for path, wanted in ((output, MOUNT_FILES), (report, (".html",))):
+        if path is not None:
+            if not path.name.endswith(tuple(wanted)):
+                raise UsageError(f"cannot write '{path}': end it in {', '.join(wanted)}.")
+            refuse_existing(path, force=force)
+    if output is not None and output.suffix == ".urdf" and urdf is None:
+        raise UsageError("-o robot.urdf changes a description: name it with --urdf FILE.")
+    opened = [open_frames(place, no_cache=no_cache) for place in places]
+    try:
+        chains = _chains(opened, moving or [])
+        paths = [_path(*chain) for chain in chains]
+        if time_only:
+            return _print_clocks(paths, for_programs=for_programs)
+        if output is not None and paths[0].child_frame_id == paths[1].child_frame_id:
+            raise UsageError(
+                f"Both motions are of '{paths[0].child_frame_id}': name the frames, with "
+                "--frames PARENT:CHILD behind each pose file."
+            )
+        robot = None if urdf is None else load_urdf(urdf)
+        published = _Published.of(robot, opened[0], paths, mounted)
+        bar = Bar("Calibrating")
+        try:
+            found = calibrate(
+                *paths,
+                planar=planar,
+                scale=scale,
+                published=published.mount,
+                seed=seed,
+                progress=bar,
+            )
+        finally:
+            bar.stop()
+    finally:
+        for frames in opened:
+            frames.close()
+    outside, compared = _compared(found, published) if check else ((), None)
+    if for_programs:
+        written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
+        sys.stdout.write(written + "\n")
+    else:
+        sys.stdout.write(view.lines(found, line_width()))
+        for sentence in outside:
+            sys.stdout.write(f"{sentence}\n")
+        if check and found and not outside:
+            sys.stdout.write("The published mount is inside of the interval.\n")
+    if report is not None:
+        write_file(report, page(found, *paths))
+        notice(visible(f"Wrote {report}."))
+    if not found:
+        return ExitStatus.FAILED
+    if output is not None:
+        for sentence in write_mount(output, found, published, joint, urdf):
+            notice(visible(sentence))
+    return ExitStatus.FAILED if outside else ExitStatus.DONE
+
+
+# Motions
+
+Chain = tuple[Frames, str]
+"""Frames, and the word that names a motion in them; empty for the only chain."""
+
+
+def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
+    """Assign the words of --moving to what was opened.
+
+    Raises:
+        UsageError: If there are too few, or the chains share the mount.
+    """
+    if len(opened) == 1:
+        if len(words) != 2:
+            raise UsageError(
+                f"'{visible(opened[0].name)}' alone needs two motions: --moving FIXED:MOVING twice."
+            )
+        _refuse_shared_mount(opened[0].buffer, words)
+        return [(opened[0], words[0]), (opened[0], words[1])]
+    return list(zip(opened, [*words, "", ""][:2], strict=True))
+
+
+def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
+    """Refuse two chains of one tree of which one contains the mount that is asked for.
+
+    Raises:
+        UsageError: If they do.
+    """
+    pairs = [_pair(word) for word in words if not word.startswith("/")]
+    if len(pairs) < 2:
+        return
+    try:
+        links = [links_between(buffer, *pair) for pair in pairs]
+    except TransformException:
+        return
+    moving = [{one for one in side if not buffer.samples(one).is_static} for side in links]
+    shared = sorted(moving[0] & moving[1])
+    for word, path, (_, other) in zip(words, links, (pairs[1], pairs[0]), strict=True):
+        below = next((one for one in path if buffer.parent(one) == other), None)
+        if below is not None:
+            _refuse_chain(word, other, below)
+    if shared:
+        _refuse_chain(words[1], buffer.parent(shared[0]) or "", shared[0])
+
+
+def _refuse_chain(word: str, parent: str, child: str) -> NoReturn:
+    raise UsageError(
+        f"--moving {word} passes through {parent} → {child}: that would return the published "
+        "mount. Give motions that were measured apart, such as a topic of Odometry "
+        "(--moving /vo/odometry)."
+    )
+
+
+def _pair(word: str) -> tuple[str, str]:
+    fixed, colon, moving = word.partition(":")
+    if not (colon and fixed and moving):
+        raise UsageError(f"--moving {word}: write FIXED:MOVING, as in odom:base_link, or a /topic.")
+    return fixed, moving
+
+
+def _path(frames: Frames, word: str) -> TransformArray:
+    if not word:
+        return sample(frames.buffer, *only_chain(frames.buffer)).answered()
+    if not word.startswith("/"):
+        return sample(frames.buffer, *_pair(word)).answered()
+    recording = frames.recording
+    topics = [] if recording is None else [one.name for one in implying(recording.topics)]
+    if recording is None or word not in topics:
+        there = f"there is {', '.join(topics[:5])}" if topics else "there is none"
+        label = visible(frames.label)
+        raise InputError(f"No topic '{word}' of Odometry or PoseStamped in {label}; {there}.")
+    edges = recording.source.transforms([word]).edges
+    if not edges:
+        raise InputError(f"'{word}' in {frames.label} has no messages.")
+    edge = max(edges, key=len)
+    order = np.argsort(edge.stamps, kind="stable")
+    poses = edge.translations[order], batch.unit(edge.rotations[order])
+    valid = np.asarray(np.isfinite(np.concatenate(poses, axis=1)).all(axis=1))
+    return TransformArray(edge.parent, edge.child, edge.stamps[order], *poses, valid)
+
+
+def _print_clocks(paths: list[TransformArray], *, for_programs: bool) -> ExitStatus:
+    try:
+        found = clock_offset(*paths)
+    except CalibrationRefused as refusal:
+        if for_programs:
+            sys.stdout.write(json.dumps({"verdict": "refused", "why": str(refusal)}) + "\n")
+        else:
+            sys.stdout.write(f"refused: {refusal}\nTo record next: {refusal.next_motion}.\n")
+        return ExitStatus.FAILED
+    if for_programs:
+        sys.stdout.write(json.dumps({"clock_offset": view.clock_object(found)}) + "\n")
+    else:
+        sys.stdout.write(
+            f"Clock offset: t_A = t_B {found.seconds:+.6f} s ± {found.interval95 * 1e3:.2f} ms "
+            f"(correlation {found.correlation:.3f})\n"
+        )
+    return ExitStatus.DONE
+
+
+# The published mount
+
+
+@dataclass(frozen=True, slots=True)
+class _Published:
+    """Mount as tf or a description has it.
+
+    Attributes:
+        mount: The mounted frame in moving_a; None where none is published.
+        name: The mounted frame's name there.
+        parent: moving_a.
+        robot: The description; None without one.
+        buffer: Frames to look up what is between.
+    """
+
+    mount: Transform | None
+    name: str
+    parent: str
+    robot: Robot | None
+    buffer: Buffer
+
+    @classmethod
+    def of(
+        cls, robot: Robot | None, frames: Frames, paths: list[TransformArray], mounted: str | None
+    ) -> "_Published":
+        parent, name = paths[0].child_frame_id, mounted or paths[1].child_frame_id
+        buffer = frames.buffer if robot is None else robot.buffer()
+        try:
+            mount = buffer.lookup_transform(parent, name).transform
+        except TransformException:
+            if mounted is not None:
+                known = buffer.frame_exists(mounted)
+                reason = "is not joined with" if known else "is in no frame of"
+                raise LookupException(f"'{mounted}' {reason} '{parent}'.", frame=mounted) from None
+            mount = None
+        return cls(mount, name, parent, robot, buffer)
+
+
+LEAST_DIFFERENCE: Final = (0.0005, 0.02)
+"""Metres and degrees by which a mount may differ however small its interval is."""
+
+
+def _compared(
+    found: Calibration, published: _Published
+) -> tuple[list[str], dict[str, object] | None]:
+    """Hold the published mount against the motion.
+
+    Raises:
+        UsageError: If none is published.
+    """
+    if published.mount is None:
+        raise UsageError(
+            f"No mount of '{published.name}' on '{published.parent}' is published: name a "
+            "description with --urdf FILE, or the frame with --mounted NAME."
+        )
+    if found.mount is None or found.interval95 is None:
+        return [], None
+    back = found.mount.inverse()
+    shift = np.subtract(found.mount.translation, published.mount.translation)
+    both = np.array([back.rotation]), np.array([published.mount.rotation])
+    turn = -np.degrees(batch.rotation_vectors(batch.multiply(*both))[0])
+    outside, told = [], []
+    for names, values, widths, unit, factor, least in (
+        (AXES, shift, found.interval95.translation, " mm", 1e3, LEAST_DIFFERENCE[0]),
+        (ANGLES, turn, found.interval95.rotation_deg, "°", 1.0, LEAST_DIFFERENCE[1]),
+    ):
+        for name, value, width in zip(names, values.tolist(), widths, strict=True):
+            if width is not None and abs(value) > max(width, least):
+                outside.append(name)
+                told.append(
+                    f"{published.name}: {name} differs by {value * factor:.1f}{unit} "
+                    f"± {width * factor:.1f}{unit}"
+                )
+    seen = [one for one, width in zip(shift, found.interval95.translation, strict=True) if width]
+    return told, {
+        "joint": published.name,
+        "published": view.pose_object(published.mount),
+        "differs": {"mm": math.hypot(*seen) * 1e3, "deg": float(np.linalg.norm(turn))},
+        "outside": outside,
+    }

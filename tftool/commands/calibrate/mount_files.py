@@ -1,0 +1,184 @@
+"""A mount into a file: one origin of a description, or a publisher of a static transform."""
+
+from pathlib import Path
+from typing import Final, Protocol
+from xml.parsers import expat
+
+from tftool.base.errors import InputError, UsageError
+from tftool.buffer.buffer import NO_LIMIT, Buffer
+from tftool.buffer.sample import TransformStamped
+from tftool.commands.shared.printer import write_file
+from tftool.frames.calibration.calibrate import Calibration
+from tftool.frames.export.export import export
+from tftool.geometry.notation.text import publisher_words, urdf_origin
+from tftool.robots.description import RobotJoint
+from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import is_xacro
+
+MOUNT_FILES: Final = (".urdf", ".launch.py", ".launch.yaml", ".launch.xml", ".sh")
+"""Ends of the names of files that a mount is written to."""
+
+
+class PublishedMount(Protocol):
+    """Mount as tf or a description has it."""
+
+    @property
+    def name(self) -> str:
+        """The mounted frame."""
+
+    @property
+    def parent(self) -> str:
+        """Frame it is mounted on."""
+
+    @property
+    def robot(self) -> Robot | None:
+        """The description; None without one."""
+
+    @property
+    def buffer(self) -> Buffer:
+        """Frames of the description or of tf."""
+
+
+def write_mount(
+    output: Path,
+    found: Calibration,
+    published: PublishedMount,
+    joint: str | None,
+    urdf: Path | None,
+) -> list[str]:
+    """Write a mount, and return sentences about it.
+
+    The joint that changes is the named one, else the first fixed one on the way from moving_a;
+    known transforms on both sides of it are taken out.
+
+    Raises:
+        UsageError: If the joint cannot be found, or the description is made by xacro.
+    """
+    assert found.mount is not None
+    chosen = _joint(published, joint)
+    parent, child = found.moving if chosen is None else (chosen.parent, chosen.child)
+    pose = found.mount
+    if chosen is not None:
+        pose = (
+            published.buffer.lookup_transform(parent, published.parent).transform
+            @ pose
+            @ published.buffer.lookup_transform(published.name, child).transform
+        )
+    if output.suffix != ".urdf":
+        buffer = Buffer(NO_LIMIT)
+        buffer.set_transform_static(TransformStamped(0, parent, child, pose), "calibrate")
+        _publish(output, buffer)
+        words = " ".join(publisher_words(pose))
+        return [f"Wrote {output}: {words} --frame-id {parent} --child-frame-id {child}"]
+    assert urdf is not None
+    if chosen is None:
+        raise UsageError(
+            f"The description has no '{published.name}' below '{published.parent}': name the "
+            "frame with --mounted NAME, or the joint with --joint NAME."
+        )
+    text = urdf.read_bytes()
+    origin = urdf_origin(pose)
+    if is_xacro(text.decode("utf-8", "replace")):
+        line = _line_of(text, chosen.name)
+        raise UsageError(
+            f"'{urdf}' is made by xacro: change the origin of joint '{chosen.name}' "
+            f"({urdf}{line}) to {origin}"
+        )
+    write_file(output, with_origin(text, chosen.name, origin))
+    return [f"Wrote {output}: joint '{chosen.name}' has {origin}"]
+
+
+def _publish(output: Path, buffer: Buffer) -> None:
+    export(buffer, path=output, force=True)
+
+
+def _joint(published: PublishedMount, name: str | None) -> RobotJoint | None:
+    """Return the joint to change; None where no description has one.
+
+    Raises:
+        UsageError: If there is none of that name, or it is not on the way.
+    """
+    robot = published.robot
+    if robot is None:
+        if name is not None:
+            raise UsageError("--joint goes with a description: name it with --urdf FILE.")
+        return None
+    way: list[RobotJoint] = []
+    link = published.name
+    while link != published.parent and link != robot.root and link in robot.links:
+        way.append(robot.joint_above(link))
+        link = way[-1].parent
+    if name is not None:
+        found = robot.joints.get(name)
+        if found is None or (way and found not in way):
+            on_it = ", ".join(one.name for one in way) or "none"
+            raise UsageError(
+                f"No joint '{name}' between '{published.parent}' and '{published.name}': there is "
+                f"{on_it}."
+            )
+        return found
+    if link != published.parent:
+        return None
+    return next((one for one in reversed(way) if not one.moves), None)
+
+
+def with_origin(text: bytes, joint: str, origin: str) -> bytes:
+    """Return a description with another origin of one joint, and every other byte as it was.
+
+    Raises:
+        InputError: If the text is no XML, or has no such joint.
+    """
+    parser = expat.ParserCreate()
+    depth = 0
+    inside = -1
+    span: list[int] = []
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        nonlocal depth, inside
+        depth += 1
+        here = parser.CurrentByteIndex
+        if tag == "joint" and attributes.get("name") == joint and inside < 0 and not span:
+            inside = depth
+            span[:] = [end_of_tag(here)] * 2
+        elif tag == "origin" and depth == inside + 1:
+            span[:] = [here, end_of_tag(here)]
+
+    def end(tag: str) -> None:
+        nonlocal depth, inside
+        if depth == inside:
+            inside = -2
+        depth -= 1
+
+    def end_of_tag(begin: int) -> int:
+        quote = 0
+        for place in range(begin, len(text)):
+            sign = text[place]
+            if quote:
+                quote = 0 if sign == quote else quote
+            elif sign in b"\"'":
+                quote = sign
+            elif sign == ord(">"):
+                return place + 1
+        return len(text)
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    try:
+        parser.Parse(text, True)
+    except expat.ExpatError as error:
+        raise InputError(f"The description is no XML: {error}.") from error
+    if not span:
+        raise InputError(f"The description has no joint '{joint}'.")
+    low, high = span
+    old = text[low:high]
+    if low == high:
+        return text[:low] + b"\n    " + origin.encode() + text[high:]
+    # An element that is closed apart keeps its end tag.
+    new = origin if old.endswith(b"/>") else origin.removesuffix("/>").rstrip() + ">"
+    return text[:low] + new.encode() + text[high:]
+
+
+def _line_of(text: bytes, joint: str) -> str:
+    for number, line in enumerate(text.split(b"\n"), 1):
+        if b"<joint" in line and joint.encode() in line:
+            return f":{number}"
+    return ""

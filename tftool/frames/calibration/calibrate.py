@@ -1,0 +1,470 @@
+"""Calibration of a mount from two recorded motions of one rigid body, or a refusal in words."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Final, Literal
+
+import numpy as np
+
+from tftool.base.stamps import NANOSECONDS
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.frames.calibration.clock_offset import (
+    LEAST_OVERLAP,
+    CalibrationRefused,
+    ClockOffset,
+    offset_of,
+    path_of,
+)
+from tftool.frames.calibration.motion import BodyMotion, Floats
+from tftool.frames.calibration.motion_pairs import (
+    MotionPairs,
+    about_one_axis,
+    kabsch,
+    lever,
+    pairs_of,
+    shortest_turn,
+)
+from tftool.frames.calibration.mount_fit import (
+    DRIFT,
+    SCALE,
+    SHIFT,
+    Fit,
+    Problem,
+    refine,
+    spread,
+)
+from tftool.frames.frames import Frames
+from tftool.geometry import rigid_arrays as batch
+from tftool.geometry.rigid import Quaternion, Transform, Vector3
+
+LEAST_TURN: Final = math.radians(5.0)
+"""Turns within ten seconds below which the motion shows nothing of a translation."""
+
+SECOND_AXIS: Final = math.radians(3.0)
+"""Root mean square of the turns about the second axis from which a motion has two axes."""
+
+LONG: Final = 120.0
+"""Seconds from which the drift between the clocks is estimated."""
+
+_MOST_POSES: Final = 4000
+_SEGMENTS: Final = (2.0, 5.0, 15.0)
+"""Lengths of segments that are tried beside all of the time, seconds."""
+
+TWO_AXES: Final = "turn about a second axis by at least 30°, back and forth, while recording"
+FIGURE: Final = "drive a figure of eight"
+AXES: Final = ("x", "y", "z")
+ANGLES: Final = ("roll", "pitch", "yaw")
+
+Trio = tuple[float | None, float | None, float | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """Half-widths of a pose's 95 % interval; None along what the motion does not show.
+
+    Attributes:
+        translation: Metres: of the mount along moving_a's axes, of the fixed one along fixed_a's.
+        rotation_deg: Degrees: about moving_b's axes, of the fixed one about fixed_b's.
+    """
+
+    translation: Trio
+    rotation_deg: Trio
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Calibration:
+    """Mount of one moving frame on another, from the motions of both.
+
+    Attributes:
+        verdict: "solved", "partial" (`unseen` names the rest), or "refused".
+        why: The verdict's reason, a sentence.
+        moving: The moving frames: of A, of B.
+        fixed: The fixed frames.
+        mount: moving_b in moving_a; None if refused.
+        fixed_mount: fixed_b in fixed_a.
+        interval95: Interval of the mount.
+        fixed_interval95: Interval of the fixed mount.
+        clock_offset: t_a = t_b + seconds, at the middle of the common time.
+        offset_interval95: Its half-width, seconds.
+        drift_ppm: Its drift, microseconds in a second; None where the recording is short.
+        clock: The correlation it was found by.
+        halves_differ: Distance between the mounts of both halves: metres, degrees.
+        unseen: Parts of the mount that the motion does not show: x y z roll pitch yaw.
+        unseen_direction: Unit vector along moving_a's axes, where a tilted direction is unseen.
+        inverted: Which of the motions was turned round.
+        next_motion: The motion to record next; None if none is needed.
+        scale: Factor of A's translations and its half-width; None if it was not asked for.
+        notes: How the inputs were read, as sentences.
+    """
+
+    verdict: Literal["solved", "partial", "refused"]
+    why: str
+    moving: tuple[str, str]
+    fixed: tuple[str, str]
+    mount: Transform | None = None
+    fixed_mount: Transform | None = None
+    interval95: Interval | None = None
+    fixed_interval95: Interval | None = None
+    clock_offset: float | None = None
+    offset_interval95: float | None = None
+    drift_ppm: float | None = None
+    clock: ClockOffset | None = None
+    halves_differ: tuple[float, float] | None = None
+    unseen: tuple[str, ...] = ()
+    unseen_direction: tuple[float, float, float] | None = None
+    inverted: tuple[bool, bool] = (False, False)
+    next_motion: str | None = None
+    scale: tuple[float, float] | None = None
+    notes: tuple[str, ...] = ()
+
+    def __bool__(self) -> bool:
+        return self.verdict != "refused"
+
+
+def calibrate(
+    a: TransformArray | Frames,
+    b: TransformArray | Frames,
+    *,
+    planar: bool = False,
+    scale: bool = False,
+    published: Transform | None = None,
+    inverted: tuple[bool, bool | None] = (False, None),
+    seed: int = 0,
+    progress: Callable[[int, int], object] | None = None,
+) -> Calibration:
+    """Find where one moving frame is mounted on another, from the motions of both.
+
+        found = tftool.calibrate(tftool.open("vicon.csv"), tftool.open("camera.csv"))
+        found.mount, found.interval95.translation
+
+    The equation is A(t + d) · X = Y · B(t): X is the mount, Y joins the two fixed frames, d is
+    the clock offset; all three are found. See docs/do/calibrate.md for the motion to record.
+
+    Args:
+        a: Poses of moving_a in fixed_a over time, odom ← base_link; or frames that are one chain.
+        b: Poses of moving_b in fixed_b, on any clock, world ← camera; likewise.
+        planar: Whether only x, y and yaw of the mount are asked for.
+        scale: Whether the translations of A may be scaled, as those of wheel odometry.
+        published: The mount so far: parts that the motion does not show are kept from it.
+        inverted: Which motions to turn round; None to decide for B by the motion.
+        seed: Of the random numbers behind the intervals.
+        progress: Called with how many steps of how many are done.
+
+    Returns:
+        The mount, or a refusal: false then.
+
+    Raises:
+        InputError: If a motion has too few poses.
+    """
+    a, b = path_of(a), path_of(b)
+    first, second = BodyMotion.of(a), BodyMotion.of(b)
+    names = (a.child_frame_id, b.child_frame_id), (a.frame_id, b.frame_id)
+    if inverted[0]:
+        first, names = first.inverted(), ((names[1][0], names[0][1]), (names[0][0], names[1][1]))
+    if inverted[1]:
+        second, names = _swapped(second, names)
+    solver = _Solver(planar, scale, published, seed, progress or (lambda done, total: None))
+    try:
+        return solver.solve(first, second, names, inverted)
+    except CalibrationRefused as refusal:
+        return Calibration("refused", str(refusal), *names, next_motion=refusal.next_motion or None)
+
+
+Names = tuple[tuple[str, str], tuple[str, str]]
+
+
+def _swapped(second: BodyMotion, names: Names) -> tuple[BodyMotion, Names]:
+    (moving_a, moving_b), (fixed_a, fixed_b) = names
+    return second.inverted(), ((moving_a, fixed_b), (fixed_a, moving_b))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Shown:
+    """Directions of the mount that the motion shows.
+
+    Attributes:
+        free: Directions among the nine parameters of a fit.
+        axis: The only axis of rotation in moving_a; None if there are several.
+        unseen: Names of what is not shown.
+    """
+
+    free: tuple[Floats, ...]
+    axis: Floats | None
+    unseen: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Solver:
+    planar: bool
+    scaled: bool
+    published: Transform | None
+    seed: int
+    progress: Callable[[int, int], object]
+
+    def solve(
+        self, a: BodyMotion, b: BodyMotion, names: Names, inverted: tuple[bool, bool | None]
+    ) -> Calibration:
+        clock = offset_of(a, b)
+        self.progress(1, 8)
+        turned = bool(inverted[1])
+        problem = _problem(a, b, clock)
+        start, pairs, shown, error = self._start(problem)
+        notes: list[str] = []
+        if inverted[1] is None:
+            other = _problem(a, b.inverted(), clock)
+            start_2, pairs_2, shown_2, error_2 = self._start(other)
+            if error_2 < 0.5 * error:
+                problem, start, pairs, shown = other, start_2, pairs_2, shown_2
+                _, names = _swapped(b, names)
+                turned = True
+                notes.append(
+                    f"The second motion was inverted: only {names[0][1]} in {names[1][1]} fits "
+                    "the first."
+                )
+        self.progress(2, 8)
+        fit, length = self._best(problem, start, shown)
+        shown = self._judged(pairs, fit, shown)
+        free = self._with_clock(shown, problem)
+        fit = refine(problem, fit, free, _segments(problem, length))
+        self.progress(6, 8)
+        halves = self._halves(problem, fit, free, length)
+        self.progress(7, 8)
+        return self._answer(
+            problem, fit, free, shown, clock, names, halves, notes, (inverted[0], turned)
+        )
+
+    def _start(self, problem: Problem) -> tuple[Fit, MotionPairs, _Shown, float]:
+        """Solve roughly from pairs of moments; the error judges whether the motions fit."""
+        pairs = pairs_of(problem, 0.0)
+        if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
+            raise CalibrationRefused(
+                f"{problem.a.name} turns by {math.degrees(pairs.largest):.1f}° at most within ten "
+                "seconds: without turning, nothing of the translation can be seen.",
+                f"turn by at least 30° about two axes; a vehicle: {FIGURE}",
+            )
+        turn, weights = kabsch(pairs)
+        scatter = (pairs.turns_a * weights[:, None]).T @ pairs.turns_a / weights.sum()
+        values, vectors = np.linalg.eigh(scatter)
+        second = math.sqrt(max(values[1], 0.0))
+        axis = vectors[:, -1] * np.sign(vectors[np.abs(vectors[:, -1]).argmax(), -1])
+        is_planar = self.planar or problem.a.is_planar()
+        if second < SECOND_AXIS or is_planar:
+            if is_planar:
+                axis = np.array([0.0, 0.0, 1.0])
+            other = np.linalg.eigh(pairs.turns_b.T @ pairs.turns_b)[1][:, -1]
+            other *= np.sign(np.sum((pairs.turns_a @ axis) * (pairs.turns_b @ other))) or 1.0
+            begin = self._prior_turn(shortest_turn(other, axis), is_planar)
+            turn, shift, error = about_one_axis(pairs, axis, begin)
+            begun = Fit(turn, self._along(shift, axis), 0.0)
+            return begun, pairs, _one_axis(axis, turn, is_planar), error
+        shift, error = lever(pairs, turn, weights)
+        directions = tuple(np.eye(9)[:6])
+        return Fit(turn, shift, 0.0), pairs, _Shown(directions, None, ()), error
+
+    def _prior_turn(self, found: Floats, is_planar: bool) -> Floats:
+        """Keep roll and pitch of the published mount where the motion does not show them."""
+        if not is_planar or self.published is None:
+            return found
+        return np.array(self.published.rotation)
+
+    def _along(self, shift: Floats, axis: Floats) -> Floats:
+        """Keep the published translation along the axis of rotation."""
+        kept = 0.0 if self.published is None else np.array(self.published.translation) @ axis
+        return np.asarray(shift - (shift @ axis) * axis + kept * axis)
+
+    def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
+        """Fit with one Y for all time and with segments, as drift asks for; keep the surest."""
+        whole = float(problem.times[-1] - problem.times[0])
+        lengths = [math.inf, *(one for one in _SEGMENTS if one * 4.0 <= whole)]
+        free = (*shown.free, np.eye(9)[SHIFT])
+        best: tuple[float, Fit, float] | None = None
+        for number, length in enumerate(lengths):
+            fit = refine(problem, start, free, _segments(problem, length), 8)
+            sizes = spread(fit, 60, self.seed)[: len(shown.free)]
+            score = float(np.exp(np.mean(np.log(np.maximum(sizes, 1e-12)))))
+            if best is None or score < best[0]:
+                best = score, fit, length
+            self.progress(3 + number * 3 // len(lengths), 8)
+        assert best is not None
+        return best[1], best[2]
+
+    def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
+        """Take a motion whose second axis is no more than noise for one about a single axis."""
+        if shown.axis is not None:
+            return shown
+        values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))
+        if math.sqrt(max(values[1], 0.0)) > 6.0 * fit.noise[0]:
+            return shown
+        axis = vectors[:, -1] * np.sign(vectors[np.abs(vectors[:, -1]).argmax(), -1])
+        return _one_axis(axis, fit.turn, is_planar=False)
+
+    def _with_clock(self, shown: _Shown, problem: Problem) -> tuple[Floats, ...]:
+        more = [SHIFT]
+        if problem.times[-1] - problem.times[0] >= LONG:
+            more.append(DRIFT)
+        if self.scaled:
+            more.append(SCALE)
+        return (*shown.free, *np.eye(9)[more])
+
+    def _halves(
+        self, problem: Problem, fit: Fit, free: tuple[Floats, ...], length: float
+    ) -> tuple[float, float] | None:
+        """Solve both halves apart; the distance between their mounts, metres and degrees."""
+        middle = float(np.median(problem.times))
+        found = []
+        for begin, end in ((-math.inf, middle), (middle, math.inf)):
+            half = problem.between(begin, end)
+            if len(half.times) < 10:
+                return None
+            fresh = replace(fit, joins=fit.joins[:0], places=fit.places[:0])
+            found.append(refine(half, fresh, free, _segments(half, length), 6))
+        one, other = found
+        angle = batch.angles_between(one.turn, other.turn)
+        return float(np.linalg.norm(one.shift - other.shift)), math.degrees(float(angle))
+
+    def _answer(
+        self,
+        problem: Problem,
+        fit: Fit,
+        free: tuple[Floats, ...],
+        shown: _Shown,
+        clock: ClockOffset,
+        names: Names,
+        halves: tuple[float, float] | None,
+        notes: list[str],
+        inverted: tuple[bool, bool],
+    ) -> Calibration:
+        sizes = WIDTH * spread(fit, seed=self.seed)
+        whole = fit
+        if len(fit.joins) > 1:
+            # Only Y is taken over all of the time; X stays.
+            fresh = replace(fit, joins=fit.joins[:0], places=fit.places[:0])
+            found = refine(problem, fresh, [np.eye(9)[SHIFT]], _segments(problem, math.inf), 6)
+            whole = replace(found, turn=fit.turn, shift=fit.shift)
+        ends = WIDTH * spread(whole, seed=self.seed)[-6:]
+        turned, moved = _doubt(sizes[: len(shown.free)], shown, halves)
+        sizes[: len(shown.free)] *= [turned if one[:3].any() else moved for one in shown.free]
+        ends *= np.repeat([turned, moved], 3)
+        clocked = len(shown.free)
+        drifts = any(one[DRIFT] for one in free)
+        why, following = _reason(shown)
+        return Calibration(
+            "partial" if shown.unseen else "solved",
+            why,
+            *names,
+            _transform(fit.turn, fit.shift),
+            _transform(whole.joins[0], whole.places[0]),
+            _interval(sizes[:clocked], shown),
+            Interval(_trio(ends[3:]), _trio(np.degrees(ends[:3]))),
+            clock.seconds + fit.offset,
+            float(sizes[clocked]),
+            fit.drift * 1e6 if drifts else None,
+            clock,
+            halves,
+            shown.unseen,
+            _tilted(shown),
+            inverted,
+            following,
+            (fit.scale, float(sizes[len(free) - 1])) if self.scaled else None,
+            tuple(notes),
+        )
+
+
+WIDTH: Final = 2.1
+"""Half of a 95 % interval in deviations, with as few blocks as a recording has."""
+
+
+def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> tuple[float, float]:
+    """Return factors for the intervals of rotation and translation.
+
+    Where the halves of the recording differ by more than the interval, residuals lie: a scale or
+    a drift is at work that no bootstrap sees.
+    """
+    if halves is None:
+        return 1.0, 1.0
+    is_turn = np.array([one[:3].any() for one in shown.free])
+    turns, moves = (float(np.linalg.norm(sizes[chosen])) for chosen in (is_turn, ~is_turn))
+    return max(1.0, math.radians(halves[1]) / turns), max(1.0, halves[0] / moves)
+
+
+def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
+    """Put B on the time axis of A, at most so many poses as the fit needs.
+
+    Raises:
+        CalibrationRefused: If the two overlap too little.
+    """
+    times = b.times + (clock.seconds - (a.start - b.start) / NANOSECONDS)
+    _, _, valid = a.at(times)
+    kept = np.flatnonzero(valid)
+    if len(kept) < 20 or times[kept[-1]] - times[kept[0]] < LEAST_OVERLAP:
+        raise CalibrationRefused(
+            f"{a.name} and {b.name} share {len(kept)} poses on one clock: record both for half a "
+            "minute at the same time.",
+        )
+    kept = kept[:: -(-len(kept) // _MOST_POSES)]
+    middle = 0.5 * float(times[kept[0]] + times[kept[-1]])
+    return Problem(a, times[kept], b.positions[kept], b.rotations[kept], middle)
+
+
+def _segments(problem: Problem, length: float) -> "np.ndarray":
+    """Number the poses of B by segments of time, without holes."""
+    if not math.isfinite(length):
+        return np.zeros(len(problem.times), dtype=np.intp)
+    numbers = ((problem.times - problem.times[0]) // length).astype(np.intp)
+    found: np.ndarray = np.unique(numbers, return_inverse=True)[1]
+    return found
+
+
+def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
+    """Return what a motion about one axis shows: nothing along it; a planar one, no tilt either."""
+    free = np.zeros((5, 9))
+    free[:3, :3] = np.eye(3)
+    free[3:, 3:6] = np.linalg.svd(axis[None])[2][1:]
+    unseen = [name for name, part in zip(AXES, axis, strict=True) if abs(part) > 0.3]
+    if not is_planar:
+        return _Shown(tuple(free), axis, tuple(unseen))
+    about = np.zeros(9)
+    about[:3] = batch.rotate(batch.conjugate(turn[None]), axis[None])[0]
+    return _Shown((about, *free[3:]), axis, (*unseen, "roll", "pitch"))
+
+
+def _reason(shown: _Shown) -> tuple[str, str | None]:
+    if shown.axis is None:
+        return "The motion turns about two axes or more: everything is seen.", None
+    if "roll" in shown.unseen:
+        return (
+            "One motion is planar: height, roll and pitch of the mount are not seen.",
+            "tilt the robot as well, and use a source that sees it",
+        )
+    along = ", ".join(shown.unseen)
+    return f"The motion turns about one axis: the translation along it ({along}) is not seen.", (
+        TWO_AXES
+    )
+
+
+def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
+    """Return the unseen direction where it is no axis of moving_a."""
+    if shown.axis is None or np.abs(shown.axis).max() > math.cos(math.radians(3.0)):
+        return None
+    x, y, z = shown.axis.tolist()
+    return x, y, z
+
+
+def _interval(sizes: Floats, shown: _Shown) -> Interval:
+    """Return half-widths by axis from those along the free directions."""
+    free = np.array(shown.free)[:, :6]
+    widths = np.sqrt(((free * sizes[:, None]) ** 2).sum(axis=0))
+    known = [name not in shown.unseen for name in (*ANGLES, *AXES)]
+    parts = [float(one) if seen else None for one, seen in zip(widths, known, strict=True)]
+    turns = [None if one is None else math.degrees(one) for one in parts[:3]]
+    return Interval((parts[3], parts[4], parts[5]), (turns[0], turns[1], turns[2]))
+
+
+def _trio(values: Floats) -> Trio:
+    x, y, z = values.tolist()
+    return x, y, z
+
+
+def _transform(turn: Floats, shift: Floats) -> Transform:
+    return Transform(Vector3(*shift.tolist()), Quaternion(*batch.canonical(turn[None])[0].tolist()))

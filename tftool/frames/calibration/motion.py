@@ -1,0 +1,160 @@
+"""Poses of one moving frame over time, cleaned and interpolated."""
+
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import InputError
+from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.buffer.batch.transform_array import TransformArray
+from tftool.geometry import rigid_arrays as batch
+
+Floats = batch.Floats
+Flags: TypeAlias = npt.NDArray[np.bool_]
+
+LONGEST_GAP: Final = 0.3
+"""Seconds without a sample behind which nothing is interpolated; of slow streams 3 periods."""
+
+_LEAST_POSES: Final = 20
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BodyMotion:
+    """Poses of one moving frame, by increasing time.
+
+    Attributes:
+        name: The chain in words: "base_link in odom".
+        start: Stamp from which times count, nanoseconds.
+        times: Seconds, shape (n,), strictly increasing.
+        positions: Metres, shape (n, 3).
+        rotations: Unit quaternions x y z w without jumps of sign, shape (n, 4).
+    """
+
+    name: str
+    start: Stamp
+    times: Floats
+    positions: Floats
+    rotations: Floats
+
+    @classmethod
+    def of(cls, path: TransformArray) -> "BodyMotion":
+        """Sort poses by stamp; drop NaN, spikes, and all but the first of equal stamps.
+
+        Raises:
+            InputError: If fewer than twenty are left.
+        """
+        path = path if path.valid.all() else path[path.valid]
+        stamps, first = np.unique(path.stamps, return_index=True)
+        name = f"{path.child_frame_id} in {path.frame_id}"
+        if len(stamps) < _LEAST_POSES:
+            raise InputError(
+                f"{name} has {len(stamps)} poses of different stamps: record longer; "
+                f"at least {_LEAST_POSES} are needed."
+            )
+        turns = batch.unit(path.rotations[first])
+        kept = _steady(path.translations[first], turns)
+        stamps, first, turns = stamps[kept], first[kept], turns[kept]
+        same = np.einsum("ij,ij->i", turns[1:], turns[:-1]) >= 0.0
+        signs = np.cumprod(np.concatenate([[1.0], np.where(same, 1.0, -1.0)]))
+        times = (stamps - stamps[0]) / NANOSECONDS
+        return cls(name, int(stamps[0]), times, path.translations[first], turns * signs[:, None])
+
+    @property
+    def duration(self) -> float:
+        """Seconds from the first pose to the last."""
+        return float(self.times[-1])
+
+    @property
+    def period(self) -> float:
+        """Median of the seconds between two poses."""
+        return float(np.median(np.diff(self.times)))
+
+    def inverted(self) -> "BodyMotion":
+        """Return the motion of the fixed frame as seen from the moving one."""
+        back = batch.conjugate(self.rotations)
+        target, _, source = self.name.partition(" in ")
+        places = -batch.rotate(back, self.positions)
+        return BodyMotion(f"{source} in {target}", self.start, self.times, places, back)
+
+    def is_planar(self) -> bool:
+        """Whether its poses are x, y and yaw alone, as those of a planar odometry."""
+        return bool(
+            np.ptp(self.positions[:, 2]) < 1e-6 and np.abs(self.rotations[:, :2]).max() < 1e-6
+        )
+
+    def at(self, times: Floats) -> tuple[Floats, Floats, Flags]:
+        """Interpolate: linearly in position, along the shorter arc in rotation.
+
+        Args:
+            times: Seconds on its own time axis, shape (m,).
+
+        Returns:
+            Positions, shape (m, 3); quaternions, shape (m, 4); and which moments are inside of
+            the motion and of no gap, shape (m,).
+        """
+        above = np.clip(np.searchsorted(self.times, times), 1, len(self.times) - 1)
+        low, high = self.times[above - 1], self.times[above]
+        longest = max(LONGEST_GAP, 3.0 * self.period)
+        valid = (times >= self.times[0]) & (times <= self.times[-1]) & (high - low <= longest)
+        share = np.clip((times - low) / (high - low), 0.0, 1.0)[:, None]
+        positions = (1.0 - share) * self.positions[above - 1] + share * self.positions[above]
+        # Between neighbouring samples the chord, made unit, follows the arc to a microradian.
+        turns = (1.0 - share) * self.rotations[above - 1] + share * self.rotations[above]
+        return positions, batch.unit(turns), valid
+
+    def velocities(self, times: Floats) -> tuple[Floats, Floats]:
+        """Return velocities in the fixed frame, and turn rates about the moving axes.
+
+        They are differences over a tenth of a second, which the noise of poses does not drown.
+
+        Returns:
+            Metres per second and radians per second, each of shape (m, 3).
+        """
+        half = max(0.05, self.period)
+        before, first, _ = self.at(times - half)
+        after, last, _ = self.at(times + half)
+        turned = batch.rotation_vectors(batch.multiply(batch.conjugate(first), last))
+        return (after - before) / (2.0 * half), turned / (2.0 * half)
+
+
+_USUAL: Final = np.arange(-15, 16)
+"""Neighbours among which a pose's distance is usual or not."""
+
+
+_DENSE: Final = 200
+"""Poses from which neighbours are near enough to judge one another by."""
+
+
+def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
+    """Return the poses that are no spikes, such as flipped tags, which a correlation cannot bear.
+
+    First goes a pose whose median distance (or angle) to six neighbours is far above that of the
+    poses around it; then, without those, a pose that is far from the middle of its neighbours.
+    """
+    kept = np.arange(len(turns))
+    if len(turns) < _DENSE:
+        return kept
+    for reaches, factor in (((-3, -2, -1, 1, 2, 3), 4.0), ((1, 2, 3), 6.0), ((1, 2, 3), 6.0)):
+        places, quaternions = positions[kept], turns[kept]
+        last = len(kept) - 1
+        here = np.arange(len(kept))[:, None]
+        near = np.clip(here + reaches, 0, last)
+        around, turned = places[near], quaternions[near]
+        if min(reaches) > 0:
+            across = np.clip(here - reaches, 0, last)
+            other = quaternions[across]
+            facing = np.sign(np.sum(turned * other, axis=2, keepdims=True))
+            around = 0.5 * (around + places[across])
+            turned = batch.unit(turned + np.where(facing < 0.0, -other, other))
+        away = np.linalg.norm(around - places[:, None], axis=2)
+        angles = batch.angles_between(turned, quaternions[:, None])
+        good = np.ones(len(kept), dtype=np.bool_)
+        for each, least in ((away, 0.005), (angles, np.radians(0.5))):
+            middle = np.median(each, axis=1)
+            # Not the median: where many are bad, it would be one of them.
+            usual = np.quantile(middle[np.clip(here + _USUAL, 0, last)], 0.35, axis=1)
+            good &= middle <= np.maximum(factor * usual, least)
+        kept = kept[good]
+    return kept

@@ -1,0 +1,298 @@
+"""Least squares of a mount: A(t + d) · X = Y · B(t), with weights that outliers lose.
+
+X is the mount, Y joins the fixed frames, d is the clock offset. Where a chain drifts, as odometry
+does, time is cut into segments with a Y of their own, which drop out of the equations (Schur
+complement). Everything is in numpy: each round is one small linear system.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.frames.calibration.motion import BodyMotion, Floats
+from tftool.geometry import rigid_arrays as batch
+
+ROUNDS: Final = 12
+_CLIP: Final = 3.0
+"""Residuals beyond so many deviations lose their weight."""
+
+MOUNT, SHIFT, DRIFT, SCALE, JOIN = slice(0, 6), 6, 7, 8, slice(9, 15)
+"""Places of the parameters: rotation and translation of X, d, its drift, A's scale, Y."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fit:
+    """A state of the fit.
+
+    Attributes:
+        turn: Rotation of X, quaternion.
+        shift: Translation of X, metres.
+        offset: d beyond the rough clock offset, seconds, at `middle`.
+        drift: Change of d in a second.
+        scale: Factor of A's translations.
+        joins: Rotations of Y by segment, shape (k, 4).
+        places: Translations of Y by segment, shape (k, 3).
+        noise: Deviation of one residual: radians and metres, for each axis.
+        cost: Mean of the weights' loss; 1 where residuals are Gaussian.
+        blocks: Normal equations by block of time: matrices and right sides.
+    """
+
+    turn: Floats
+    shift: Floats
+    offset: float
+    drift: float = 0.0
+    scale: float = 1.0
+    joins: Floats = field(default_factory=lambda: np.zeros((0, 4)))
+    places: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    noise: tuple[float, float] = (1.0, 1.0)
+    blocks: tuple[Floats, Floats] = field(default_factory=lambda: (np.zeros(0), np.zeros(0)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Problem:
+    """Two motions on one time axis: poses of B, and A to be interpolated.
+
+    Attributes:
+        a: BodyMotion of A.
+        times: Moments of B on the axis of A but for the clock offset, seconds, shape (n,).
+        positions: Positions of B, shape (n, 3).
+        rotations: Rotations of B, shape (n, 4).
+        middle: Moment at which the offset is taken.
+    """
+
+    a: BodyMotion
+    times: Floats
+    positions: Floats
+    rotations: Floats
+    middle: float
+
+    def between(self, begin: float, end: float) -> "Problem":
+        """Return the part between two moments."""
+        kept = (self.times >= begin) & (self.times < end)
+        return replace(
+            self,
+            times=self.times[kept],
+            positions=self.positions[kept],
+            rotations=self.rotations[kept],
+        )
+
+
+def matrices(quaternions: Floats) -> Floats:
+    """Return rotation matrices, shape (n, 3, 3)."""
+    return batch.matrices(np.zeros((len(quaternions), 3)), quaternions)[:, :3, :3]
+
+
+def turned_by(vector: Floats) -> Floats:
+    """Return the quaternion of a rotation vector, shape (..., 4)."""
+    half = 0.5 * np.linalg.norm(vector, axis=-1, keepdims=True)
+    return batch.unit(np.concatenate([vector * 0.5 * np.sinc(half / np.pi), np.cos(half)], axis=-1))
+
+
+def cross(vectors: Floats) -> Floats:
+    """Return the matrices that take the cross product with vectors, shape (n, 3, 3)."""
+    x, y, z = vectors.T
+    zero = np.zeros_like(x)
+    return np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
+
+
+def mean_pose(turns: Floats, places: Floats, weights: Floats) -> tuple[Floats, Floats]:
+    """Average poses by weight: quaternions by the largest eigenvector (Markley 2007)."""
+    _, vectors = np.linalg.eigh((turns * weights[:, None]).T @ turns)
+    return vectors[:, -1], (places * weights[:, None]).sum(axis=0) / weights.sum()
+
+
+def refine(
+    problem: Problem,
+    start: Fit,
+    free: Sequence[Floats],
+    segments: npt.NDArray[np.intp],
+    rounds: int = ROUNDS,
+) -> Fit:
+    """Improve a fit by Gauss-Newton rounds with robust weights.
+
+    Args:
+        problem: The two motions.
+        start: State to begin with; its joins are made anew where their number differs.
+        free: Directions in the 9 parameters but Y along which the fit may move.
+        segments: Segment of each pose of B, from 0 on without holes, shape (n,).
+        rounds: Number of rounds.
+    """
+    count = int(segments[-1]) + 1
+    fit = start
+    basis = np.array(free).T
+    for _ in range(rounds):
+        rows = _Residuals(problem, fit, segments, count)
+        if not rows.valid.any():
+            return fit
+        fit = rows.fit
+        normal, right = rows.normal(basis)
+        fit = _moved(fit, rows, basis, normal, right)
+    rows = _Residuals(problem, fit, segments, count)
+    return replace(rows.fit, noise=rows.noise, blocks=rows.blocks(basis))
+
+
+class _Residuals:
+    """Residuals of one state, their derivatives and weights; six rows a pose."""
+
+    def __init__(
+        self, problem: Problem, fit: Fit, segments: npt.NDArray[np.intp], count: int
+    ) -> None:
+        aside = problem.times - problem.middle
+        times = problem.times + fit.offset + fit.drift * aside
+        positions, turns, self.valid = problem.a.at(times)
+        speeds, rates = problem.a.velocities(times)
+        self.segments, self.count = segments, count
+        turns_m = batch.multiply(turns, np.broadcast_to(fit.turn, turns.shape))
+        arms = batch.rotate(turns, np.broadcast_to(fit.shift, positions.shape))
+        places_m = fit.scale * positions + arms
+        self.fit = fit = self._with_joins(problem, fit, turns_m, places_m)
+        joins = fit.joins[segments]
+        turns_n = batch.multiply(joins, problem.rotations)
+        reached = batch.rotate(joins, problem.positions)
+        error_r = batch.rotation_vectors(batch.multiply(batch.conjugate(turns_n), turns_m))
+        error_t = places_m - reached - fit.places[segments]
+        self.errors = np.concatenate([error_r, error_t], axis=1)
+        of_a, of_x = matrices(turns), matrices(fit.turn[None])[0]
+        jacobian = np.zeros((len(times), 6, 15))
+        jacobian[:, :3, :3] = np.eye(3)
+        jacobian[:, 3:, 3:6] = of_a
+        jacobian[:, :3, SHIFT] = rates @ of_x
+        swing = np.cross(rates, fit.shift)
+        jacobian[:, 3:, SHIFT] = fit.scale * speeds + np.einsum("nij,nj->ni", of_a, swing)
+        jacobian[:, :, DRIFT] = jacobian[:, :, SHIFT] * aside[:, None]
+        jacobian[:, 3:, SCALE] = positions
+        jacobian[:, :3, 9:12] = -matrices(problem.rotations).transpose(0, 2, 1)
+        jacobian[:, 3:, 9:12] = matrices(joins) @ cross(problem.positions)
+        jacobian[:, 3:, 12:15] = -np.eye(3)
+        self.jacobian = jacobian
+        self._weigh()
+
+    def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
+        """Begin with the mean Y of each segment where there is none yet."""
+        if len(fit.joins) == self.count:
+            return fit
+        back = batch.conjugate(problem.rotations)
+        joins = batch.multiply(turns, back)
+        origins = places - batch.rotate(joins, problem.positions)
+        found = np.zeros((self.count, 4)), np.zeros((self.count, 3))
+        found[0][:, 3] = 1.0
+        for number in range(self.count):
+            chosen = (self.segments == number) & self.valid
+            if not chosen.any():
+                continue
+            weights = np.ones(int(chosen.sum()))
+            for _ in range(5):
+                turn, _place = mean_pose(joins[chosen], origins[chosen], weights)
+                angles = batch.angles_between(
+                    joins[chosen], np.broadcast_to(turn, (len(weights), 4))
+                )
+                weights = 1.0 / (1.0 + (angles / max(np.median(angles), 1e-9)) ** 2)
+            reached = batch.rotate(
+                np.broadcast_to(turn, (len(weights), 4)), problem.positions[chosen]
+            )
+            found[0][number], found[1][number] = turn, np.median(places[chosen] - reached, axis=0)
+        return replace(fit, joins=found[0], places=found[1])
+
+    def _weigh(self) -> None:
+        turned = np.linalg.norm(self.errors[:, :3], axis=1)
+        moved = np.linalg.norm(self.errors[:, 3:], axis=1)
+        # The median length of three Gaussian coordinates is 1.538 deviations.
+        radians, metres = (
+            max(float(np.median(one[self.valid])) / 1.538, 1e-7) for one in (turned, moved)
+        )
+        self.noise = radians, metres
+        sigma = np.repeat(self.noise, 3)
+        squared = ((self.errors / sigma) ** 2).sum(axis=1) / 6.0
+        self.weights = np.where(self.valid, (1.0 + squared / _CLIP**2) ** -2, 0.0)
+        scaled = np.sqrt(self.weights)[:, None] / sigma
+        self.errors_w = self.errors * scaled
+        self.jacobian_w = self.jacobian * scaled[:, :, None]
+
+    def sums(self, starts: npt.NDArray[np.intp]) -> tuple[Floats, Floats]:
+        """Sum the normal equations over rows from each start to the next."""
+        square = np.einsum("nij,nik->njk", self.jacobian_w, self.jacobian_w, optimize=True)
+        right = np.einsum("nij,ni->nj", self.jacobian_w, self.errors_w)
+        return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
+
+    def by_segment(self, basis: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+        """Return the equations with each segment's Y eliminated, and how to get Y back."""
+        starts = np.flatnonzero(np.diff(self.segments, prepend=-1))
+        square, right = self.sums(starts)
+        inner = square[:, JOIN, JOIN] + 1e-9 * np.eye(6)
+        mixed = basis.T @ square[:, :9, JOIN]
+        back = np.linalg.solve(
+            inner, np.concatenate([mixed.transpose(0, 2, 1), right[:, JOIN, None]], axis=2)
+        )
+        solved, rest = back[:, :, :-1], back[:, :, -1]
+        reduced = basis.T @ square[:, :9, :9] @ basis - mixed @ solved
+        gradient = right[:, :9] @ basis - np.einsum("kij,kj->ki", mixed, rest)
+        return reduced, gradient, solved, rest
+
+    def normal(self, basis: Floats) -> tuple[Floats, Floats]:
+        reduced, gradient, self.solved, self.rest = self.by_segment(basis)
+        return reduced.sum(axis=0), gradient.sum(axis=0)
+
+    def blocks(self, basis: Floats) -> tuple[Floats, Floats]:
+        """Return the equations of blocks of time, for a bootstrap.
+
+        With one Y for all time, Y is among the parameters; else each segment is a block.
+        """
+        if self.count > 1:
+            reduced, gradient, _, _ = self.by_segment(basis)
+            return reduced, gradient
+        starts = np.unique(np.linspace(0, len(self.segments), _BLOCKS, endpoint=False).astype(int))
+        square, right = self.sums(starts)
+        whole = np.zeros((15, basis.shape[1] + 6))
+        whole[:9, :-6], whole[JOIN, -6:] = basis, np.eye(6)
+        return whole.T @ square @ whole, right @ whole
+
+
+_BLOCKS: Final = 24
+
+
+def _moved(fit: Fit, rows: _Residuals, basis: Floats, normal: Floats, right: Floats) -> Fit:
+    damped = normal + 1e-9 * np.diag(np.maximum(np.diag(normal), 1e-12))
+    step = -np.linalg.solve(damped, right)
+    joined = -(rows.rest + rows.solved @ step)
+    change = basis @ step
+    change[:3] = np.clip(change[:3], -0.5, 0.5)
+    change[SHIFT] = np.clip(change[SHIFT], -0.1, 0.1)
+    return replace(
+        fit,
+        turn=batch.unit(batch.multiply(fit.turn[None], turned_by(change[None, :3])))[0],
+        shift=fit.shift + change[3:6],
+        offset=fit.offset + float(change[SHIFT]),
+        drift=fit.drift + float(change[DRIFT]),
+        scale=fit.scale + float(change[SCALE]),
+        joins=batch.unit(batch.multiply(fit.joins, turned_by(joined[:, :3]))),
+        places=fit.places + joined[:, 3:],
+    )
+
+
+def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
+    """Return the deviations of the free parameters, by a block bootstrap.
+
+    The fit is moved by one linear step for each drawing of blocks.
+
+    Returns:
+        Deviations along the free directions, and with one Y for all time, of Y: shape (p,).
+    """
+    square, right = fit.blocks
+    count = len(square)
+    dice = np.random.default_rng(seed)
+    times = dice.multinomial(count, np.full(count, 1.0 / count), size=draws).astype(np.float64)
+    squares = np.tensordot(times, square, axes=1)
+    rights = times @ right
+    ridge = (
+        1e-9
+        * np.eye(square.shape[1])
+        * np.maximum(np.trace(squares, axis1=1, axis2=2), 1e-12)[:, None, None]
+    )
+    steps = np.linalg.solve(squares + ridge, rights[..., None])[..., 0]
+    # The middle half of the drawings: one that left out a whole turn says nothing.
+    low, high = np.percentile(steps, [15.87, 84.13], axis=0)
+    few = np.sqrt(count / max(1.0, count - 1.0))
+    return np.asarray(0.5 * (high - low) * few)
