@@ -250,12 +250,53 @@ def test_a_split_tree_is_worse_where_messages_are_in_it():
     made.static("camera_link", "camera_optical")
     finding = found(made, "split-tree")
     assert finding.severity is Severity.WARNING
-    assert finding.facts["join"] == {"parent": "base_link", "child": "camera_link", "guess": True}
-    assert "--frame-id base_link --child-frame-id camera_link" in finding.fixes[0].command
+    # Nothing says where the camera is mounted.
+    assert finding.facts["join"] is None
+    assert finding.fixes[0].command == ""
+    assert "nothing in the data says where camera_link belongs" in finding.fixes[0].text
 
     made.hears("/image", "camera_optical", kind="sensor_msgs/Image")
     finding = found(made, "split-tree")
     assert (finding.severity, finding.topics) == (Severity.ERROR, ("/image",))
+
+
+def test_odometry_messages_say_which_transform_is_missing():
+    made = robot(odometry=False)
+    made.moving("map", "odom")
+    made.hears("/wheels/odom", "odom", kind="nav_msgs/Odometry")
+    made.odometry = Robot()
+    made.odometry.moving("odom", "base_link", topic="/wheels/odom")
+    finding = found(made, "split-tree")
+    assert finding.facts["join"] == {"parent": "odom", "child": "base_link", "guess": False}
+    assert "static_transform_publisher" not in finding.fixes[0].command
+    assert "400 Odometry messages (/wheels/odom)" in finding.fixes[0].text
+
+    unknown = robot(odometry=False)
+    unknown.moving("base_link", "wheel")
+    unknown.hears("/wheels/odom", "odom", kind="nav_msgs/Odometry")
+    unknown.odometry = made.odometry
+    (fix,) = found(unknown, "unknown-frame").fixes
+    assert fix.command == "tftool echo odom base_link RECORDING --with-odometry"
+
+
+@pytest.mark.parametrize(
+    ("main", "root", "edge"),
+    [
+        (("odom", "base_footprint"), "base_link", ("base_footprint", "base_link")),
+        (("map", "base_link"), "odom", ("map", "odom")),
+        (("base_link", "base_laser"), "laser", ("base_laser", "laser")),
+        (("robot_0/odom", "robot_0/base_link"), "robot_1/odom", None),
+        (("base_link", "turret"), "camera", None),
+    ],
+)
+def test_a_join_is_proposed_only_on_evidence(main, root, edge):
+    made = Robot()
+    made.moving(*main)
+    for child in ("extra1", "extra2", "extra3"):
+        made.moving(main[1], child)
+    made.moving(root, "robot_1/base_link" if root.startswith("robot_1") else "leaf")
+    join = found(made, "split-tree").facts["join"]
+    assert (None if join is None else (join["parent"], join["child"])) == edge
 
 
 def test_two_whole_robots_are_two_trees_by_intention():
@@ -285,6 +326,11 @@ def test_a_base_below_map_beside_odom_is_out_of_line():
     made.moving("map", "base_link")
     made.moving("map", "odom", pose=stands)
     assert found(made, "rep105-shape").edges == (("map", "base_link"),)
+
+    above = Robot()
+    above.moving("odom", "map")
+    above.moving("odom", "base_link", pose=stands)
+    assert found(above, "rep105-shape").edges == (("odom", "map"),)
 
     below = Robot()
     below.moving("body", "odom")

@@ -143,3 +143,10 @@ def test_a_headline_speaks_of_one_link_and_of_several_in_their_grammar():
     said = found(one, "future-stamp").message
     assert "arm in base_link are dated" in said
     assert said.endswith("ahead of their arrival")
+
+
+def test_diagnostics_have_no_place_and_may_have_another_clock():
+    made = robot(start=12.0, log_from=START)
+    made.start = START
+    made.hears("/diagnostics", "", kind="diagnostic_msgs/DiagnosticArray")
+    assert ids(made, notes=True) == []

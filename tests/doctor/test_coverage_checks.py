@@ -159,3 +159,36 @@ def test_damage_is_told():
     assert found(made, "truncated-recording").evidence == ("the last chunk is torn",)
     made.damage = ("It was not closed.", "It breaks off.")
     assert found(made, "truncated-recording").evidence == ("It was not closed. It breaks off.",)
+
+
+def test_a_tag_that_is_seen_no_more_has_not_stopped_and_a_mount_has():
+    made = robot()
+    made.moving("laser", "tag_7", hz=10, end=3.0)
+    assert ids(made, notes=True) == []
+
+    irregular = robot()
+    for at in (0.1, 0.2, 0.3, 0.4, 2.4, 2.5, 2.6, 4.0):
+        irregular.sent("laser", "thing", at)
+    assert "edge-stopped" not in ids(irregular)
+
+    made.moving("base_link", "arm", hz=10, end=3.0)
+    assert ids(made) == ["edge-stopped"]
+
+
+def test_statics_on_tf_are_not_missing():
+    # ROS 1 before tf2: mounts are sent again and again on /tf.
+    made = robot(laser=False, scans=False)
+    made.moving("base_link", "base_laser", hz=10, pose=stands)
+    made.hears("/scan", "laser")
+    assert ids(made) == ["unknown-frame"]
+    assert "base_laser" in found(made, "unknown-frame").fixes[0].text
+
+
+def test_a_player_latches_one_message_for_each_publisher_that_is_known():
+    made = robot(laser=False, scans=False)
+    made.sent("base_link", "laser", 0.0, topic="/tf_static", node="/lidar")
+    made.sent("base_link", "camera", 0.0, topic="/tf_static", node="/camera")
+    assert ids(made, notes=True) == []
+    made.sent("base_link", "imu", 0.1, topic="/tf_static", node="/camera")
+    finding = found(made, "latched-overwrite")
+    assert (finding.frames, finding.publishers) == (("camera",), ("/camera",))

@@ -172,7 +172,13 @@ def test_two_clocks_never_meet():
             "ask for laser, or set frame_id of the driver to laser",
         ),
         ("odom", "/laser", Cause.NAME, 'frame_id "laser"'),
-        ("odom", "camera_link", Cause.SPLIT, "publish it:"),
+        (
+            "odom",
+            "camera_link",
+            Cause.SPLIT,
+            "nothing in the data says where camera_link belongs: look at what should publish it "
+            "(a driver, the robot description and its joint states, a localiser)",
+        ),
     ],
 )
 def test_names_and_joins_that_are_missing(target, source, cause, told):

@@ -9,7 +9,7 @@ from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.stamp_stream import Heard, Track, unsorted_share
+from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, unsorted_share
 from tftool.doctor.wording import several
 from tftool.recordings.contract import Stamps
 
@@ -19,7 +19,8 @@ check = checks_of(Area.CLOCKS)
 @check(
     "clock-mixture",
     Severity.ERROR,
-    rule="stamps below 10⁸ s and above it occur together; the odd ones are those against "
+    rule="stamps below 10⁸ s and above it occur together, in transforms, joint states and "
+    "messages that have a place; the odd ones are those against "
     "/clock, else the fewer",
     headline="{where} {concerned:is|are} stamped with {odd_clock}, all else with {usual_clock}",
     detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
@@ -39,7 +40,9 @@ check = checks_of(Area.CLOCKS)
 )
 def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     """Part of the stamps count from the simulation's start, part from 1970."""
-    streams: list[Track | Heard] = [*model.dynamic, *model.heard]
+    # What has no place, as diagnostics, is looked up nowhere; joints become transforms.
+    placed = [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
+    streams: list[Track | Heard] = [*model.dynamic, *placed]
     simulated = [one for one in streams if one.families[0]]
     wall = [one for one in streams if one.families[1]]
     if not simulated or not wall:

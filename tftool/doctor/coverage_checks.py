@@ -1,6 +1,7 @@
 """Checks of what is there when it is needed: holes, statics, waits, caches."""
 
 import math
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import WARM_UP, Limits, Model
-from tftool.doctor.stamp_stream import NEVER, Heard, Track, rate
+from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
 from tftool.doctor.wording import several
 from tftool.recordings.contract import Stamps
 
@@ -41,7 +42,8 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     "edge-stopped",
     Severity.ERROR,
     rule="the last sample comes more than {periods:g} periods and {seconds:g} s, and a "
-    "share of {share:g}, before the recording's end, while others go on",
+    "share of {share:g}, before the recording's end, while others go on; not of what a camera "
+    "sees, from which nothing hangs",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
@@ -74,6 +76,8 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         above = model.parents.get(track.child)
         if above is not None and above.parent != track.parent:
             continue
+        if _is_detection(model, track):
+            continue
         # What all ends at once, as a session does that its host leaves, is no link's own fault.
         if latest - last <= least:
             continue
@@ -91,6 +95,20 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
                 "below": sorted(model.below(track.child)),
             },
         )
+
+
+_SEEN = re.compile(
+    r"tag|marker|aruco|fiducial|charuco|obj|detect|person|people|target|ball|box|obstacle|goal|yolo"
+)
+
+
+def _is_detection(model: Model, track: Track) -> bool:
+    """Whether an edge places what a camera sees: a leaf whose name or rate says so."""
+    if len(model.below(track.child)) > 1 or any(h.frame == track.child for h in model.heard):
+        return False
+    steps = track.steps
+    is_irregular = len(steps) > 1 and float(steps.std()) > float(steps.mean())
+    return is_irregular or _SEEN.search(last_part(track.child).lower()) is not None
 
 
 @check(
@@ -206,7 +224,8 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "static-missing",
     Severity.ERROR,
-    rule="no static topic has a message, and messages are in frames that tf does not know",
+    rule="no static topic has a message, and messages are in frames that tf does not know; not "
+    "where there is no static topic and constants come on /tf, as in early ROS 1",
     headline="the statics are missing: {why}",
     detail="messages are in {frames}, which no transform names",
     consequence="these sensors can be placed nowhere",
@@ -238,6 +257,8 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
     if not unknown:
         return
     static = [topic for topic in model.evidence.topics if topic.static]
+    if not static and any(not t.moves and len(t.by_stamp) > 1 for t in model.dynamic):
+        return
     names = sorted({heard.frame for heard in unknown})
     yield Hit(
         frames=tuple(names),
@@ -331,7 +352,8 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "latched-overwrite",
     Severity.NOTE,
-    rule="the last static message does not hold all children",
+    rule="the last static message does not hold all children; of publishers that are known, "
+    "the last one of the same publisher",
     headline="statics are spread over {messages} messages",
     detail="the last lacks {lost}",
     consequence="a player that publishes them from one node keeps only the last for late listeners",
@@ -346,22 +368,23 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
     """Statics are spread over several messages; playback latches the last."""
     transforms = model.evidence.transforms
-    held: dict[int, set[str]] = defaultdict(set)
+    held: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
     for edge in transforms.edges:
-        if edge.static:
-            for message in np.unique(edge.messages).tolist():
-                held[message].add(edge.child)
-    if len(held) < 2:
-        return
-    last = max(held, key=lambda message: (int(transforms.log_times[message]), message))
-    lost = sorted(set().union(*held.values()) - held[last])
-    if lost:
-        yield Hit(
-            frames=tuple(lost),
-            count=len(held),
-            facts={"messages": len(held), "lost": lost, "kept": len(held[last])},
-            alone=True,
-        )
+        for message in np.unique(edge.messages).tolist() if edge.static else ():
+            # A player of ROS 1 latches one message for each publisher that was recorded.
+            node = transforms.publishers[transforms.senders[message]].node
+            held[node][message].add(edge.child)
+    for node, messages in held.items():
+        last = max(messages, key=lambda one: (int(transforms.log_times[one]), one))
+        lost = sorted(set().union(*messages.values()) - messages[last])
+        if lost:
+            yield Hit(
+                frames=tuple(lost),
+                publishers=(node,) if node else (),
+                count=len(messages),
+                facts={"messages": len(messages), "lost": lost, "kept": len(messages[last])},
+                alone=True,
+            )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -452,8 +475,9 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         (
             "path",
             "gap edge-stopped stale-stamp clock-offset zero-stamp frozen-stamp single-sample "
-            "nan-transform future-stamp",
+            "nan-transform future-stamp loop",
         ),
+        ("frame", "loop"),
     ),
 )
 def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:

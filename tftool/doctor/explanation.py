@@ -20,9 +20,10 @@ from tftool.buffer.buffer import Buffer
 from tftool.doctor.coverage_checks import Waits, edge_stopped, least_rate, rounded_up, waits_of
 from tftool.doctor.evidence import evidence_of
 from tftool.doctor.findings import Edge
+from tftool.doctor.missing_joins import proposed_frame, proposed_join
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.name_checks import alike_frames
-from tftool.doctor.shape_checks import missing_join, static_publisher
+from tftool.doctor.shape_checks import nothing_says
 from tftool.doctor.stamp_stream import NEVER, Heard, Track
 from tftool.doctor.trace import LinkVerdict, LookupTrace, Question, TracedLink
 from tftool.doctor.wording import dated, moment, span
@@ -146,10 +147,11 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
         why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
         mistyped = "" if says else f"ask for {alike[0]}, or "
         remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
-    if model.trees:
-        parent = missing_join(model.trees[0], name)[0]
-        text = "or, if they are two things, publish where it is:" if alike else "publish it:"
-        remedies.append(Remedy("join", text, static_publisher(parent, name)))
+    kinds = [heard.type for heard in model.heard if heard.frame == name]
+    join = proposed_frame(model, name, kinds)
+    if join is not None:
+        remedies.append(Remedy("join", join.fix.text, join.fix.command))
+        why += [join.why] if join.why else []
     return Reason(
         Cause.UNKNOWN_FRAME, tuple(why), tuple(remedies), ("a timeout: nothing publishes it",)
     )
@@ -160,16 +162,17 @@ def no_join(known: TraceResult) -> Reason:
     model, question = known.trace.model, known.trace.question
     ours, theirs = model.tree_of[question.source], model.tree_of[question.target]
     lesser, main = (ours, theirs) if len(ours.frames) <= len(theirs.frames) else (theirs, ours)
-    parent, child = missing_join(main, lesser.root)
     used = sorted({h.topic for h in model.heard if h.frame in lesser.frames})
     by = f" (used by {', '.join(used)})" if used else ""
-    why = (
+    join = proposed_join(model, main, lesser)
+    fix = nothing_says(lesser.root) if join is None else join.fix
+    why = [
         f"{lesser.root} has no parent; its tree: {', '.join(sorted(lesser.frames))}{by}",
         f"the tree of {main.root}: {', '.join(sorted(main.frames))}",
-        f"the join is missing; probably {child} belongs on {parent}",
-    )
-    join = Remedy("join", "publish it:", static_publisher(parent, child))
-    return Reason(Cause.SPLIT, why, (join,), ("a timeout: nothing publishes the join",))
+        "the join is missing" + (f"; {join.why}" if join is not None and join.why else ""),
+    ]
+    remedy = Remedy("join", fix.text, fix.command)
+    return Reason(Cause.SPLIT, tuple(why), (remedy,), ("a timeout: nothing publishes the join",))
 
 
 def works(known: TraceResult) -> Reason:

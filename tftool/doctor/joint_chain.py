@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.errors import TransformException
 from tftool.base.near_names import near_names
-from tftool.doctor.shape_checks import static_publisher
+from tftool.doctor.missing_joins import static_publisher
 from tftool.doctor.wording import several
 from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 from tftool.base.near_names import near_names
 from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.missing_joins import proposed_frame, quoted
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.shape_checks import base_of, quoted, static_publisher
 from tftool.doctor.stamp_stream import Heard, family, last_part
 
 check = checks_of(Area.NAMES)
@@ -77,7 +77,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 "alike": alike,
                 "hint": hint,
             },
-            fixes=_renames(model, name, alike),
+            fixes=_renames(model, name, alike, [heard.type for heard in heards]),
             alone=True,
         )
 
@@ -113,19 +113,24 @@ _KINDS = {
 }
 
 
-def _renames(model: Model, name: str, alike: list[str]) -> tuple[Fix, ...]:
+def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tuple[Fix, ...]:
     fixes = [Fix(f"set frame_id of the driver to {alike[0]}")] if alike else []
     if name.count("/") >= 2:
         fixes.append(
             Fix("in Gazebo, give the sensor the name in tf: <gz_frame_id>NAME</gz_frame_id>")
         )
-    base = base_of(model.trees[0]) or model.trees[0].root
-    text = (
-        "or, if it is a frame of its own, publish where it is:"
-        if fixes
-        else ("set frame_id of the driver to the name in tf, or publish where the frame is:")
+    join = proposed_frame(model, name, kinds)
+    if join is not None:
+        # Evidence for the frame itself comes before a name that is near.
+        return (join.fix, *fixes) if join.why else (*fixes, join.fix)
+    if fixes:
+        return tuple(fixes)
+    return (
+        Fix(
+            "set frame_id of the publisher to the name in tf, or start what should publish the "
+            "frame (a driver, robot_state_publisher, a localiser)"
+        ),
     )
-    return (*fixes, Fix(text, static_publisher(base, name)))
 
 
 @check(

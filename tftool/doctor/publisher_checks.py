@@ -9,10 +9,10 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.missing_joins import quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.motion_errors import RADIAN, motion_errors
-from tftool.doctor.shape_checks import quoted
-from tftool.doctor.stamp_stream import Places, Track, family, last_part, rate
+from tftool.doctor.stamp_stream import JOINT_STATES, Places, Track, family, last_part, rate
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import Floats, unit
 
@@ -530,7 +530,7 @@ def _could_move(model: Model, track: Track) -> bool:
     return any(
         bool(np.isin(track.stamps, headers.stamps).mean() > 0.5)
         for headers in model.evidence.headers.values()
-        if headers.type == "sensor_msgs/JointState"
+        if headers.type == JOINT_STATES
     )
 
 

@@ -5,14 +5,14 @@ from collections.abc import Iterator
 
 from tftool.doctor.check import REP105, checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.missing_joins import BASES, proposed_join
 from tftool.doctor.model import Limits, Model, Tree
 from tftool.doctor.stamp_stream import Track, last_part, overlap
-from tftool.geometry.rigid import Transform
+from tftool.doctor.wording import several
 
 check = checks_of(Area.SHAPE)
 
 _LARGE = 64  # frames of a circle, from which on no other is looked for from each of them
-_BASES = ("base_link", "base_footprint", "base")
 
 JUDGED_EMPTY = frozenset(
     {
@@ -105,7 +105,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     rule="there is more than one root; an error where messages are in a frame of a lesser "
     "tree, a note where each tree is a whole robot",
     headline="{root} is not joined to the tree of {main_root}",
-    detail="tree {number}: {frames}; used by {used}",
+    detail="tree {number}: {frames}{users}{evidence}",
     consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
     causes=(
         "the mount of a camera or lidar was never published",
@@ -139,9 +139,9 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         severity = Severity.ERROR if topics else Severity.WARNING
         if _is_complete(main) and _is_complete(tree):
             severity = Severity.NOTE
-        joint = _described_join(model, main, tree)
-        guess = missing_join(main, tree.root, is_base=_is_base(tree))
-        parent, child = guess if joint is None else joint
+        join = proposed_join(model, main, tree)
+        fix = nothing_says(tree.root) if join is None else join.fix
+        used = [f"{topic} ({count} messages)" for topic, count in topics.items()]
         yield Hit(
             frames=(tree.root, *sorted(tree.frames - {tree.root})),
             topics=tuple(topics),
@@ -150,63 +150,24 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
                 "root": tree.root,
                 "main_root": main.root,
                 "number": number,
-                "used": [f"{topic} ({count} messages)" for topic, count in topics.items()],
-                "join": {"parent": parent, "child": child, "guess": joint is None},
+                "used": used,
+                "users": f"; used by {several(used)}" if used else "; no message is in it",
+                "evidence": f"; {join.why}" if join is not None and join.why else "",
+                "join": None
+                if join is None or join.edge is None
+                else {"parent": join.edge[0], "child": join.edge[1], "guess": join.guess},
             },
-            fixes=(_join(model, tree, parent, child, certain=joint is not None),),
+            fixes=(fix,),
             alone=True,
         )
 
 
-def _described_join(model: Model, main: Tree, tree: Tree) -> tuple[str, str] | None:
-    """The joint of the robot description that joins a tree to the main one."""
-    for child in (tree.root, main.root):
-        joint = model.joint_above.get(child)
-        if joint is not None:
-            parent = model.prefix + joint.parent
-            if parent in (main.frames if child == tree.root else tree.frames):
-                return parent, child
-    return None
-
-
-def _join(model: Model, tree: Tree, parent: str, child: str, *, certain: bool) -> Fix:
-    if certain:
-        joint = model.joint_above[child]
-        if joint.type != "fixed":
-            return Fix(f"the robot description joins them by {joint.name}: publish its state")
-        return Fix(
-            f"the robot description joins them by {joint.name}: start robot_state_publisher, or",
-            static_publisher(parent, child, joint.origin),
-        )
-    if last_part(tree.root) == "body" and last_part(parent) in _BASES:
-        return Fix(
-            f"probably {child} is {parent} by another name; if so:",
-            static_publisher(parent, child, Transform()),
-        )
+def nothing_says(root: str) -> Fix:
+    """The remedy where nothing says what a root belongs to: where to look."""
     return Fix(
-        f"probably {child} belongs on {parent}; put in the measured mount:",
-        static_publisher(parent, child),
+        f"nothing in the data says where {root} belongs: look at what should publish it (a driver, "
+        "the robot description and its joint states, a localiser)"
     )
-
-
-def static_publisher(parent: str, child: str, pose: Transform | None = None) -> str:
-    """The line that publishes a mount; with letters for its numbers where they are not known."""
-    numbers = "--x X --y Y --z Z --yaw A"
-    if pose is not None:
-        names = ("x", "y", "z", "qx", "qy", "qz", "qw")
-        values = (*pose.translation, *pose.rotation)
-        numbers = " ".join(f"--{a} {b:.9g}" for a, b in zip(names, values, strict=True))
-    return (
-        f"ros2 run tf2_ros static_transform_publisher {numbers} "
-        f"--frame-id {quoted(parent)} --child-frame-id {quoted(child)}"
-    )
-
-
-def quoted(name: str) -> str:
-    """A name as a word of a shell's command line."""
-    import shlex
-
-    return shlex.quote(name)
 
 
 def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
@@ -221,39 +182,7 @@ def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
 def _is_complete(tree: Tree) -> bool:
     """Whether a tree is a whole robot: odometry and a base of its own."""
     parts = {last_part(frame) for frame in tree.frames}
-    return any(part.startswith("odom") for part in parts) and not parts.isdisjoint(_BASES)
-
-
-def missing_join(main: Tree, root: str, *, is_base: bool = False) -> tuple[str, str]:
-    """The likeliest parent and child of an edge that is missing.
-
-    Args:
-        main: The tree that something is to be joined to.
-        root: The root of what is.
-        is_base: Whether that holds a robot's base, and is no sensor.
-    """
-    part = last_part(root)
-    if part.startswith(("odom", "camera_init")) and "map" in main.frames:
-        return "map", root
-    if part == "map" or (part == "world" and main.root != "world"):
-        return root, main.root
-    base = base_of(main)
-    if not base or (is_base and last_part(base) not in _BASES):
-        return main.root, root
-    return base, root
-
-
-def _is_base(tree: Tree) -> bool:
-    return any(last_part(frame) in _BASES for frame in tree.frames)
-
-
-def base_of(tree: Tree) -> str:
-    """The frame on which a robot's sensors are mounted; empty where there is none."""
-    for name in (*_BASES, "body"):
-        found = sorted(frame for frame in tree.frames if last_part(frame) == name)
-        if found:
-            return found[0]
-    return ""
+    return any(part.startswith("odom") for part in parts) and not parts.isdisjoint(BASES)
 
 
 @check(
@@ -343,7 +272,8 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     "rep105-shape",
     Severity.WARNING,
     rule="map and odom exist and base hangs from map beside odom; or odom hangs from a base "
-    "that is below map; or base_footprint and base_link both hang from odom",
+    "that is below map; or map hangs below odom; or base_footprint and base_link both hang from "
+    "odom",
     headline="map, odom and base are not in one line: {where}",
     detail="{found}",
     consequence="navigation expects map above odom above base (REP-105); a frame has one parent",
@@ -380,6 +310,10 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
             for odom in named["odom"]:
                 if parent_of.get(odom) == base and set(chain) & set(named["map"]):
                     yield _shape((base, odom), f"{odom} hangs from {base}, below map")
+    for one in named["map"]:
+        chain = [track.parent for track in model.above(one)]
+        if set(chain) & set(named["odom"]):
+            yield _shape((chain[0], one), f"{one} hangs from {chain[0]}, below odom")
     for foot in named["base_footprint"]:
         for link in named["base_link"]:
             above = parent_of.get(foot, "")

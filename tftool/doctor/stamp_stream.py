@@ -337,9 +337,12 @@ def bounded(stamps: Stamps) -> Stamps:
     return stamps
 
 
+JOINT_STATES = "sensor_msgs/JointState"
+"""Messages that robot_state_publisher makes transforms of."""
+
 NOT_SPATIAL = frozenset(
     {
-        "sensor_msgs/JointState",
+        JOINT_STATES,
         "sensor_msgs/BatteryState",
         "sensor_msgs/Joy",
         "sensor_msgs/TimeReference",

@@ -7,8 +7,8 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.doctor.check import REP103, REP105, checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.missing_joins import base_of
 from tftool.doctor.model import Limits, Model
-from tftool.doctor.shape_checks import base_of
 from tftool.doctor.stamp_stream import ZERO_QUATERNION, Track, last_part
 from tftool.doctor.wording import metres
 from tftool.geometry.quaternions import angle_between

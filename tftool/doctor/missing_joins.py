@@ -1,0 +1,189 @@
+"""Proposals for transforms that are missing, from what the data or the description say of them."""
+
+import shlex
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tftool.doctor.findings import Edge, Fix
+from tftool.doctor.model import Model, Tree
+from tftool.doctor.stamp_stream import Track, last_part
+from tftool.geometry.rigid import Transform
+
+BASES = ("base_link", "base_footprint", "base")
+"""Names of the frame on which a robot's sensors are mounted."""
+
+_PLAIN = frozenset({"base", "link", "frame", "footprint", "body", ""})
+
+_MOUNTED = frozenset(
+    {"LaserScan", "PointCloud2", "Imu", "Image", "CameraInfo", "CompressedImage", "Range"}
+    | {"NavSatFix", "MagneticField", "DepthImage"}
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Join:
+    """Transform that is missing, with the evidence for it.
+
+    Attributes:
+        edge: Its parent and child; None where the evidence names none.
+        why: What says so: part of a sentence.
+        fix: What to do.
+        guess: Whether only names or customs say so.
+    """
+
+    edge: Edge | None
+    why: str
+    fix: Fix
+    guess: bool = True
+
+
+def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
+    """Propose what joins two trees; None where neither data nor description say it.
+
+    Args:
+        model: What is known of the frames.
+        main: A tree.
+        lesser: Another.
+    """
+    for tree, other in ((lesser, main), (main, lesser)):
+        found = _described(model, tree.root, other.frames) or _in_odometry(model, tree, other)
+        if found is not None:
+            return found
+    if _are_two_robots(main, lesser):
+        text = (
+            f"two robots: give both a frame in common, as a map that the localiser of each places "
+            f"its root in ({main.root}, {lesser.root})"
+        )
+        return Join(None, "each of the two trees is a robot of its own", Fix(text))
+    for tree, other in ((lesser, main), (main, lesser)):
+        found = _localised(tree, other) or _by_another_name(tree, other)
+        if found is not None:
+            return found
+    return None
+
+
+def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join | None:
+    """Propose what publishes a frame that no transform names; None without evidence.
+
+    Args:
+        model: What is known of the frames.
+        name: The frame.
+        kinds: Types of the messages that are in it.
+    """
+    alone = Tree(name, frozenset({name}))
+    for tree in model.trees:
+        found = _described(model, name, tree.frames) or _in_odometry(model, alone, tree)
+        if found is not None:
+            return found
+    base = next((one for tree in model.trees if (one := base_of(tree))), "")
+    if base and any(last_part(kind) in _MOUNTED for kind in kinds):
+        text = f"if it is a mount of its own, fixed to {base}, publish where it is:"
+        return Join((base, name), "", Fix(text, static_publisher(base, name)))
+    return None
+
+
+def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
+    """The joint of the robot description above a root, if it leads to other frames."""
+    joint = model.joint_above.get(root)
+    if joint is None or model.prefix + joint.parent not in others:
+        return None
+    parent, why = model.prefix + joint.parent, f"the robot description joins them by {joint.name}"
+    if joint.type != "fixed":
+        return Join((parent, root), why, Fix(f"{why}: publish its state"), guess=False)
+    fix = Fix(
+        f"{why}: start robot_state_publisher, or", static_publisher(parent, root, joint.origin)
+    )
+    return Join((parent, root), why, fix, guess=False)
+
+
+def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
+    """The Odometry messages that say where a frame of one tree is in one of another."""
+    odometry = model.evidence.odometry
+    if odometry is None:
+        return None
+    for edge in odometry.edges:
+        if edge.parent not in tree.frames or edge.child not in other.frames:
+            continue
+        by = ", ".join(Track(edge, odometry).topics)
+        why = f"{len(edge):,} Odometry messages ({by}) say {edge.child} in {edge.parent}"
+        fix = Fix(
+            f"{why}, and nothing publishes it as a transform: let the controller or the EKF do it "
+            "(enable_odom_tf, publish_tf: true); to look at it meanwhile:",
+            f"tftool echo {quoted(edge.parent)} {quoted(edge.child)} RECORDING --with-odometry",
+        )
+        return Join((edge.parent, edge.child), why, fix, guess=False)
+    return None
+
+
+def _localised(tree: Tree, other: Tree) -> Join | None:
+    """A map in one tree and odometry at the root of the other: REP-105 joins them."""
+    if not last_part(tree.root).startswith(("odom", "camera_init")):
+        return None
+    maps = sorted(frame for frame in other.frames if last_part(frame) == "map")
+    if not maps:
+        return None
+    why = f"REP-105 has a localiser publish {tree.root} in {maps[0]}"
+    fix = Fix(f"{why}: look whether it runs (AMCL, a SLAM), and in which frames it publishes")
+    return Join((maps[0], tree.root), why, fix)
+
+
+def _by_another_name(tree: Tree, other: Tree) -> Join | None:
+    """A root that another tree seems to know under a near name: base_link, base_footprint."""
+    root = tree.root
+    for name in sorted(other.frames):
+        if _prefix(name) != _prefix(root) or _core(name) != _core(root):
+            continue
+        why = f"{name} is near: {root} may be the same frame by another name"
+        fix = Fix(f"{why}; if so:", static_publisher(name, root, Transform()))
+        return Join((name, root), why, fix)
+    return None
+
+
+def _core(name: str) -> frozenset[str]:
+    """The words of a name that tell it from others: of base_laser_link, laser."""
+    return frozenset(last_part(name).lower().split("_")) - _PLAIN
+
+
+def _are_two_robots(main: Tree, lesser: Tree) -> bool:
+    """Whether two trees hold a base each, and not of one robot under two names."""
+    ours, theirs = _bases(main), _bases(lesser)
+    if not ours or not theirs:
+        return False
+    same_names = {last_part(name) for name in ours} & {last_part(name) for name in theirs}
+    return bool(same_names) or {_prefix(n) for n in ours}.isdisjoint(_prefix(n) for n in theirs)
+
+
+def _bases(tree: Tree) -> set[str]:
+    names = {frame for frame in tree.frames if last_part(frame) in BASES}
+    return names if len(tree.frames) > 1 else set()
+
+
+def _prefix(name: str) -> str:
+    return name.removesuffix(last_part(name))
+
+
+def base_of(tree: Tree) -> str:
+    """The frame on which a robot's sensors are mounted; empty where there is none."""
+    for name in (*BASES, "body"):
+        found = sorted(frame for frame in tree.frames if last_part(frame) == name)
+        if found:
+            return found[0]
+    return ""
+
+
+def static_publisher(parent: str, child: str, pose: Transform | None = None) -> str:
+    """The line that publishes a mount; with letters for its numbers where they are not known."""
+    numbers = "--x X --y Y --z Z --yaw A"
+    if pose is not None:
+        names = ("x", "y", "z", "qx", "qy", "qz", "qw")
+        values = (*pose.translation, *pose.rotation)
+        numbers = " ".join(f"--{a} {b:.9g}" for a, b in zip(names, values, strict=True))
+    return (
+        f"ros2 run tf2_ros static_transform_publisher {numbers} "
+        f"--frame-id {quoted(parent)} --child-frame-id {quoted(child)}"
+    )
+
+
+def quoted(name: str) -> str:
+    """A name as a word of a shell's command line."""
+    return shlex.quote(name)
