@@ -150,3 +150,52 @@ def test_diagnostics_have_no_place_and_may_have_another_clock():
     made.start = START
     made.hears("/diagnostics", "", kind="diagnostic_msgs/DiagnosticArray")
     assert ids(made, notes=True) == []
+
+
+def shifted(hours: float) -> Robot:
+    """A robot whose clock is off that of the recorder by some hours."""
+    made = robot(log_from=START + hours * 3600.0)
+    made.hears("/points", "laser", 5.0, "sensor_msgs/PointCloud2")
+    return made
+
+
+@pytest.mark.parametrize("hours", [143.0, -3.0])
+def test_a_recording_that_is_shifted_as_a_whole_is_one_note(hours):
+    made = shifted(hours)
+    (note,) = made.judged().findings
+    assert (note.id, note.severity) == ("shifted-clock", Severity.NOTE)
+    side = "before" if hours > 0 else "after"
+    assert note.message.startswith(f"all stamps are {abs(hours):g} hours {side} their reception")
+    # What is asked of the waits is asked of the shifted clock.
+    made.hears("/cloud", "laser", 5.0, "sensor_msgs/PointCloud2", latency=-0.08)
+    assert ids(made) == ["clock-offset"]
+
+
+def test_an_imu_on_the_right_clock_is_off_all_others():
+    made = shifted(143.0)
+    made.hears("/imu", "laser", 50.0, "sensor_msgs/Imu", latency=0.002)
+    kind, rows = made.heard["/imu"]
+    made.heard["/imu"] = (kind, [(stamp + seconds(143 * 3600), log, f) for stamp, log, f in rows])
+    findings = [one for one in made.judged().findings if one.because_of is None]
+    assert [one.id for one in findings] == ["clock-offset", "shifted-clock"]
+    assert findings[0].topics == ("/imu",)
+    assert "143 hours off" in findings[0].message
+
+
+def test_dating_ahead_by_a_period_or_of_a_constant_is_by_design():
+    made = robot()
+    made.moving("map", "odom", 20.0, stands, offset=0.05)
+    made.moving("base_link", "arm", 10.0, drives, offset=0.1)
+    made.moving("base_link", "mount", 50.0, stands, offset=0.5)
+    assert ids(made, notes=True) == []
+    made.moving("base_link", "neck", 50.0, drives, offset=0.5)
+    assert found(made, "future-stamp").edges == (("base_link", "neck"),)
+
+
+def test_a_scan_that_arrives_one_scan_later_is_on_time():
+    made = robot(scans=False)
+    made.hears("/scan", "laser", 6.5, latency=0.152)
+    assert "clock-offset" not in ids(made, notes=True)
+    late = robot(scans=False)
+    late.hears("/scan", "laser", 20.0, latency=0.252)
+    assert "a delay in its driver, or another clock" in found(late, "clock-offset").message

@@ -10,10 +10,13 @@ from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, unsorted_share
-from tftool.doctor.wording import several
+from tftool.doctor.wording import several, span
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.CLOCKS)
+
+CONSTANTS_AHEAD = seconds(1)
+"""How far ahead ROS 1 may date what never moves; its robot_state_publisher does so by 0.5 s."""
 
 
 @check(
@@ -91,10 +94,46 @@ def _name(stream: "Track | Heard") -> str:
 
 
 @check(
+    "shifted-clock",
+    Severity.NOTE,
+    rule="more than half of all streams are stamped by the same constant of more than 2 s before "
+    "or after their reception, to 1 s",
+    headline="all stamps are {by:span} {side} their reception, constant to {spread:span}",
+    detail="{streams} streams; latencies and the cache are judged against the clock of the stamps",
+    consequence="none for lookups within the recording; a live listener on another computer "
+    "refuses all of it",
+    fixes=(Fix("set the clock of the robot (chrony, NTP), if it was not played again on purpose"),),
+    causes=(
+        "the robot's clock was never set: it has no battery and no network",
+        "the recording was played again and recorded anew",
+    ),
+    needs=("log times",),
+    why="one constant for everything is one clock, and no publisher's fault",
+    because_of=(("anything", "time-jump-back"),),
+)
+def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
+    """All stamps are off their reception by one constant."""
+    if model.shift is None:
+        return
+    yield Hit(
+        since=model.start,
+        count=model.shift.streams,
+        facts={
+            "by": abs(model.shift.by),
+            "side": "before" if model.shift.by > 0 else "after",
+            "spread": model.shift.spread,
+            "streams": model.shift.streams,
+        },
+        alone=True,
+    )
+
+
+@check(
     "future-stamp",
     Severity.WARNING,
     rule="the median latency of a transform is below -{seconds:g} s (of what places "
-    "odometry in a map: -{localisation:g} s); a note from -{note:g} s on",
+    "odometry in a map: -{localisation:g} s); a note from -{note:g} s on; not where it is dated "
+    "ahead by its own period, or is a constant and dated up to 1 s ahead",
     headline="{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
     detail="{edge}: {ahead:span} ahead (median){clock}",
     consequence="the latest common time lies in the future: a lookup at latest mixes moments",
@@ -111,7 +150,9 @@ def _name(stream: "Track | Heard") -> str:
     links=threads("ros-navigation/navigation2#3166"),
     limits={"seconds": 0.25, "localisation": 2.0, "note": 0.02},
     needs=("log times",),
-    why="AMCL dates its transform 1 s ahead, and offsets of 0.1 s are in use",
+    why="AMCL dates its transform 1 s ahead, and offsets of 0.1 s are in use; ROS 1's static "
+    "publishers and gmapping date theirs one period ahead, its robot_state_publisher fixed joints "
+    "0.5 s",
     because_of=(("stream", "clock-mixture"),),
 )
 def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -120,6 +161,8 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         if not len(track.stamps):
             continue
         ahead = -track.median_latency
+        if _by_design(track, ahead):
+            continue
         least = limits["localisation"] if track.is_localisation else limits["seconds"]
         if ahead > least * NANOSECONDS:
             yield _ahead(model, track, ahead, Severity.WARNING)
@@ -127,13 +170,21 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             yield _ahead(model, track, ahead, Severity.NOTE)
 
 
+def _by_design(track: Track, ahead: int) -> bool:
+    """Whether a transform is dated ahead as ROS 1 does it: for until the next one comes."""
+    if ahead <= 1.2 * track.period:
+        return True
+    return not track.moves and ahead <= CONSTANTS_AHEAD
+
+
 def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
-    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
     # Streams of one computer are ahead by the same amount; a tolerance is one publisher's own.
+    others: list[Track | Heard] = [h for h in model.heard if h.is_spatial]
+    others += [t for t in model.dynamic if t.nodes and not set(t.nodes) & set(track.nodes)]
     also = [
         _name(other)
-        for other in streams
-        if other is not track and abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
+        for other in others
+        if abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
     ]
     told = f"; so are {several(also)}: their computer's clock is ahead" if also else ""
     return Hit(
@@ -224,6 +275,7 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         ("anything", "time-jump-back"),
         ("stream", "clock-mixture"),
         ("stream", "cache-short"),
+        ("stream", "clock-offset"),
         ("edge", "frozen-stamp"),
     ),
 )
@@ -262,12 +314,12 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     "clock-offset",
     Severity.WARNING,
     rule="the median latency of a sensor's messages is below -{seconds:g} s (of a laser "
-    "scan: one scan more); a note where steady streams (95 % within {spread:g} s, "
-    "{samples:g} messages) form groups more than {apart:g} s apart",
-    headline="{topic} is {ahead:span} off the other clocks",
+    "scan: one scan more), or off that of a recording that is shifted as a whole; a note where "
+    "steady streams (95 % within {spread:g} s, {samples:g} messages), none ahead and each later "
+    "than its own period, form groups more than {apart:g} s apart",
+    headline="{topic} {found}",
     detail="{groups}",
-    consequence="each lookup at its stamps asks for what is not there yet, by the same amount for "
-    "ever",
+    consequence="{so}",
     fixes=(
         Fix(
             "synchronise the clocks: chrony with one computer as server, PTP for lidars, or "
@@ -304,7 +356,9 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
             steps = np.diff(np.sort(heard.stamps))
             allowed += float(np.median(steps)) if len(steps) else 0.0
         ahead = -heard.median_latency
-        if ahead > allowed:
+        # In a shifted recording a clock that is right is off all others.
+        is_off = model.shift is not None and 2 * abs(ahead) > abs(model.shift.by)
+        if ahead > allowed or is_off:
             found = True
             yield Hit(
                 topics=(heard.topic,),
@@ -315,6 +369,9 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                     "topic": heard.topic,
                     "ahead": ahead,
                     "groups": _offsets(model),
+                    "found": f"is {span(abs(ahead))} off the other clocks",
+                    "so": "each lookup at its stamps asks for what is not there"
+                    + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
                 },
                 alone=True,
             )
@@ -331,6 +388,9 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
         if len(one.stamps) < limits["samples"]:
             continue
         least, high = int(one.latency.min()), float(np.percentile(one.latency, 95))
+        # Dating ahead is a choice; a scan stamped with its start arrives one scan later.
+        if least < -limits["spread"] * NANOSECONDS or _is_one_period(one):
+            continue
         if high - least < limits["spread"] * NANOSECONDS:
             steady.append((least, _name(one)))
     steady.sort()
@@ -340,7 +400,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
             groups.append([])
         groups[-1].append(item)
     if len(groups) > 1:
-        lines = [f"{', '.join(name for _, name in g[:5])}: {_span(g[0][0])}" for g in groups]
+        lines = [f"{', '.join(name for _, name in g[:5])}: {span(g[0][0])}" for g in groups]
         yield Hit(
             topics=tuple(name for g in groups[1:] for _, name in g if name.startswith("/")),
             severity=Severity.NOTE,
@@ -349,13 +409,19 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
                 "topic": groups[-1][0][1],
                 "ahead": groups[-1][0][0] - groups[0][0][0],
                 "groups": lines,
+                "found": f"arrives {span(groups[-1][0][0] - groups[0][0][0])} later than the "
+                "others, steadily: a delay in its driver, or another clock",
+                "so": "a delay is waited for; a clock that is off stays off",
             },
             alone=True,
         )
 
 
-def _span(nanoseconds: int) -> str:
-    return f"{nanoseconds / 1e6:.0f} ms"
+def _is_one_period(stream: "Track | Heard") -> bool:
+    """Whether a stream arrives about one of its periods after its stamps."""
+    steps = np.diff(np.sort(stream.stamps))
+    period = float(np.median(steps)) if len(steps) else 0.0
+    return 0.5 * period < stream.median_latency < 1.2 * period
 
 
 def _offsets(model: Model) -> list[str]:
@@ -366,7 +432,7 @@ def _offsets(model: Model) -> list[str]:
         if len(one.stamps) > 2:
             grouped[round(one.median_latency / seconds(0.02))].append(_name(one))
     return [
-        f"{', '.join(dict.fromkeys(names[:4]))}: {step * 20} ms"
+        f"{', '.join(dict.fromkeys(names[:4]))}: {span(step * 20_000_000)}"
         for step, names in sorted(grouped.items())
     ]
 

@@ -12,7 +12,7 @@ import numpy as np
 from tftool.base.common_ancestor import climbed, up_to_join
 from tftool.base.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
 from tftool.doctor.evidence import Evidence
-from tftool.doctor.stamp_stream import Heard, Stream, Track, last_part
+from tftool.doctor.stamp_stream import WILD, Heard, Stream, Track, last_part
 from tftool.recordings.contract import (
     Stamps,
 )
@@ -46,6 +46,25 @@ class Settings:
     fixed_frame: str = ""
     tf_topics: tuple[str, ...] = ()
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+
+
+SHIFT = seconds(2)
+"""How far all stamps lie from their reception where the whole recording is shifted."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shift:
+    """Constant between the clock of the stamps and that of the recorder.
+
+    Attributes:
+        by: How long before their reception most stamps are, nanoseconds; negative if behind it.
+        spread: Within what that is constant: the median of the streams, nanoseconds.
+        streams: How many streams have it.
+    """
+
+    by: Duration
+    spread: Duration
+    streams: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +110,7 @@ class Model:
         heard: One for each topic and frame of its messages.
         laps: Where time went back; all else is about what came before the first.
         reference: How latencies are reckoned, a sentence; empty where that is plain.
+        shift: The constant by which the stamps are off their reception as a whole; None for none.
     """
 
     def __init__(self, evidence: Evidence, settings: Settings | None = None) -> None:
@@ -106,6 +126,7 @@ class Model:
         )
         self.laps: tuple[Lap, ...] = ()
         self.reference = ""
+        self.shift: Shift | None = None
         if evidence.timed:
             self._find_laps()
         self._put_on_one_clock()
@@ -283,7 +304,7 @@ class Model:
         """The log time of a moment on the clock of the stamps."""
         read, received = self.evidence.clock
         if stamp >= SIMULATED_BELOW or self.evidence.end < SIMULATED_BELOW:
-            return stamp
+            return stamp if self.shift is None else stamp + self.shift.by
         if len(read):
             return int(through_clock(np.array([stamp]), received, read)[0])
         return stamp + self._offset
@@ -339,6 +360,8 @@ class Model:
         self._offset = 0
         for stream in streams:
             stream.arrivals = stream.logs
+        if self.evidence.timed:
+            self._find_shift(streams)
         if not simulated or self.evidence.end < SIMULATED_BELOW:
             return  # log times are on the clock of the stamps already
         if not len(read):
@@ -353,7 +376,33 @@ class Model:
                 continue
             on_clock = through_clock(logs, read, received) if len(read) else logs - self._offset
             is_sim = stream.stamps < SIMULATED_BELOW
-            stream.arrivals = on_clock if is_sim.all() else np.where(is_sim, on_clock, logs)
+            stream.arrivals = np.where(is_sim, on_clock, stream.arrivals)
+
+    def _find_shift(self, streams: list[Stream]) -> None:
+        """Find the constant that most stamps are off by, and reckon arrivals without it."""
+        late, spreads = [], []
+        for stream in streams:
+            is_static = isinstance(stream, Track) and stream.static
+            if is_static or len(stream.stamps) < 3 or sum(stream.families) != stream.families[1]:
+                continue
+            if not stream.families[1]:
+                continue
+            delays = (stream.logs - stream.stamps)[stream.stamps != 0]
+            low, middle, high = np.percentile(delays, (10, 50, 90), method="nearest").tolist()
+            late.append(int(middle))
+            spreads.append(int(high) - int(low))
+        by = sorted(late)[len(late) // 2] if late else 0
+        # One stream alone may be late by seconds of its own fault, and by hours hardly.
+        if abs(by) <= (SHIFT if len(late) > 1 else WILD):
+            return
+        alike = [spread for one, spread in zip(late, spreads, strict=True) if abs(one - by) < LAP]
+        spread = sorted(alike)[len(alike) // 2]
+        if 2 * len(alike) <= len(late) or spread > LAP:
+            return
+        self.shift = Shift(by, spread, len(alike))
+        for stream in streams:
+            is_wall = stream.stamps >= SIMULATED_BELOW
+            stream.arrivals = np.where(is_wall, stream.logs - by, stream.logs)
 
     def _freshest(self) -> int:
         offsets = []
