@@ -5,7 +5,8 @@ import math
 import pytest
 
 from tests.doctor.judged import found, ids, turned
-from tests.doctor.robots import NO_TURN, Robot, drives, robot, stands
+from tests.doctor.robots import NO_TURN, START, Robot, drives, robot, stands
+from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
 
 
@@ -103,6 +104,16 @@ def test_a_mount_that_differs_from_its_fixed_joint(pose, differs):
     assert ("urdf-tf-mismatch" in ids(made)) is differs
 
 
+def test_the_static_that_arrives_last_counts_whatever_its_stamp():
+    made = robot(laser=False)
+    made.static("base_link", "laser", (0.1, 0.0, 0.2, *NO_TURN), at=4.0)
+    late = (0.4, 0.0, 0.2, *NO_TURN)
+    # As a static publisher that was started before, and is heard later.
+    made.sent("base_link", "laser", 5.0, late, topic="/tf_static", stamp=seconds(START - 19.0))
+    made.urdf = urdf(LASER_JOINT)
+    assert found(made, "urdf-tf-mismatch").facts["apart"] == pytest.approx(0.3)
+
+
 def test_a_description_with_mistakes_is_told_and_the_rest_is_skipped():
     made = robot()
     made.urdf = urdf("a: fixed one two", "b: fixed three four")
@@ -155,6 +166,17 @@ def test_odometry_and_transform_of_one_name_that_disagree():
     # At times they may: more than half is too often.
     made.odometry = says(lambda t: (0.5 * t + (1.0 if t > 4.5 else 0.0), 0.0, 0.0, *NO_TURN))
     assert ids(made) == []
+
+
+def test_odometry_with_two_values_for_one_stamp_has_two_sources():
+    made = robot()
+    made.odometry = says(drives)
+    for tick in range(11):
+        x = 0.25 * tick + 0.04
+        made.odometry.sent("odom", "base_link", 0.5 * tick, (x, 0, 0, *NO_TURN), topic="/odom")
+    finding = found(made, "publisher-conflict")
+    assert (finding.count, finding.topics) == (11, ("/odom",))
+    assert finding.facts["apart"] == pytest.approx(0.04)
 
 
 def test_odometry_of_a_pair_that_tf_does_not_join_is_a_note():

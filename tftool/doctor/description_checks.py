@@ -188,7 +188,7 @@ def urdf_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
         track = statics.get((model.prefix + joint.parent, model.prefix + joint.child))
         if joint.type != "fixed" or track is None:
             continue
-        place = track.by_stamp[-1]
+        place = track.last
         apart = math.dist(track.translations[place].tolist(), joint.origin.translation)
         qx, qy, qz, qw = unit(track.rotations[place]).tolist()
         turned = angle_between((qx, qy, qz, qw), joint.origin.rotation)

@@ -3,6 +3,7 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -136,6 +137,17 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
         hit = hit or _values_at_one_stamp(track, limits) or _unnamed_conflict(track, limits)
         if hit is not None:
             yield hit
+    odometry = model.evidence.odometry
+    if odometry is None:
+        return
+    for edge in odometry.edges:
+        told = Track(edge, odometry)
+        told.arrivals = told.logs
+        # Odometry of two topics may differ: wheels and a filter.
+        hit = _values_at_one_stamp(told, limits) if len(told.topics) == 1 else None
+        if hit is not None:
+            seen = f" (two values at one stamp, on {told.topics[0]})"
+            yield replace(hit, topics=told.topics, facts={**hit.facts, "seen": seen})
 
 
 def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:

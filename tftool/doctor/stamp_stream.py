@@ -226,6 +226,15 @@ class Track(Stream):
         stamps = self.stamps[places]
         return places[np.argsort(stamps, kind="stable")] if _falls(stamps) else places
 
+    @property
+    def last(self) -> int:
+        """Return the place of what holds at the end; of statics the last to arrive, as in tf2.
+
+        Raises:
+            IndexError: If none is usable.
+        """
+        return int(np.flatnonzero(self.usable)[-1] if self.static else self.by_stamp[-1])
+
     @cached_property
     def sorted_stamps(self) -> Stamps:
         """Of the usable ones, ascending."""

@@ -238,7 +238,7 @@ def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
         parent = last_part(track.parent)
         if stem is None or "optical" in parent or not len(track.by_stamp):
             continue
-        place = track.by_stamp[-1]
+        place = track.last
         x, y, z = track.translations[place].tolist()
         shares = parent in (stem, f"{stem}_link", f"{stem}_frame") or parent.startswith(stem)
         near = (x * x + y * y + z * z) ** 0.5 < limits["metres"]
@@ -406,7 +406,7 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.statics:
         if track.parent not in inside or not len(track.by_stamp):
             continue
-        away = float(np.linalg.norm(track.translations[track.by_stamp[-1]]))
+        away = float(np.linalg.norm(track.translations[track.last]))
         if away > limits["metres"]:
             yield Hit(
                 edges=(track.edge,),
@@ -442,5 +442,5 @@ def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:
 
 def _is_half_turn(track: Track) -> bool:
     return bool(len(track.by_stamp)) and bool(
-        (track.rotations[track.by_stamp[-1]] == (1.0, 0.0, 0.0, 0.0)).all()
+        (track.rotations[track.last] == (1.0, 0.0, 0.0, 0.0)).all()
     )
