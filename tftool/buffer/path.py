@@ -33,6 +33,7 @@ class Path(NamedTuple):
 
     def latest(self) -> Stamp:
         """The newest moment for which every link has data; 0 if none of them moves."""
+        # The smallest of the links' newest stamps; a stamp of 0 is "no sample yet".
         latest = 0
         for link in self.moving:
             stamp = link.newest_stamp
@@ -43,6 +44,7 @@ class Path(NamedTuple):
     def covers(self, time: Stamp) -> bool:
         """Whether every link has data at that moment."""
         for link in self.moving:
+            # The newest stamp is asked for most, so it is compared first.
             if time != link.newest_stamp and (
                 not link.oldest_stamp <= time < link.newest_stamp and time != 0
             ):

@@ -62,6 +62,7 @@ class Solver:
             return time, _HERE, False
         target_number = self.number(target, "target_frame", _LOOKUP, target, source)
         source_number = self.number(source, "source_frame", _LOOKUP, target, source)
+        # 0 asks for the latest moment for which the whole chain has data.
         time = time or self.latest_common(target_number, source_number)
         walk = trees.walk(target_number, source_number, time)
         if walk.ended != ARRIVED:
@@ -75,6 +76,7 @@ class Solver:
         Raises:
             TransformException: If nothing joins them, or a chain does not end.
         """
+        # tf2 looks for the latest common time before it walks, so its refusals come first.
         ended, latest = self._tree.latest_common(target, source)
         if ended == ARRIVED:
             return latest
@@ -126,6 +128,7 @@ class Solver:
                 # Nothing but this name's coming up can help.
                 return PENDING, (name,)
         target_number, source_number = trees.numbers[target], trees.numbers[source]
+        # A question fails for good only when the chain's own data has moved past it.
         ended, latest = trees.latest_common(target_number, source_number)
         # A question for the latest never becomes too old.
         expired = latest != 0 and time != 0 and time + self._cache_time < latest
@@ -136,6 +139,8 @@ class Solver:
             return AVAILABLE, ()
         if expired:
             return EXPIRED, ()
+        # Both walks: the missing link may hang elsewhere at the newest moment than at the asked
+        # one.
         newest = trees.walk(target_number, source_number, 0)
         seen = dict.fromkeys([*walk.visited(), *newest.visited()])
         return PENDING, tuple(trees.frames[number].name for number in seen)
@@ -163,6 +168,7 @@ class Solver:
 
     def drop_paths(self) -> None:
         """Forget every path."""
+        # Called at every change of the tree; as a rule there is nothing to drop.
         if self._kept:
             self.paths.clear()
             self._kept = 0
@@ -184,6 +190,7 @@ class Solver:
             # A pair that was looked up once is looked up again.
             if link.count >= link.large_from:
                 link.use_large_pages()
+        # All at once: choosing a victim would cost more than the paths are worth.
         if self._kept >= MOST_PATHS:
             self.drop_paths()
         self.paths.setdefault(trees.frames[target].name, {})[trees.frames[source].name] = path

@@ -132,6 +132,7 @@ def _room(size: int) -> Bytes:
     if pages is None:
         return np.empty(size, dtype=np.uint8)
     whole = np.frombuffer(pages, dtype=np.uint8)
+    # The first whole page: the system maps large pages at multiples of their size only.
     first = -whole.ctypes.data % PAGE
     return whole[first : first + size]
 
@@ -190,8 +191,10 @@ class Growing:
         room = _room(split + rows * self.messages.itemsize)
         records, self.records = self.records, room[:split].view(np.int64).reshape(rows, 8)
         messages, self.messages = self.messages, room[split:].view(np.int32)
+        # Only rows that hold something: the rest of the memory is never touched.
         self.records[:there] = records[:there]
         self.messages[:there] = messages[:there]
+        # The native scan holds the addresses: it asks for them anew when this has changed.
         self.state[_MOVED] += 1
         return rows - before
 
@@ -207,6 +210,7 @@ class Growing:
             share: How much of all has come with them.
         """
         state = self.state
+        # Threads may deliver batches in another order; such an edge is sorted at the end.
         if state[_LAST] > first[0]:
             state[_ORDERED] = 0
         self.first = min(self.first, first)
@@ -317,6 +321,7 @@ class Table:
                 f"{self._left_out} transforms were left out: there are more than "
                 f"{MOST_EDGES} pairs of frames."
             )
+        # By first appearance: threads and order of cutting must not change the answer.
         edges = sorted(self._edges.values(), key=lambda edge: edge.first)
         return Transforms(
             tuple(edge.finished() for edge in edges),
@@ -336,6 +341,7 @@ def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
         kind: Its type, "<u4".
     """
     size = np.dtype(kind).itemsize
+    # Overlapping views with a stride of one byte: unaligned words without a copy.
     words: Stamps = np.ndarray(
         (len(buffer) - size + 1,), dtype=kind, buffer=buffer.data, strides=(1,)
     )

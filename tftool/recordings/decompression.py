@@ -71,6 +71,7 @@ class _Room:
 
     def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
         """As the function of that name; what it gives is here as a rule, until the next one."""
+        # Reading happens in the thread as well: it waits for the disk without Python's lock.
         packed = read()
         if method == "zstd":
             check_size(len(packed), size)
@@ -110,6 +111,7 @@ class _Coming:
 
     def unpack_here(self) -> None:
         """Unpack it in this thread, if no other has begun to."""
+        # A future that cannot be cancelled is being unpacked by a thread.
         if not self.future.cancel():
             return
         self.future = Future()
@@ -166,6 +168,7 @@ class Ahead:
         self._lent = found.room
         self._start()
         for other in self._coming.values():
+            # The piece asked for is there: nothing more to help with.
             if found.future.done():
                 break
             if other is not None:

@@ -43,6 +43,7 @@ class Cutter:
         self._layout = layout
         self._static = static
         self._waiting: list[tuple[Batch, Indexes]] = []
+        # Messages and bytes that wait; both are bounded.
         self._count = self._held = 0
 
     def add(self, batch: Batch, numbers: Indexes) -> None:
@@ -52,6 +53,7 @@ class Cutter:
             batch: The messages.
             numbers: Their numbers in the table, shape (n,).
         """
+        # Those that wait go first: columns are in the order of the recording.
         if len(batch) >= _FEW:
             self.flush()
             self._cut_first(batch, numbers)
@@ -85,6 +87,7 @@ class Cutter:
 
     def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
         """Cut messages; where there may be more edges than are kept, those that come first are."""
+        # Even if each byte were part of the smallest transform, all would find room.
         if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
             self._cut(batch, numbers)
             return
@@ -130,6 +133,7 @@ class TemplateCutter(Cutter):
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
         lengths = batch.lengths
+        # A template for a single message costs more than to walk it.
         if len(batch) == 1:
             self._walk(batch, numbers)
             return
@@ -142,14 +146,17 @@ class TemplateCutter(Cutter):
 
     def _cut_equal(self, batch: Batch, numbers: Indexes, length: int) -> None:
         """Cut messages that are equally long."""
+        # Rows of whole words around the message, so that numpy compares 8 bytes at a time.
         begin, width = row_span(self._layout, length)
         if width < SMALLEST:
             self._walk(batch, numbers)
             return
+        # A row may begin before its message; the first message of a buffer has nothing there.
         if int(batch.starts.min()) + begin < 0:
             buffer = np.concatenate([np.zeros(8, dtype=np.uint8), batch.buffer])
             batch = Batch(buffer, batch.starts + 8, batch.lengths, batch.log_times, batch.senders)
         templates = self._templates.setdefault(length, [])
+        # Several layouts of one length: one word tells which, without trying each.
         if len(templates) > 1:
             batch, numbers = self._cut_told(batch, numbers, length)
             if not len(batch):
@@ -159,11 +166,13 @@ class TemplateCutter(Cutter):
         while len(rows):
             if tried == len(templates):
                 if self._layout is CDR and int(rows[0, 0]) >> 32 != _LITTLE_HEADER:
+                    # Big-endian CDR or an unknown header: rare enough to be walked one by one.
                     odd = rows[:, 0] >> np.uint64(32) != _LITTLE_HEADER
                     self._walk(batch.chosen(np.flatnonzero(odd)), numbers[odd])
                     rest = np.flatnonzero(~odd)
                     rows, numbers, batch = rows[rest], numbers[rest], batch.chosen(rest)
                     continue
+                # Names that change with every message would make a template each.
                 if tried >= _PER_LENGTH or not self._learn(batch.payload(0), length):
                     self._walk(batch, numbers)
                     return
@@ -218,6 +227,7 @@ class TemplateCutter(Cutter):
             walked = walk(self._layout, payload)
         except MalformedMessage:
             return False
+        # A hostile file may have a layout for each message: the memory of templates is bounded.
         self._bytes += 4 * length
         if self._bytes > _TEMPLATE_BYTES:
             self._bytes = 0
@@ -253,6 +263,8 @@ class ScanCutter(Cutter):
             return
         columns = map(np.ascontiguousarray, (batch.starts, batch.lengths, numbers))
         is_cdr = self._layout is CDR
+        # C cuts what it is sure of and returns the rest; `_aim` is called for each new pair of
+        # names.
         left_out, odd = self._pairs.take(batch.buffer, *columns, is_cdr, self._aim)
         self._table.leave_out(left_out)
         if odd:
@@ -274,6 +286,7 @@ class ScanCutter(Cutter):
         names = self._named(pair)
         edge = self._table.edge(*names, self._static, 0)
         if edge is None:
+            # No room for another edge: its transforms are counted and dropped.
             self._pairs.lead(pair, -1, False)
             return
         edge.first = min(edge.first, (message, rank))
@@ -294,6 +307,7 @@ class ScanCutter(Cutter):
         """Both names of a pair as `walk` gives them."""
         raw = self._pairs.names(pair)
         if self._layout is CDR:
+            # CDR counts the closing zero among a string's bytes.
             raw = tuple(name.removesuffix(b"\x00") for name in raw)
         parent, child = (name.decode("utf-8", "backslashreplace") for name in raw)
         return parent, child

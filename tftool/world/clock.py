@@ -65,6 +65,7 @@ class Clock(ABC):
         self.when_killed = Listeners()
         self.stopper = None
         self._waiters: list[tuple[Stamp, int, int, int, asyncio.Future[None]]] = []
+        # Counts the waiters: among equals, who asked first is woken first.
         self._asked = 0
 
     @abstractmethod
@@ -489,6 +490,7 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
     try:
         asyncio.set_event_loop(loop)
         task = loop.create_task(main)
+        # After the task exists, so that a signal always finds something to cancel.
         stopper = Stopper(loop, task, _real_seconds, clock.interrupt, clock.when_killed)
         clock.stopper = stopper
         try:
@@ -513,11 +515,14 @@ def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[
         loop.run_until_complete(task)
     except BaseException as error:
         failure = error
+    # Tasks that the main one left behind: each gets to run its `finally`.
     left_failure = _cancel_leftovers(clock, loop)
+    # A cancellation is the consequence; the failure of a leftover is the cause.
     if failure is None or isinstance(failure, asyncio.CancelledError):
         failure = left_failure or failure
     if clock.interrupted and (failure is None or isinstance(failure, Exception)):
         raise KeyboardInterrupt from failure
+    # What came out is a cancellation or the like: the signal explains it.
     if clock.interrupted:
         raise KeyboardInterrupt from None
     if failure is not None:
@@ -531,6 +536,7 @@ def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseExce
     async def cancel(tasks: "set[asyncio.Task[Any]]") -> BaseException | None:
         for task in tasks:
             task.cancel()
+        # Those that do not heed it in time; they must not hold up the end of the program.
         for task in await clock.wait_for_end(tasks):
             abandon(task)
         for task in tasks:
@@ -555,6 +561,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
     """An event loop whose time is a simulated clock's."""
 
     def __init__(self, clock: "SimClock") -> None:
+        # Before the base class, whose constructor asks for the time already.
         self.clock = clock
         super().__init__(_VirtualSelector(self))
 
@@ -583,6 +590,7 @@ class _VirtualSelector(selectors.DefaultSelector):
 
     def select(self, timeout: float | None = None) -> Any:
         """Poll now and then for signals and threads; jump when the loop has nothing to run."""
+        # A real poll costs a system call; a run of a million jumps cannot afford one for each.
         self._calls += 1
         if self._calls % self.POLL_EVERY == 0 or self.has_files():
             events = super().select(0)
@@ -590,6 +598,7 @@ class _VirtualSelector(selectors.DefaultSelector):
                 return events
         if timeout is not None and timeout <= 0:
             return []
+        # Every task sleeps: time jumps to the next timer, which the loop then finds due.
         if self._loop.clock.advance(timeout):
             return []
         if self._loop.is_forsaken():
@@ -597,6 +606,7 @@ class _VirtualSelector(selectors.DefaultSelector):
                 "nothing is due and every task waits: this run would never end. "
                 "Give it an end (until), or something that wakes it."
             )
+        # A thread or a file may still wake the loop: simulated time waits for it in real time.
         return super().select(None)
 
     def has_files(self) -> bool:

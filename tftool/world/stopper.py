@@ -83,6 +83,7 @@ class Stopper:
         self._asked_at: float | None = None
         self._raised_at: float | None = None
         self._thread: threading.Thread | None = None
+        # Python writes each signal's number into this socket, also while a node holds the loop.
         self._inbox, self._outbox = socket.socketpair()
         self._outbox.setblocking(False)
         self._handlers: dict[signal.Signals, Any] = {}
@@ -91,6 +92,7 @@ class Stopper:
         if threading.current_thread() is threading.main_thread():
             self._wakeup_fd = signal.set_wakeup_fd(self._outbox.fileno(), warn_on_full_buffer=False)
             for number in _SIGNALS:
+                # A handler must exist, or the system's default would end the process at once.
                 self._handlers[number] = signal.signal(number, _pass_over)
             self._begin()
 
@@ -110,6 +112,7 @@ class Stopper:
 
     def close(self) -> None:
         """Give the signals back to their former handlers."""
+        # Set before the poke: the thread looks at it as soon as it wakes up.
         self._over = True
         for number, before in self._handlers.items():
             if before is not None:
@@ -129,6 +132,7 @@ class Stopper:
 
     def _poke(self) -> None:
         with contextlib.suppress(BlockingIOError):
+            # 0 is no signal: it only wakes the thread, which then looks at the deadlines.
             self._outbox.send(b"\0")
 
     # On the thread of its own
@@ -164,11 +168,13 @@ class Stopper:
         return min(waits) + 0.01 if waits else None
 
     def _caught(self) -> None:
+        # The second signal: no node gets another chance.
         if self.interrupted:
             self._kill(INTERRUPTED)
         self.interrupted = True
         self._interrupted_at = self._now()
         self._on_interrupt()
+        # On the loop's thread: tasks may not be cancelled from another.
         self._ask(self._task.cancel)
 
     def _look(self) -> None:
@@ -183,12 +189,14 @@ class Stopper:
                     _say(f"{name} has not returned after the end of the run, which ends it")
                 self._kill(FAILED)
             return
+        # A question is put to the loop; one that answers is alive, however long its nodes take.
         due = self._deadline is not None and now >= self._deadline
         if self._asked_at is None:
             if due or self._standstill is not None:
                 self._asked_at = now
                 self._ask(self._answered)
             return
+        # No answer: a node holds the loop. Overdue is raised in whatever it runs.
         patience = PATIENCE if due else self._standstill
         if patience is not None and now >= self._asked_at + patience:
             self._raised_at = now
@@ -227,6 +235,7 @@ class Stopper:
 
             with contextlib.suppress(termios.error):
                 termios.tcsetattr(0, termios.TCSANOW, self._terminal)
+        # Not `sys.exit`: `finally` blocks of a node that hangs would hang as well.
         os._exit(status)
 
 

@@ -37,6 +37,7 @@ async def live(world: World, *, until: Stamp | None = None) -> None:
     if end is not None:
         end.add_done_callback(lambda _: supervisor.stop())
     try:
+        # A copy: a node that starts may add others, which start by themselves.
         for node in list(world.nodes):
             supervisor.start(node)
         await supervisor.over
@@ -83,6 +84,7 @@ async def beside(
     both = {helping, working}
     try:
         await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+        # The helper came to its end first; its failure, if any, is raised here.
         if not working.done():
             helping.result()
             await asyncio.wait({working})

@@ -85,6 +85,7 @@ class Intervals:
         last = len(column.stamps) - 1
         self.row_by_row = not isinstance(first, slice)
         if isinstance(first, slice):
+            # All intervals of a column: made once, fetched by index for each moment.
             first = np.arange(first.start, first.stop)
         second = np.minimum(first + 1, last)
         begin, end = column.samples.take(first, axis=0), column.samples.take(second, axis=0)
@@ -98,6 +99,7 @@ class Intervals:
         self.places: Floats = np.zeros((k, 4))
         self.paths: Floats = np.zeros((k, 4))
         self.places[:, :3] = begin[:, :3]
+        # An infinite length makes every share 0: the older sample is taken as it is.
         self.lengths: Floats = np.where(still, np.inf, length)
         np.subtract(end[:, :3], begin[:, :3], out=self.paths[:, :3])
         self.paths[still] = 0.0
@@ -195,6 +197,7 @@ _LINE = 8
 
 def blocks(count: int, most: int) -> Iterator[slice]:
     """Split `count` moments into blocks of equal size, at most `most`; the last may be shorter."""
+    # Equal blocks: a short last one would cost as many numpy calls as a full one.
     size = -(-count // -(-count // most))
     # Rows of whole lines: an operation that crosses them at each step takes longer.
     size += -size % _LINE
@@ -253,6 +256,7 @@ class BlockArrays:
             translations: Is written to, shape (n, 3).
             rotations: Is written to, shape (n, 4).
         """
+        # NaN and infinity are answers here: they spread to the rows they belong to, and no further.
         with np.errstate(all="ignore"):
             self._climb(self._up, up, times, in_order)
             self._climb(self._down, down, times, in_order)
@@ -261,6 +265,8 @@ class BlockArrays:
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
         """Chain the links of one side."""
         side.empty = not edges
+        # Links in groups: one numpy call serves several of them, as long as the arrays fit the
+        # cache.
         for start in range(0, len(edges), GROUP):
             group = edges[start : start + GROUP]
             moving = [edge for edge in group if isinstance(edge, MovingEdge)]
@@ -278,6 +284,7 @@ class BlockArrays:
                     rotate(turn, factor, side.place, self._cross, self._spare)
                     add(side.place.xyz, place.xyz, side.place.xyz)
                     chain(turn, side.turn, side.unused, self._spare)
+                    # Two sets of rows take turns, so that no product overwrites its own factor.
                     side.turn, side.unused = side.unused, side.turn
                 side.place.close()
 

@@ -38,6 +38,7 @@ class Column:
     __slots__ = ("_samples", "_stamps", "origin", "origins", "parents", "records")
 
     def __init__(self, history: History) -> None:
+        # A snapshot: while this exists, the history copies its records before it changes them.
         flat, origins, self.origin = history.columns()
         self.records: npt.NDArray[np.int64] = np.frombuffer(flat, dtype=np.int64).reshape(-1, WORDS)
         self._stamps: Stamps | None = None
@@ -46,6 +47,7 @@ class Column:
         self.parents: npt.NDArray[np.int32] | None = None
         if self.origins is not None:
             parents = (self.origins & PARENT_MASK).astype(np.int32)
+            # Authorities may differ without another parent: only parents change a walk.
             if len(parents) and (parents != parents[-1]).any():
                 self.parents = parents
 
@@ -120,6 +122,7 @@ def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
     elif link is not None and link.newest is not None:
         stamps, poses = np.zeros(1, dtype=np.int64), np.array([link.newest])
         origins = np.array([link.origin], dtype=np.int64)
+    # Names are looked up once for each distinct sender, not for each sample.
     numbers, kind = np.unique(origins, return_inverse=True)
     parents = [tree.frames[number & PARENT_MASK].name for number in numbers.tolist()]
     authorities = [tree.authorities[number >> AUTHORITY_SHIFT] for number in numbers.tolist()]
@@ -130,6 +133,7 @@ def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
         np.array(authorities, dtype=np.object_)[kind],
     )
     for array in columns:
+        # They are handed to users: a change in them would be lost, so it raises.
         array.flags.writeable = False
     return SampleColumns(frame.name, is_static, *columns)
 
@@ -154,6 +158,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
         return np.zeros(0, dtype=np.int64)
     kind = given.dtype.kind
     if kind == "O":
+        # Python's own whole numbers, of any size: `whole` refuses True and 1.5.
         wholes = [whole(time) for time in given]
         unfit = [time for time in wholes if not refusals.fits(time)]
         if unfit:
@@ -184,6 +189,7 @@ class Buckets:
     def __init__(self, stamps: Stamps) -> None:
         self._stamps = stamps
         self._oldest = int(stamps[0])
+        # A shift finds the bucket: a power of two needs no division.
         span = int(stamps[-1]) - self._oldest
         self._shift = max((span // (2 * len(stamps))).bit_length() - 1, 0)
         count = (span >> self._shift) + 1
@@ -199,6 +205,7 @@ class Buckets:
         self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
     ) -> None:
         """Write into `index` the last sample at or before each moment."""
+        # Samples in bursts fill some buckets: there a binary search is quicker.
         if self._steps > _MOST_STEPS:
             index[:] = np.searchsorted(self._stamps, times, "right") - 1
             return

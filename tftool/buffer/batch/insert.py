@@ -96,6 +96,7 @@ class CheckedRows:
         every = np.ones(n, dtype=np.bool_)
         whole = self._rest[:2]
         codes = refusals.objections(*whole, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
+        # Judged by the scalar rules where they do not depend on the row; array tests do the rest.
         self.reasons = {
             **{line.partition(":")[0]: every for line in codes},
             "TF_NAN_INPUT": np.isnan(self.samples).any(axis=1),
@@ -148,12 +149,14 @@ def insert(
         reasons = {"TF_LONG_NAME": np.ones(len(accepted), dtype=np.bool_)}
         accepted[:] = False
         log("ERROR", long)
+    # A new name needs room for itself and for its parent's.
     if accepted.any() and not tree.has_room(child, parent, max_frames):
         full = refusals.too_many_frames(child, authority, len(tree.frames))
         reasons["TF_TOO_MANY_FRAMES"] = accepted.copy()
         accepted[:] = False
         log("ERROR", full)
     if accepted.any():
+        # From here on the tree changes: everything that may refuse was asked before.
         frame, history, _ = tree.hang(child, parent, False)
         assert isinstance(history, History)
         origin = tree.origin(parent, authority)
@@ -161,12 +164,14 @@ def insert(
         chosen = slice(None) if accepted.all() else np.flatnonzero(accepted)
         old = merge(history, origin, rows.stamps[chosen], rows.samples[chosen])
         if old.any():
+            # `old` counts among the accepted rows; the answer counts among all.
             late: Flags = np.zeros(len(accepted), dtype=np.bool_)
             late[np.flatnonzero(accepted)[old]] = True
             reasons["TF_OLD_DATA"] = late
             accepted &= ~late
         if not old.all():
             tree.note(frame, parent, authority, origin)
+    # A name that is too long was logged once, not for each row.
     refused = [] if long else np.flatnonzero(~accepted).tolist()
     if "TF_TOO_MANY_FRAMES" in reasons:
         refused = np.flatnonzero(~rows.validated).tolist()
@@ -215,10 +220,13 @@ def adopt(
         return False
     if objections or not len(records) or not tree.has_room(child, parent, max_frames):
         return False
+    # A known child may have samples to merge with: that is the work of `merge`.
     if there is not None and tree.frames[there].link is not None:
         return False
+    # Longer than the buffer remembers: rows would have to be pruned.
     if int(records[-1, 0]) - int(records[0, 0]) > tree.limit:
         return False
+    # Borrowed, not copied: a recording of a million rows is taken in microseconds.
     lent = words = _lent(records)
     for begin in range(kept, len(records), _BLOCK):
         # With the one before: rows in the cache are read only once.
@@ -231,6 +239,8 @@ def adopt(
         turns = batch.canonical(batch.unit(samples[:, 3:]))
         if np.isnan(turns).any():
             return False
+        # The first row that needs another quaternion makes a copy: the caller's array stays as it
+        # is.
         if words is lent:
             words = _words(records)
         changed = np.frombuffer(words, dtype=np.float64).reshape(-1, WORDS)
@@ -270,9 +280,11 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
     before = np.empty(n, dtype=np.int64)
     before[0] = history.newest_stamp if len(history) else _LEAST
     np.maximum(before[0], np.maximum.accumulate(stamps[:-1]), out=before[1:])
+    # Where subtracting would pass the smallest number there is, nothing is too old.
     floors = np.where(before < _LEAST + limit, _LEAST, before - limit)
     old: Flags = stamps < floors
     floor = int(floors[-1])
+    # The common case, newer samples in order: appended without looking at the old ones.
     in_order = bool(np.all(stamps[1:] > stamps[:-1]))
     if in_order and (not len(history) or int(stamps[0]) > history.newest_stamp):
         kept = slice(int(np.searchsorted(stamps, floor)), n)
@@ -284,6 +296,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
             history.extend(records, floor)
             return old
 
+    # Out of order: old and new are sorted together, and the history is built anew.
     column = Column(history)
     there = column.origins
     if there is None:
@@ -304,6 +317,7 @@ def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
     """Return the rows that repeat none of the last samples before them with the same stamp."""
+    # tf2 ignores a sample that equals one at the same stamp; only runs of equal stamps matter.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]
     equal = np.flatnonzero(ordered[1:] == ordered[:-1])

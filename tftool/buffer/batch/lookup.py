@@ -52,6 +52,7 @@ def lookup_transforms(
         raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
     workers = _workers(threads)
     stamps = stamps_of(times, "times")
+    # Like tf2: the identity, at whatever stamp is asked for.
     if target == source:
         return _identities(tree, target, stamps)
     numbers = (
@@ -100,6 +101,7 @@ def lookup_transforms_full(
         fixed_from_source = lookup_transforms(
             tree, solver, fixed, source, ours[rows], "nan", threads
         )
+        # Each half has stamps of its own; the fixed frame joins them.
         target_from_fixed = lookup_transforms(
             tree, solver, target, fixed, theirs[rows], "nan", threads
         )
@@ -131,7 +133,9 @@ class _Batch:
         self.times = times
         self.ask = ask
         self.columns = Columns()
+        # Where no link of the chain changed its parent, one path serves every moment.
         self.path = _steady_path(tree, self.target, self.source)
+        # Narrowed to the span in which every link of the path has data.
         self.first, self.last = -(2**63), 2**63 - 1
         # Whether moments in no order are sorted first: long histories do not fit a cache.
         self.sorts = False
@@ -145,6 +149,7 @@ class _Batch:
         self.rows_at_once = SECTION if self.sorts else CHUNK
         # There the intervals are recomputed for each block, which needs memory as well.
         self.block = kernel.BLOCK // 2 if self.sorts else kernel.BLOCK
+        # By the link's id: a link that is on both sides is made ready once.
         self.ready: dict[int, kernel.Edge] = {}
         self.rooms: list[Floats] = []
         self.latest: tuple[Stamp, Sample] | TransformException | None = None
@@ -169,6 +174,8 @@ class _Batch:
             for start in starts:
                 self.fill(start, complete)
             return
+        # Chunks write to disjoint rows, so the threads share no lock. numpy and the kernel drop the
+        # GIL.
         with ThreadPoolExecutor(workers) as pool:
             try:
                 for _ in pool.map(lambda start: self.fill(start, complete), starts):
@@ -186,8 +193,10 @@ class _Batch:
         if IS_NATIVE and self.path is not None and self.first <= self.last:
             missing = self.solve_natively(self.path, times, rows)
         if missing is not None:
+            # Every row is answered: the usual end.
             if missing == 0:
                 return
+            # Rows of stamp 0 ask for the latest common time, which is no moment of the path.
             rest = np.flatnonzero(~self.valid[rows] & (times != 0))
         else:
             if self.path is not None and self.has_all(times):
@@ -196,6 +205,7 @@ class _Batch:
             rest = self.begin(times, start)
         if len(rest):
             moments = times[rest]
+            # The tree had other shapes at these moments: each shape is a path of its own.
             for path, chosen in _paths_by_moment(
                 self.tree, self.columns, self.target, self.source, moments
             ):
@@ -204,6 +214,8 @@ class _Batch:
         self.fill_latest(start + np.flatnonzero(times == 0))
         if complete:
             for row in (start + np.flatnonzero(~self.valid[rows])).tolist():
+                # The scalar lookup refuses in tf2's words; should it answer after all, that answer
+                # counts.
                 self.put(row, self.ask(int(self.times[row])))
 
     def begin(self, times: Stamps, start: int) -> Indices:
@@ -234,6 +246,7 @@ class _Batch:
         up, down = self.edges(path.up), self.edges(path.down)
         in_order = bool(np.all(times[1:] >= times[:-1]))
         if self.sorts and not in_order:
+            # Neighbouring moments then touch neighbouring samples, which the cache holds.
             order = np.argsort(times)
             rows = order + rows.start if isinstance(rows, slice) else rows[order]
             times, in_order = times[order], True
@@ -248,6 +261,7 @@ class _Batch:
                 translations, rotations = self.translations[here], self.rotations[here]
                 arrays.solve(up, down, block, in_order, translations, rotations)
             else:
+                # Rows that are scattered: solved together, then written where they belong.
                 translations, rotations = np.empty((len(block), 3)), np.empty((len(block), 4))
                 arrays.solve(up, down, block, in_order, translations, rotations)
                 self.translations[rows[part]] = translations
@@ -278,6 +292,7 @@ class _Batch:
         for link in links:
             held = self.columns.of(link)
             if isinstance(held, Column):
+                # The kernel reads this copy; the live history may grow or be pruned meanwhile.
                 copy = History(LAST_STAMP)
                 copy.borrow(held.records.reshape(-1).data, held.origin)
                 copy.mixed = held.parents is not None
@@ -291,6 +306,7 @@ class _Batch:
     def room(self) -> Floats:
         """Arrays that no thread uses at the moment."""
         try:
+            # `pop` of a list is atomic: no two threads get the same arrays.
             return self.rooms.pop()
         except IndexError:
             return kernel.room(min(len(self.times), self.block))
@@ -349,6 +365,7 @@ def _paths_by_moment(
     Between two stamps at which a link begins, ends or changes its parent, all moments
     share one walk. Indices that no path is given for are refused.
     """
+    # Between two marks no link changes, so one walk answers for all moments there.
     marks = _marks(tree, columns, (target, source))
     # Odd numbers are marks, even numbers the spans between two.
     interval = np.searchsorted(marks, times, "left") + np.searchsorted(marks, times, "right")
@@ -390,6 +407,7 @@ def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps
         above = {link.parent}
         if isinstance(column, Column):
             marks.append(column.changes())
+            # A link with several parents leads to several frames, and each may hold marks.
             if column.parents is not None:
                 above.update(np.unique(column.parents).tolist())
         above -= seen

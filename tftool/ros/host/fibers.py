@@ -151,21 +151,29 @@ class Fiber:
         self._patience = PATIENCE if patience is None else patience
         self._give_up = GIVE_UP if give_up is None else give_up
         self._told_to_end = told_to_end
+        # Two locks pass the turn: `_go` wakes the thread, `_rest` tells the loop that it sleeps
+        # again.
         self._go = _taken_lock()
         self._rest = _taken_lock()
         self._request: Callable[[], Any] | None = None
+        # Written by one side while the other sleeps, so none of these needs a lock of its own.
         self._broken_off = ""
         self._answer: tuple[Any, BaseException | None] = (None, None)
         self._arrived: tuple[asyncio.AbstractEventLoop, asyncio.Future[None]] | None = None
         self.end: Callable[[], BaseException] = KeyboardInterrupt
         self._thread: threading.Thread | None = threading.Thread(
-            target=self._main, args=(body,), name=name, daemon=True
+            # A daemon: code that never returns must not keep the process alive.
+            target=self._main,
+            args=(body,),
+            name=name,
+            daemon=True,
         )
 
     @classmethod
     def adopt(cls, name: str) -> "Fiber":
         """Make the calling thread a fiber; `drive` it from a loop on another thread."""
         fiber = cls(name, lambda: None, strict=True)
+        # No thread to start, and none to raise in: the caller's own code is driven.
         fiber._thread = None
         fiber.end = lambda: EndedError("the world has ended")
         _local.fiber = fiber
@@ -197,10 +205,12 @@ class Fiber:
         return value
 
     def _main(self, body: Callable[[], object]) -> None:
+        # The loop starts the thread before it is this fiber's turn.
         self._go.acquire()
         _local.fiber = self
         try:
             body()
+        # SystemExit and KeyboardInterrupt too: how a program ended is the loop's to judge.
         except BaseException as error:
             self.error = error
         finally:
@@ -211,6 +221,7 @@ class Fiber:
         self._request = request
         if request is None:
             self.ended = True
+        # From here on the loop may run at any moment: nothing below touches the request.
         self._rest.release()
         arrived = self._arrived
         if arrived is not None:
@@ -236,10 +247,12 @@ class Fiber:
         answer: tuple[Any, BaseException | None] = (None, None)
         first = True
         refused = late = 0
+        # An interrupted fiber is driven on: its `finally` blocks may publish and call services.
         while refused < AFTERLIFE:
             await self._turn(answer, go=not first or self._thread is not None)
             first = False
             request = self._request
+            # A None request is the body's end, or an adopted thread that was released.
             if self.ended or request is None:
                 if self._broken_off:
                     self.error = StuckError(self._broken_off)
@@ -252,6 +265,7 @@ class Fiber:
                 continue
             try:
                 value = request()
+                # Waiting is the loop's work; the thread sleeps in `ask` meanwhile.
                 if inspect.isawaitable(value):
                     if self.interrupted:
                         discard(value)
@@ -283,6 +297,7 @@ class Fiber:
         loop = asyncio.get_running_loop()
         arrived = loop.create_future()
         self._arrived = (loop, arrived)
+        # On the wall clock a busy thread holds up nobody; it is only named.
         alarm = loop.call_later(self._patience, self._say_busy)
         self._hand_over(answer, go)
         try:
@@ -292,6 +307,7 @@ class Fiber:
         finally:
             alarm.cancel()
             self._arrived = None
+        # The future told of the rest already; the lock is taken back for the next turn.
         self._rest.acquire(blocking=False)
 
     def _hand_over(self, answer: tuple[Any, BaseException | None], go: bool) -> None:
@@ -313,6 +329,7 @@ class Fiber:
             self._end_now()
             return
         place = self.place()
+        # Raised at the thread's next bytecode; code inside a C call does not hear it.
         self._raise_in_thread(SystemExit)
         self._rest.acquire(timeout=1.0)
         self.ended = True
@@ -324,6 +341,7 @@ class Fiber:
     def _rests_within(self, limit: float) -> bool:
         """Whether the thread comes to rest within `limit` real seconds, unless told to end."""
         while limit > 0.0 and not self._told_to_end():
+            # In short parts, so that a signal that comes meanwhile is noticed.
             part = min(limit, GRACE)
             if self._rest.acquire(timeout=part):
                 return True
@@ -353,6 +371,7 @@ class Fiber:
                 self._raise_in_thread(KeyboardInterrupt)
             arrived = loop.create_future()
             self._arrived = (loop, arrived)
+            # It came to rest between the last turn and now: its next request raises.
             if self._rest.acquire(blocking=False):
                 self._rest.release()
                 return

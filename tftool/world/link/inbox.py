@@ -37,6 +37,7 @@ class Inbox:
         with self._lock:
             self._loop = loop
             self._scheduled = bool(self._waiting)
+        # Messages that came before the loop did.
         if self._scheduled:
             loop.call_soon(self._drain)
 
@@ -67,12 +68,14 @@ class Inbox:
         with self._lock:
             if self._closed:
                 return
+            # Events (arrivals, departures) pass even a full inbox: the graph must not miss one.
             full = len(self._waiting) >= MOST_WAITING or self._bytes + (size or 0) > MOST_BYTES
             if size is not None and full:
                 self.lost += 1
                 return
             self._waiting.append((callback, argument, size or 0))
             self._bytes += size or 0
+            # One wake-up serves all that wait: a flood costs the loop no flood of wake-ups.
             if self._scheduled or self._loop is None:
                 return
             self._scheduled = True
@@ -86,6 +89,7 @@ class Inbox:
 
         A callback that raises is reported to the loop; those behind it are called all the same.
         """
+        # The lock is held for one message at a time: transport threads never wait for a callback.
         for _ in range(_SLICE):
             with self._lock:
                 if not self._waiting:
@@ -98,6 +102,7 @@ class Inbox:
             except Exception as error:
                 self._report(callback, error)
         if self._loop is not None:
+            # More may wait: behind whatever else the loop has to do now.
             self._loop.call_soon(self._drain)
 
     def _report(self, callback: Callable[..., object], error: Exception) -> None:

@@ -68,9 +68,11 @@ class Outbox:
         if self._thread is None:
             self._thread = threading.Thread(target=self._run, name="outbox", daemon=True)
             self._thread.start()
+        # The sender gave no sign of life for two seconds: waiting once more would stop the world.
         if self._is_full and self._is_hopeless:
             self.dropped += 1
             return
+        # Counted before it is queued: the sender may be done with it in the next instant.
         self._put += 1
         self._put_bytes += size
         self._queue.put((send, size))

@@ -211,6 +211,7 @@ class Discovery:
 
     def _look_soon(self) -> None:
         # One look serves all that came until then.
+        # The flag is read and set on different threads; the worst is one look too many.
         if not self._will_look:
             self._will_look = True
             self._participant.inbox.put(self._look_now, None)
@@ -225,6 +226,7 @@ class Discovery:
         """Take in what the built-in topics have."""
         if self._participants is None:
             return
+        # Participants first: an endpoint of an unknown participant has no process to belong to.
         for one in _all(self._participants):
             self._take_participant(one)
         for role, reader in self._readers.items():
@@ -233,12 +235,14 @@ class Discovery:
 
     def _take_participant(self, one: Any) -> None:
         key = one.key.bytes
+        # The library reports this process as well.
         if key == self._participant.gid:
             return
         if not _is_alive(one):
             self._forget(key)
             return
         policies = {policy.__scope__: policy for policy in one.qos}
+        # Policies differ between vendors: a missing one reads as empty.
         self._names[key] = str(getattr(policies.get("EntityName"), "name", ""))
         data = bytes(getattr(policies.get("Userdata"), "data", b""))
         process = names.process_shown(data, self._domain, key.hex())
@@ -248,22 +252,27 @@ class Discovery:
     def _take_endpoint(self, role: str, one: Any) -> None:
         key, owner = (role, one.key.bytes), one.participant_key.bytes
         if not _is_alive(one):
+            # A sample of an instance that is gone has its key alone.
             gone = self._found.pop(key, None)
             self._gids.pop(one.sample_info.instance_handle, None)
             if gone is not None:
                 self._exchange(_key(key), None)
             return
+        # The bound protects against a peer that announces endpoints without end.
         if owner == self._participant.gid or len(self._found) >= MOST:
             return
         self._speaking.add(owner)
         handle = one.sample_info.instance_handle
         if role == PUBLISHER:
+            # Samples name their writer by this handle, not by GUID.
             self._gids[handle] = key[1]
+        # A writer of this topic promises nodes: `is_complete` waits for them.
         if one.topic_name == names.DISCOVERY and role == PUBLISHER:
             policies = {policy.__scope__: policy for policy in one.qos}
             data = bytes(getattr(policies.get("Userdata"), "data", b""))
             self._informing[owner] = GID_SIZES[0] if names.hash_shown(data) else 0
             return
+        # Topics without ROS's prefixes belong to other programs.
         part = names.ros_part(one.topic_name, one.type_name)
         kind = None if part is None else _KINDS.get((part.prefix, role))
         if part is None or kind is None:
@@ -292,6 +301,7 @@ class Discovery:
 
     def _node_of(self, participant: bytes) -> str:
         """Return a name for the node of a participant that announces no nodes."""
+        # One node in the process: every endpoint is its own, also before the list names them.
         only = self._nodes.get(participant, ({}, []))[1]
         if len(only) == 1:
             return only[0]
@@ -303,6 +313,7 @@ class Discovery:
         self._informing.pop(participant, None)
         self._speaking.discard(participant)
         self._nodes.pop(participant, None)
+        # Nodes and endpoints before the process: a process leaves the graph as the last.
         for name in self._shown_nodes.pop(participant, set()):
             self._exchange(f"node {participant.hex()} {name}", None)
         for key in [key for key, one in self._found.items() if one.participant == participant]:
@@ -317,6 +328,7 @@ class Discovery:
             return
         if old is not None:
             self.graph.remove(key)
+        # The new entry is reported before the old one goes: nobody sees a gap.
         if new is not None and self.graph.add(key, new) is not None:
             self._report(new, True)
         if old is not None:
@@ -341,6 +353,7 @@ class Discovery:
         # A message of one form can be read by the other, and says nothing then.
         if self._informing.get(participant) not in (None, 0, form.size):
             return
+        # An empty list in the older form may be the newer form misread: it removes no node.
         if not all_nodes and form.size != GID_SIZES[0] and participant in self._nodes:
             return
         self._nodes[participant] = nodes, all_nodes
@@ -351,6 +364,7 @@ class Discovery:
             entity = GraphEntity(NODE, self._domain, participant.hex(), name)
             self._exchange(f"node {participant.hex()} {name}", entity)
         self._shown_nodes[participant] = now
+        # Endpoints known before their node are entered again, under its name.
         for key in [key for key, one in self._found.items() if one.participant == participant]:
             self._show(key)
 
@@ -383,6 +397,7 @@ class Discovery:
     def _say(self) -> None:
         if self._participants is None:
             return
+        # Made when there is something to show: a process that only looks writes nothing.
         if self._writer is None:
             form = self._information[GID_SIZES[0]]
             self._writer = self._participant.writer(names.DISCOVERY, form.raw(), LATEST_OF_ALL, b"")

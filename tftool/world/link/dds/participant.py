@@ -121,6 +121,8 @@ class Participant:
         self._outbox = Outbox()
         self._closing: list[Callable[[], None]] = []
         self._topics: dict[tuple[str, type[Raw]], Any] = {}
+        # The library reads a domain's configuration when its first participant is made, and only
+        # then.
         _DOMAINS.enter(domain, network)
         try:
             qos = Qos(Policy.EntityName(name), Policy.Userdata(user_data))
@@ -128,6 +130,7 @@ class Participant:
         except DDSException as error:
             _DOMAINS.leave(domain)
             raise LinkError(_refused(domain, network)) from error
+        # Also an interrupt in the middle: the domain's place must not stay taken.
         except BaseException:
             _DOMAINS.leave(domain)
             raise
@@ -166,8 +169,10 @@ class Participant:
         """
         inbox, participant = self.inbox, self
 
+        # Its methods run on threads of the library: they hand over, and touch nothing else.
         class Taking(Listener):  # type: ignore[misc]
             def on_data_available(self, reader: Any) -> None:
+                # An exception would go into the library's C code, which prints and loses it.
                 with contextlib.suppress(Exception):
                     participant._take(reader, on_sample)
 
@@ -177,6 +182,7 @@ class Participant:
 
         # All that waits is kept: it is taken at once, and bounds are those of the inbox.
         policies = _policies(quality, Policy.History.KeepAll)
+        # Our own messages reach our own nodes without the wire.
         policies.append(Policy.IgnoreLocal.Participant)
         made = DataReader(
             self.entity, self._topic(topic, kind), qos=_qos(policies), listener=Taking()

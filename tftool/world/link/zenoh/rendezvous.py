@@ -72,6 +72,7 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
                 "set it to an absolute path, or unset it."
             )
         return Path(named)
+    # In memory, of mode 700, and emptied at logout: the best place where there is one.
     runtime = environment.get("XDG_RUNTIME_DIR")
     if runtime and Path(runtime).is_absolute():
         return Path(runtime) / "tftool"
@@ -95,6 +96,7 @@ def frames_known(domain: int, home: Path | None = None) -> list[str]:
     place = _fitting((folder() if home is None else home) / str(domain))
     found: set[str] = set()
     with contextlib.suppress(OSError):
+        # Lists of dead members may remain until somebody sweeps: only those of the living count.
         members = {_member(Path(endpoint)) for endpoint, _ in _living(place, sweep=False)}
         for path in place.glob(f"*{FRAMES}"):
             if _member(path) in members:
@@ -127,6 +129,7 @@ class Rendezvous:
         self.endpoint = ""
         self.password = ""
         self.others: dict[str, int] = {}
+        # The random part tells apart two sessions of one process, and processes of two containers.
         self._name = f"{os.getpid()}-{secrets.token_hex(4)}"
         self._lock: Any = None
 
@@ -144,10 +147,12 @@ class Rendezvous:
                 f"than {_LONGEST_SOCKET_PATH} bytes or hold one of '?#;='; name another folder in "
                 f"{FOLDER_VARIABLE}"
             )
+        # The parent too: who may write there could replace the folder.
         _make_private(self.folder.parent)
         _make_private(self.folder)
         try:
             self._take_lock()
+            # Under the lock: whoever answers now is in the session, whoever comes later sees us.
             self.others = dict(_living(self.folder))
             self.endpoint = self._place()
         except OSError as error:
@@ -163,6 +168,7 @@ class Rendezvous:
     def tell_frames(self, names: Sequence[str]) -> None:
         """List the frames this process knows, for `frames_known`; a list that fails is left out."""
         path = self.folder / f"{self._name}{FRAMES}"
+        # Renamed into place, so that a reader never sees half a list.
         fresh = path.with_name(f"{self._name}.new")
         with contextlib.suppress(OSError):
             fresh.write_text(json.dumps(names[:_MOST_FRAMES]), encoding="utf-8")
@@ -198,6 +204,8 @@ class Rendezvous:
             return f"unixsock-stream/{self.folder / self._name}.sock"
         self.password = _password_in(self.folder)
         with socket.socket() as probe:
+            # The port is free again until zenoh binds it; the lock keeps our own processes from
+            # taking it.
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
         # Port numbers are filed as sockets are: by name, and swept the same way.
@@ -232,6 +240,7 @@ def _make_private(path: Path) -> None:
     """
     try:
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
+        # Not `stat`: a link that another user left would be followed.
         facts = os.lstat(path)
     except OSError as error:
         raise LinkError(_unusable(path, error)) from error
@@ -263,6 +272,7 @@ def _fitting(place: Path) -> Path:
     """
     if not HAS_UNIX_SOCKETS or _holds_sockets(place):
         return place
+    # The same name for the same place, whichever process computes it.
     name = hashlib.sha256(os.fsencode(place.parent)).hexdigest()[:16]
     return Path("/tmp") / f"tftool-{os.getuid()}-{name}" / place.name
 
@@ -280,6 +290,7 @@ def _password_in(folder: Path) -> str:
     if known:
         return known
     password = secrets.token_hex(32)
+    # Private from its first byte; O_EXCL refuses a file that somebody put there.
     with open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as fresh:
         fresh.write(f"{USER}:{password}\n")
     return password
