@@ -1,6 +1,6 @@
 """Everything that must hold, as one command: `python -m tests`.
 
-Formatter, linter, layers, types, then the tests. Words after the command go to
+Formatter, linter, layers, types, plain English, then the tests. Words after the command go to
 pytest: `python -m tests -k history` runs less. `python -m tests --coverage` judges
 the branch coverage of the whole as well, which takes twice as long.
 """
@@ -19,6 +19,7 @@ CHECKS = [
     [*PYTHON, "ruff", "check", "."],
     [str(Path(sys.executable).with_name("lint-imports"))],
     [*PYTHON, "mypy"],
+    [*PYTHON, "tests.prose"],
 ]
 
 

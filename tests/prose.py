@@ -14,7 +14,8 @@ from pathlib import Path
 
 OPENERS = re.compile(r"(What|Those|That which|Which|Who|Whose|Where|When|How|Why|Likewise)\b")
 DIALECT = re.compile(
-    r"\b(lets? go of|[Ww]hat (stands|lies|hangs)|(is|are|was|were) (told|said) of|told (of|whose))\b"
+    r"\b(lets? go of|[Ww]hat (stands|lies|hangs)|(is|are|was|were) (told|said) of"
+    r"|told (of|whose))\b"
 )
 EXCEPTION = "prose: ok"
 LONGEST_NAME = 80
@@ -36,10 +37,11 @@ def faults(root: Path) -> list[str]:
         ]
     for path in sorted((root / "tests").rglob("test_*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.FunctionDef) and node.name.startswith("test_"):
-                if len(node.name) > LONGEST_NAME:
-                    place = f"{path.relative_to(root).as_posix()}:{node.lineno}"
-                    found.append(f"{place}: the name of a test has {len(node.name)} letters")
+            if not isinstance(node, ast.FunctionDef) or not node.name.startswith("test_"):
+                continue
+            if len(node.name) > LONGEST_NAME:
+                place = f"{path.relative_to(root).as_posix()}:{node.lineno}"
+                found.append(f"{place}: the name of a test has {len(node.name)} letters")
     return found
 
 

@@ -37,7 +37,7 @@ def test_samples_come_oldest_first_with_their_parents_and_authorities():
     assert held.rotations.tolist() == [[0.0, 0.0, 1.0, 0.0]] * 4
 
 
-def test_two_publishers_of_one_link_are_told_apart_for_as_long_as_they_are_remembered():
+def test_two_publishers_of_one_link_are_told_apart_while_remembered():
     buffer = Buffer(seconds(10))
     for step in range(200):
         put(buffer, 1 + step, authority="ekf" if step % 2 else "wheels")

@@ -393,7 +393,7 @@ def frame(name, x, y, theta=0.0, **how):
     return PlaneFrame(name, x, y, ((cosine, sine), (-sine, cosine)), **how)
 
 
-def test_a_frame_is_a_point_with_its_name_a_red_axis_ahead_and_a_green_one_to_its_left():
+def test_a_frame_is_a_named_point_with_red_axis_ahead_and_green_one_to_its_left():
     colors = theme.paper(theme.DARK)
 
     lines = draw(PlanePicture("m", (frame("carrot1", CENTRE, CENTRE, math.pi / 2),)))

@@ -353,7 +353,7 @@ def test_an_image_is_copied_once_on_its_way_out_and_once_on_its_way_in():
     assert read < 1.3
 
 
-def test_a_hundred_thousand_hostile_payloads_are_read_or_refused_and_memory_stays_flat():
+def test_a_hundred_thousand_hostile_payloads_leave_memory_flat():
     chance = random.Random(2026)
     cases = []
     for full in TYPES:

@@ -115,7 +115,7 @@ def test_a_header_of_ros_2_written_as_ros_1_has_the_number_that_ros_1_counts_wit
     assert Codec(kind, ROS1).decode(HEADER[:4] + payload[4:]) == header
 
 
-def test_definitions_of_a_recording_change_no_class_of_the_process_or_of_another_recording():
+def test_definitions_of_a_recording_change_no_other_class():
     before = INTERFACES.message("geometry_msgs/PoseStamped")
     one, other = Interfaces(), Interfaces()
 

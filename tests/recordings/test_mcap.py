@@ -94,7 +94,7 @@ def test_the_strict_reader_finds_every_crc_right_and_the_same_by_index_as_by_sca
     assert [one.summary_crc != 0 for one in records if isinstance(one, Footer)] == [True]
 
 
-def test_small_chunks_without_chunks_attachments_and_metadata_are_read_by_the_strict_reader(
+def test_the_strict_reader_reads_small_chunks_none_and_attachments(
     tmp_path,
 ):
     for name, size in (("small", 200), ("loose", 0)):

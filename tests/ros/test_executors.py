@@ -118,7 +118,7 @@ def test_a_multi_threaded_executor_lets_other_callbacks_through_while_one_blocks
     ]
 
 
-def test_a_multi_threaded_executor_whose_threads_were_all_busy_goes_on_in_its_next_turn(
+def test_a_busy_multi_threaded_executor_goes_on_in_its_next_turn(
     ros_runtime,
 ):
     import rclpy

@@ -94,7 +94,7 @@ def test_two_simulated_runs_of_three_threads_are_the_same_run():
     assert once() == once()
 
 
-def test_cancelling_raises_a_keyboard_interrupt_where_the_fiber_waits_and_lets_it_finish():
+def test_cancelling_interrupts_the_wait_of_a_fiber_and_lets_it_finish():
     clock = SimClock()
     trace = []
 

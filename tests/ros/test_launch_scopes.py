@@ -70,7 +70,7 @@ def test_what_can_be_no_parameter_is_refused_as_ros_refuses_it(given, told):
         evaluated(given)
 
 
-def test_a_node_takes_no_mapping_for_its_list_of_parameters_and_no_list_for_a_remapping():
+def test_a_node_refuses_a_mapping_of_parameters_and_a_list_of_remappings():
     with ros_free():
         from launch_ros.actions import Node
 

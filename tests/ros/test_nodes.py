@@ -122,7 +122,7 @@ def test_two_nodes_of_one_name_are_told_apart_with_a_warning(node, ros_runtime):
     assert any("a node named 'probe' is here already" in text for text in ros_runtime.log())
 
 
-def test_the_handles_of_a_node_and_of_what_it_has_are_invalid_once_they_are_destroyed(node):
+def test_handles_of_a_destroyed_node_and_of_its_entities_are_invalid(node):
     from rclpy.exceptions import InvalidHandle
     from std_msgs.msg import String
     from std_srvs.srv import Trigger

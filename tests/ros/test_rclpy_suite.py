@@ -3,7 +3,7 @@
 import pytest
 
 
-def test_two_services_of_one_name_are_allowed_and_the_second_answers_once_the_first_has_left(node):
+def test_of_two_services_of_one_name_the_second_answers_when_the_first_has_left(node):
     import rclpy
     from std_srvs.srv import Trigger
 

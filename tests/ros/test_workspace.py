@@ -254,7 +254,7 @@ def test_a_console_script_that_names_nothing_says_so(tmp_path):
     assert "names node:main, but there is no 'main' in" in str(ended[0].failure)
 
 
-def test_a_package_linked_into_the_workspace_is_found_and_other_links_are_not_followed(tmp_path):
+def test_a_linked_package_is_found_and_other_links_are_not_followed(tmp_path):
     package(tmp_path / "away" / "linked", package__xml="<package><name>linked</name></package>")
     package(tmp_path / "away" / "other", package__xml="<package><name>other</name></package>")
     source = tmp_path / "ws" / "src"

@@ -29,7 +29,7 @@ def pairs_shown(*links):
     return shown
 
 
-def test_a_pair_shown_in_place_of_another_is_that_to_the_root_that_comes_a_little_later():
+def test_a_replaced_pair_leads_to_a_root_that_comes_a_little_later():
     links = [(0.0, "odom", "base_link"), (0.1, "map", "odom")]
 
     assert pairs_shown(*links) == [("odom", "base_link"), ("map", "base_link")]

@@ -448,7 +448,7 @@ def test_an_observer_that_raises_is_told_of_under_its_own_name_and_harms_no_node
     assert "ZeroDivisionError: division by zero (test_nodes_and_worlds.py:" in said.text
 
 
-def test_a_listener_of_the_log_that_always_fails_harms_neither_nodes_nor_other_listeners():
+def test_a_log_listener_that_always_fails_harms_nobody_else():
     world = World(SimClock())
     node = Node(world, "talker")
     heard = []

@@ -166,7 +166,7 @@ def test_the_end_of_a_run_ends_a_node_that_does_not_return_and_names_it(start, b
     )
 
 
-def test_a_node_that_holds_up_simulated_time_for_long_is_ended_where_the_run_has_an_end(start):
+def test_a_node_that_holds_up_simulated_time_is_ended_if_the_run_has_an_end(start):
     program = start(HOLDS, clock="SimClock", until="clock.now() + seconds(10)")
 
     status, _, said = program.ended()

@@ -151,7 +151,7 @@ def test_a_question_across_time_of_one_name_that_nobody_knows_comes_to_an_end(wo
         )
 
 
-def test_a_half_that_is_forgotten_while_the_other_is_waited_for_is_not_waited_for_again(world):
+def test_a_forgotten_half_is_not_waited_for_again(world):
     epoch = world.clock.epoch
 
     async def main():

@@ -26,7 +26,7 @@ NEEDS = {
     "valid description": "the robot description has mistakes",
     "joint states": "there are no joint states",
 }
-"""What a check may need beside transforms, and what is said where that is missing."""
+"""Inputs a check may need beside transforms, and the sentence where one is missing."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -297,7 +297,7 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
                 facts={"what": track.name, "late": track.median_latency},
             )
     for heard in model.heard:
-        # What was latched once is old by intention.
+        # A latched message is old by intention.
         if len(heard.stamps) < 3 or not heard.is_spatial:
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS:

@@ -1,4 +1,4 @@
-"""Checks of what is there when it is needed: holes, statics, waits, caches."""
+"""Checks of data that is needed and missing: holes, statics, waits, caches."""
 
 import math
 import re
@@ -427,7 +427,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         return None
     low, high = model.warm if warm else (model.start, model.end)
     begin = max(int(track.sorted_stamps[0]) for track in links)
-    # What is older than the first transform is no matter of waiting: see `late_start`.
+    # A question older than the first transform is no matter of waiting: see `late_start`.
     inside = (heard.logs >= low) & (heard.logs <= high) & (heard.stamps >= begin)
     stamps, arrivals = heard.stamps[inside], heard.arrivals[inside]
     if not len(stamps):

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 ODOMETRY = "nav_msgs/Odometry"
 
 LIVE = "live session"
-"""The kind of what a session that runs gives."""
+"""Kind of evidence from a running session."""
 
 Records = npt.NDArray[np.int64]
 Places = npt.NDArray[np.int32]
@@ -101,7 +101,7 @@ class Described:
 
 
 def described_by(path: str | Path) -> Described:
-    """The robot that a URDF or xacro file describes, or what is wrong with it.
+    """The robot that a URDF or xacro file describes, or its mistakes.
 
     Raises:
         InputError: If the file cannot be read.
@@ -137,12 +137,12 @@ class Moment(Protocol):
     """A moment as it was asked for."""
 
     def stamp(self, epoch: Stamp) -> Stamp:
-        """The moment itself, where what is asked begins at `epoch`."""
+        """Return the moment itself, in a source that begins at `epoch`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """What of a recording is looked at; all of it where nothing is said.
+    """The part of a recording to look at; all of it by default.
 
     Attributes:
         described: The robot's description; None for the recorded one, if any.
@@ -218,7 +218,7 @@ def _evidence_of_source(
 
 
 def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:
-    """What was received between two log times; of statics, all that was received before, too."""
+    """Return the samples received between two log times, and all statics received before."""
     read_clock, received = evidence.clock
     ticks = (received >= begin) & (received <= end)
     return replace(

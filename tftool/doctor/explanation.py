@@ -117,7 +117,7 @@ def misnamed(trace: LookupTrace) -> Reason | None:
 
 
 def _described(model: Model, name: str) -> str | None:
-    """Why tf lacks a link that the robot's description has; None if it has none of that name."""
+    """Return why tf lacks a link that the description has; None if it has none of that name."""
     robot, states = model.evidence.robot, model.evidence.joints
     if robot is None or name not in robot.links or name == robot.root:
         return None
@@ -176,7 +176,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """What to say of a lookup that is answered: what else may be behind a refusal elsewhere."""
+    """Return sentences on a lookup that is answered: other reasons for a refusal elsewhere."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)
@@ -199,7 +199,7 @@ def works(known: TraceResult) -> Reason:
 
 
 def refusing_link(known: TraceResult) -> Reason:
-    """Why a link on the way refuses; each reason is one function's."""
+    """Return why a link on the way refuses; each reason has a function of its own."""
     trace = known.trace
     if known.refusing is None or known.way is None:
         return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
@@ -367,7 +367,7 @@ def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     elif cause is Cause.LATE:
         later = link.latency - (heard.median_latency if heard is not None else 0)
         left = USUAL_WAIT - later / NANOSECONDS
-        # What comes often enough already need not come more often.
+        # A link at a sufficient rate need not come more often.
         if not 0 < link.period <= left * NANOSECONDS:
             remedies.append(
                 Remedy(
@@ -390,7 +390,7 @@ def _waits(trace: LookupTrace, heard: Heard) -> Waits | None:
 
 
 def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
-    """How long to wait, for this question and for the others of its topic."""
+    """Return how long to wait, for this question and for the others of its topic."""
     trace = known.trace
     if known.begin is None:
         text = "a timeout does not help: by the time the one end comes, the other is pruned"

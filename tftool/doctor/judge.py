@@ -60,7 +60,7 @@ class Diagnosis:
 
     @property
     def worst(self) -> Severity | None:
-        """The worst severity of what is no consequence; None where there is nothing."""
+        """The worst severity of findings that are no consequence; None if there are none."""
         found = [finding.severity for finding in self.findings if finding.because_of is None]
         return min(found, key=lambda severity: severity.rank, default=None)
 
@@ -143,7 +143,7 @@ def _named(words: Sequence[str]) -> list[str]:
 
 
 def unknown(word: str, known: Sequence[str], what: str) -> str:
-    """Why a word is refused, with what was probably meant."""
+    """Return why a word is refused, with the one that was probably meant."""
     near = near_names(word, known)
     hint = f"did you mean {near[0]}?" if near else "'tftool doctor --list' shows all."
     return f"There is no {what} '{word}': {hint}"
@@ -207,7 +207,7 @@ def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tu
 def _cause_of(
     number: int, hits: list[tuple[Check, Hit]], of_check: Mapping[str, Sequence[int]]
 ) -> str | None:
-    """The id of what explains a hit: of several, the first that nothing explains itself.
+    """Return the id of the finding that explains a hit: the first that is not explained itself.
 
     Args:
         number: The hit's.
@@ -295,7 +295,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
 
 
 def _concerned(hits: list[Hit]) -> list[str]:
-    """The names of what is concerned, for a headline: edges, else topics, else frames."""
+    """The names concerned, for a headline: edges, else topics, else frames."""
     edges = dict.fromkeys(f"{child} in {parent}" for hit in hits for parent, child in hit.edges)
     topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
     frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)
@@ -322,7 +322,7 @@ def diagnose(
         urdf: A file with the robot's description; None for the one recorded, if any.
 
     Returns:
-        What was found, by area, errors first. Findings with `because_of` are consequences.
+        The findings, by area, errors first. Findings with `because_of` are consequences.
 
     Raises:
         InputError: If nothing of the recording can be read.

@@ -1,6 +1,6 @@
 """Model the checks look at: columns and headers on one clock, in laps, as trees.
 
-Nothing here reads a file; see `evidence` for what was given.
+Nothing here reads a file; see `evidence` for the input.
 """
 
 from collections.abc import Mapping
@@ -33,7 +33,7 @@ WARM_UP = seconds(1)
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """What the listener that is thought of would do, and other limits than the usual ones.
+    """Settings of the imagined listener, and limits other than the usual ones.
 
     Attributes:
         cache_time: How far back its buffer remembers, nanoseconds.
@@ -189,7 +189,7 @@ class Model:
 
     @cached_property
     def prefix(self) -> str:
-        """What stands before a described link's name in that of its frame; usually nothing."""
+        """Return the prefix of a described link's name in that of its frame; usually empty."""
         robot = self.evidence.robot
         if robot is None:
             return ""
@@ -272,12 +272,12 @@ class Model:
 
     @cached_property
     def sensor_frame(self) -> str:
-        """Where sensors are to be placed: what was asked for, else odom, else the usual root."""
+        """Return the frame to place sensors in: the requested one, odom, or the usual root."""
         return self._fixed("odom", "map", "world")
 
     @cached_property
     def fixed_frame(self) -> str:
-        """Where everything is to be placed: what was asked for, else map, odom, world, a root."""
+        """Return the frame to place all in: the requested one, else map, odom, world, a root."""
         return self._fixed("map", "odom", "world")
 
     def _fixed(self, *usual: str) -> str:
@@ -310,7 +310,7 @@ class Model:
         return stamp + self._offset
 
     def _streams(self) -> list[Stream]:
-        """What may step back: neither statics nor what came once."""
+        """Return the streams that may step back: neither statics nor single samples."""
         streams: list[Stream] = [
             track for track in self.tracks if not track.static and len(track.stamps) > 1
         ]

@@ -286,7 +286,7 @@ def distance(one: str, other: str, most: int) -> int:
     Args:
         one: A word.
         other: Another.
-        most: Where they are more, what is returned is some number above it.
+        most: Beyond it, some larger number is returned.
 
     Source:
         Damerau, "A technique for computer detection and correction of spelling errors",
@@ -300,7 +300,7 @@ def distance(one: str, other: str, most: int) -> int:
     before: list[int] = []
     last = list(range(len(other) + 1))
     for row, letter in enumerate(one, start=1):
-        # What lies further from the diagonal than that is more anyway.
+        # A cell further from the diagonal than that has a larger distance anyway.
         here = [row, *[most + 1] * len(other)]
         for column in range(max(1, row - most), min(len(other), row + most) + 1):
             wanted = other[column - 1]

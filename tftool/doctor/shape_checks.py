@@ -87,7 +87,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
         for child, parent in links:
             parents[child].add(parent)
             children[parent].add(child)
-        # What hangs from a root alone, and from that alone, is in none; and the other way round.
+        # A frame below one root alone is in no other tree; and the other way round.
         roots = [name for name in children if name not in parents]
         while roots:
             root = roots.pop()

@@ -24,7 +24,7 @@ Places32 = npt.NDArray[np.int32]
 """Numbers of messages or of senders, shape (n,)."""
 
 NEVER = np.iinfo(np.int64).max
-"""The arrival of what never arrives."""
+"""Arrival of a sample that never arrives."""
 
 FAR = 2**61
 """Nanoseconds from 1970 beyond which no moment is looked for."""
@@ -84,7 +84,7 @@ class Stream:
 
     @cached_property
     def wild(self) -> Mask:
-        """Which stamps lie far from where the arrivals before and after have theirs, shape (n,).
+        """Tell stamps that are far from those of the arrivals before and after, shape (n,).
 
         No stamp does where they are many: those are two clocks by turns, and no accident.
         """
@@ -108,7 +108,7 @@ class Stream:
 
     @cached_property
     def families(self) -> tuple[int, int]:
-        """How many stamps count from a simulation's start, and from 1970; zeros aside."""
+        """Count the stamps since a simulation's start, and since 1970; zeros aside."""
         zero = int(np.count_nonzero(self.stamps == 0))
         wall = int(np.count_nonzero(self.stamps >= SIMULATED_BELOW))
         return len(self.stamps) - wall - zero, wall
@@ -174,12 +174,12 @@ class Track(Stream):
 
     @cached_property
     def nodes(self) -> tuple[str, ...]:
-        """Who publishes it, where that is known."""
+        """Return its publisher, if that is known."""
         return tuple(sorted({one.node for one in self.publishers if one.node}))
 
     @cached_property
     def topics(self) -> tuple[str, ...]:
-        """Where it came from."""
+        """Return its source."""
         return tuple(sorted({one.topic for one in self.publishers}))
 
     @cached_property
@@ -255,13 +255,13 @@ class Track(Stream):
 
     @cached_property
     def first_arrivals(self) -> Stamps:
-        """When the first sample with this sorted stamp or a later one had arrived, shape (k,)."""
+        """Return when the first sample with this sorted stamp or a later one had arrived, (k,)."""
         arrivals = self.arrivals[self.by_stamp]
         earliest: Stamps = np.minimum.accumulate(arrivals[::-1])[::-1]
         return earliest
 
     def served_from(self, stamps: Stamps) -> Stamps:
-        """When the first sample of each stamp or later arrives; NEVER where none does."""
+        """Return when the first sample of each stamp or later arrives; NEVER where none does."""
         if self.static:
             return np.full(len(stamps), np.iinfo(np.int64).min)
         places = np.searchsorted(self.sorted_stamps, stamps, side="left")

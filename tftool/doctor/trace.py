@@ -1,4 +1,4 @@
-"""What one listener would hold at one moment, and what each link says to its question."""
+"""State of one listener at one moment, and each link's answer to its question."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -138,7 +138,7 @@ class LookupTrace:
         self.asked, self.because, self.after = self._asked()
 
     def _message(self) -> Heard | None:
-        """The messages of which one asks: of the topic named, else in the source frame."""
+        """The messages asked about: of the topic named, else in the source frame."""
         for heard in self.model.heard:
             if heard.frame != self.question.source or not len(heard.stamps):
                 continue
@@ -172,16 +172,16 @@ class LookupTrace:
         return places
 
     def held(self, track: Track) -> Stamps:
-        """Stamps held, sorted: what had arrived and is not pruned."""
+        """Stamps held, sorted: those that had arrived and are not pruned."""
         stamps = track.stamps[self.arrived(track)]
         if not track.static and len(stamps) > 1:
-            # tf2 prunes before it inserts: by what was the newest without the last one.
+            # tf2 prunes before it inserts: by the newest stamp without the last one.
             stamps = stamps[stamps >= self.newest_before(stamps) - self.cache]
         return np.sort(stamps)
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """The newest of what came before the last; of one, that."""
+        """The newest of those before the last; of one, that."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:
@@ -297,7 +297,7 @@ class LookupTrace:
             begins.append(max(first, int(logs[before])))
             pruned = int(np.searchsorted(stamps, int(stamps[before]) + self.cache, side="right"))
             if pruned + 1 < len(stamps):
-                # The next insert prunes, by the newest of what is there before it.
+                # The next insert prunes, by the newest sample before it.
                 ends.append(int(np.partition(logs[pruned:], 1)[1]))
         begin = max(begins, default=self.asked)
         end = min(ends, default=None)
@@ -305,4 +305,4 @@ class LookupTrace:
 
 
 def _silent(_level: str, _text: str) -> None:
-    """What the imagined buffer refuses is told by the checks."""
+    """Log nothing: the checks report refusals of the imagined buffer."""

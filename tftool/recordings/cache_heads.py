@@ -1,4 +1,4 @@
-"""Where kept columns are, under which key, and what the head of an entry says: no arrays.
+"""Places, keys and heads of cached columns, without their arrays.
 
 Which frames a recording has is known from here in milliseconds, without numpy.
 """
@@ -53,7 +53,7 @@ def key_of(found: Found, *, any_size: bool = False) -> str:
 
     Args:
         found: The recording.
-        any_size: Short ones too, of which only completion keeps columns: there reading costs most.
+        any_size: Short ones too: completion alone caches their columns, as reading costs it most.
 
     Raises:
         OSError: If one of its files cannot be read.
@@ -108,7 +108,7 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
         key: What the entry is kept under.
 
     Raises:
-        ValueError: If it is not what was written.
+        ValueError: If it differs from the written one.
     """
     start = len(MAGIC) + 12
     if head_size(data[:start]) != len(data):

@@ -89,7 +89,7 @@ class Head(NamedTuple):
 
 @dataclass(slots=True, eq=False)
 class Chunk:
-    """One chunk of a file, and what is known of its messages; see `Block`.
+    """One chunk of a file, and the knowledge of its messages; see `Block`.
 
     Attributes:
         reader: Whose it is.
@@ -150,7 +150,7 @@ class Chunk:
         return self._found
 
     def sound(self) -> bool:
-        """Whether its content is what was written, as far as it carries proof of that.
+        """Whether its content is as written, as far as it carries proof of that.
 
         Found out once, by whatever thread asks first; others may ask when it has answered.
         """
@@ -169,7 +169,7 @@ class ChunkedReader(File):
     """One file of chunks; its containers say how records are read. See `Reader`.
 
     Attributes:
-        damage: What is wrong with it, as sentences, each once; not more than tell enough.
+        damage: Its damage, as sentences, each once; not more than tell enough.
         is_indexed: Whether it has an index of its own.
         schemas: Types by their numbers, where they have any: name, encoding, definition.
     """
@@ -205,15 +205,15 @@ class ChunkedReader(File):
             self.close()
             raise
 
-    # What is wrong
+    # Damage
 
     def note(self, damage: str) -> None:
-        """Note what is wrong."""
+        """Note damage."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 
     def note_chunk(self, chunk: Chunk, reason: str) -> None:
-        """Note what is wrong with a chunk: what is found first, as the rest follows from it."""
+        """Note the first damage of a chunk, as the rest follows from it."""
         chunk.whole = False
         if chunk not in self._damaged:
             self._damaged.add(chunk)
@@ -230,7 +230,7 @@ class ChunkedReader(File):
             self.counts.append(0)
 
     def _forget(self) -> None:
-        """Drop what was learned of channels and chunks."""
+        """Drop the known channels and chunks."""
         for one in (self.channels, self.streams, self.counts, self._numbers, self._chunks):
             one.clear()
 
@@ -363,7 +363,7 @@ class ChunkedReader(File):
         """Return the messages whose channel is known."""
         found = [one for one in messages if one.channel in self.channels]
         if len(found) < len(messages):
-            self.note("Messages are left out of which nothing tells on which topic they are.")
+            self.note("Messages are left out: nothing tells on which topic they are.")
         return found
 
     def _walk(self, chunk: Chunk, *, learns: bool) -> None:
@@ -385,7 +385,7 @@ class ChunkedReader(File):
         if learns:
             self._count(Counter(found.channels))
         if chunk.cut or len(found):
-            # What is announced may not have been reached.
+            # The announced end may not have been reached.
             chunk.start, chunk.end = found.span
 
     # Batches
@@ -433,7 +433,7 @@ class ChunkedReader(File):
     def _rest_of(
         self, chunk: Chunk, chosen: dict[int, int], ahead: Ahead | None = None
     ) -> Batch | None:
-        """What walking finds in a chunk, whatever its index says."""
+        """Return the messages that walking finds in a chunk, whatever its index says."""
         if chunk.walked is None:
             if not chunk.place:
                 return None

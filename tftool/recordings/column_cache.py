@@ -1,7 +1,7 @@
 """Columns that were read once, kept in the user's cache folder for the next question.
 
 An entry is known by its recording's files: where they are, how long and how old they are, and
-what stands at both ends of each. What is not whole, and not what was written, is as if it were
+the bytes at both ends of each. An entry that is not whole, or not as written, counts as if it were
 not there: it may be cut, be another program's, or be written by another process at the time.
 """
 
@@ -23,10 +23,10 @@ from tftool.recordings.contract import Edge, Publisher, Transforms
 from tftool.recordings.find import Found
 
 MOST_BYTES: Final = 1 << 30
-"""Bytes of all that is kept: what was not used for longest goes first."""
+"""Bytes of the whole cache: entries not used for longest go first."""
 
 LARGEST: Final = MOST_BYTES // 2
-"""Bytes of what is kept of one recording."""
+"""Bytes of one recording's entry."""
 
 
 class ColumnCache:
@@ -87,7 +87,7 @@ class ColumnCache:
         return True
 
     def _prune(self) -> None:
-        """Remove what was not used for longest, and what others left half written."""
+        """Remove entries not used for longest, and those left half written."""
         entries = []
         newest = 0.0
         for path in self.folder.iterdir():
@@ -150,7 +150,7 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
     """The columns of an entry.
 
     Raises:
-        ValueError: If they are not what was written.
+        ValueError: If they differ from the written ones.
     """
     start = head_size(bytes(data[: len(MAGIC) + 12]))
     head = parsed_head(bytes(data[:start]), key)
@@ -160,7 +160,7 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
         raise ValueError("cut")
     if zlib.crc32(memoryview(data)[start:]) != head["check"]:
         raise ValueError("damaged")
-    # One piece each, of which every edge has its rows: they may be many.
+    # One piece each, with rows of every edge: they may be many.
     wide = np.frombuffer(data, "<i8", messages + 8 * rows, start)
     narrow = np.frombuffer(data, "<i4", messages + rows, start + wide.nbytes)
     records, places = wide[messages:].reshape(rows, 8), narrow[messages:]

@@ -18,7 +18,7 @@ from tftool.messages.transform_rows import (
 from tftool.recordings.contract import Edge, Indexes, Publisher, Stamps, Transforms
 
 MOST_EDGES: Final = 100_000
-"""Edges of one recording; of what goes beyond, only the number is told."""
+"""Edges of one recording; further ones are only counted."""
 
 _NEVER: Final = 2**62, 0
 _FEWEST: Final = 16
@@ -106,7 +106,7 @@ class _Column:
         return self._rows[first:needed]
 
     def all(self) -> npt.NDArray[Any]:
-        """What is in it."""
+        """Return the rows."""
         return self._rows[: self.count]
 
 
@@ -118,7 +118,7 @@ def _wanted(needed: int, share: float, freely: int) -> int:
         share: How much of all has come with them, from 0 to 1.
         freely: How many there may be room for, whatever is needed.
     """
-    # What is there to come is known roughly; to copy what has come costs more than addresses
+    # The rest is known roughly; to copy the rows so far costs more than addresses
     # that are never used.
     most = max(needed * _MOST_AHEAD, freely)
     likely = int(needed / share * 1.02) if share * most > needed else needed * _MOST_AHEAD
@@ -186,7 +186,7 @@ class Growing:
             return 0
         # One that came once may never come again.
         rows = _wanted(needed, share, freely if there else 0)
-        # Both in one piece of memory, of which the end alone is not used.
+        # Both in one piece of memory, whose end alone is not used.
         split = rows * _RECORD
         room = _room(split + rows * self.messages.itemsize)
         records, self.records = self.records, room[:split].view(np.int64).reshape(rows, 8)
@@ -221,7 +221,7 @@ class Growing:
         return self.records[begin:end], self.messages[begin:end]
 
     def add_slashed(self, count: int) -> None:
-        """Count transforms of which a slash was left out."""
+        """Count transforms whose leading slash was left out."""
         self.state[_SLASHED] += count
 
     def finished(self) -> Edge:

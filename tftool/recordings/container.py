@@ -64,14 +64,14 @@ class Block(Protocol):
 
     @property
     def counts(self) -> Mapping[int, int] | None:
-        """How many of each channel there are; None if that shows only when it is taken apart."""
+        """Count the messages of each channel; None if only taking it apart would tell."""
 
     @property
     def whole(self) -> bool:
         """Whether it may be copied as it is."""
 
     def sound(self) -> bool:
-        """Whether its content is what was written, as far as it carries proof of that."""
+        """Whether its content is as written, as far as it carries proof of that."""
 
     def messages(self) -> list[Taken]:
         """Its messages, in their order; those up to the damage, where there is any."""
@@ -125,7 +125,7 @@ class Container(Protocol):
 
     @property
     def counts(self) -> list[int]:
-        """How many messages each stream has."""
+        """Return the number of messages of each stream."""
 
     def expected(self, wanted: Collection[int]) -> int:
         """About how many messages some streams have; 0 where that is not known."""

@@ -106,7 +106,7 @@ class Recorded:
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return what is missing or wrong with the files, as sentences."""
+        """Return the damage of the files, as sentences."""
         return (*self._container.damage, *self._notes)
 
     def _note(self, damage: str) -> None:

@@ -2,7 +2,7 @@
 
 A source is read, not waited for: it ends, and all of it is there. Moments are whole
 nanoseconds; *stamps* are what the publisher wrote into a header, *log times* when the
-recorder received the message. Columns hold what was recorded, unjudged: not-a-number,
+recorder received the message. Columns hold values as recorded, unjudged: not-a-number,
 zero quaternions, stamps of 0 and leading slashes included.
 """
 
@@ -71,7 +71,7 @@ class Publisher:
 
     @property
     def authority(self) -> str:
-        """What the buffer and its views call it: the node, else the topic."""
+        """Return its name in the buffer and its views: the node, else the topic."""
         return self.node or self.topic
 
 
@@ -214,7 +214,7 @@ class Progress(Protocol):
 
 
 class Source(Protocol):
-    """A recording, opened: what is in it is known, its messages are read when asked for.
+    """A recording, opened: its contents are known, its messages are read when asked for.
 
     Whatever reads raises `InputError` if nothing can be read; damage behind which
     something was read is told in `damage`, and never raises.
@@ -254,7 +254,7 @@ class Source(Protocol):
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """What is missing or wrong with the files, as sentences, with what was done instead."""
+        """Return the damage of the files, as sentences, with what was done instead."""
 
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
@@ -270,7 +270,7 @@ class Source(Protocol):
         """Headers by topic; of topics that are named, else of all whose type begins with one."""
 
     def clock(self) -> tuple[Stamps, Stamps]:
-        """What `/clock` read and when it was received, nanoseconds, each of shape (n,)."""
+        """Return the readings of `/clock` and their reception, nanoseconds, each of shape (n,)."""
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
         """The messages of some topics, in the order of the recording."""

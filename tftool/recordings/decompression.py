@@ -1,4 +1,4 @@
-"""Pieces of a recording unpacked, within bounds: what is declared is checked before it is made."""
+"""Pieces of a recording unpacked, within bounds: sizes are checked before memory is allocated."""
 
 import bz2
 import contextlib
@@ -63,7 +63,7 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
 
 
 class _Room:
-    """Memory that pieces are unpacked into, one after the other: what is new costs more."""
+    """Memory that pieces are unpacked into, one after the other: new memory costs more."""
 
     def __init__(self) -> None:
         self._bytes = bytearray()
@@ -79,7 +79,7 @@ class _Room:
                 if self._read(packed, size):
                     return memoryview(self._bytes)[:size]
             except Exception:
-                # What is wrong is for the other to say.
+                # The other one names the damage.
                 pass
         return unpack(method, packed, size)
 
@@ -124,7 +124,7 @@ class _Coming:
 class Ahead:
     """Reads and unpacks pieces in threads while those before them are looked at; works in a `with`.
 
-    Both let go of Python's lock: on two processors it costs no time of its own. Nothing else is
+    Both release Python's lock: on two processors it costs no time of its own. Nothing else is
     done in a thread. Who asks for a piece that is not there yet unpacks one behind it meanwhile:
     so every processor has work, and none has two threads to share it.
     """
@@ -140,7 +140,7 @@ class Ahead:
         """
         self._keys = iter(keys)
         self._packed = packed
-        # In the order of their keys; None for what is not unpacked ahead.
+        # In the order of their keys; None for pieces that are not unpacked ahead.
         self._coming: dict[object, _Coming | None] = {}
         self._spare: list[_Room] = []
         self._lent: _Room | None = None
@@ -155,9 +155,9 @@ class Ahead:
             self._pool.shutdown(wait=True, cancel_futures=True)
 
     def take(self, key: object) -> "Future[bytes | memoryview] | None":
-        """What `unpack` makes of a piece; None where it is not on its way.
+        """Return the future of an unpacked piece; None where it is not on its way.
 
-        What was taken before must not be looked at any more: its memory is used again.
+        A piece taken before must not be looked at any more: its memory is used again.
         """
         if self._lent is not None:
             self._spare.append(self._lent)
@@ -282,7 +282,7 @@ def check_size(packed: int, size: int) -> None:
 
 
 def zstandard() -> "ModuleType":
-    """Import the module of zstd: only what is compressed so waits for it."""
+    """Import the module of zstd: only recordings compressed so wait for it."""
     try:
         import zstandard
     except ImportError:
@@ -292,7 +292,7 @@ def zstandard() -> "ModuleType":
 
 @cache
 def lz4_frame() -> Any:
-    """Import the module of lz4's frames: only what is compressed so waits for it."""
+    """Import the module of lz4's frames: only recordings compressed so wait for it."""
     try:
         import lz4.frame
     except ImportError:

@@ -28,7 +28,7 @@ class DescribedFrames:
     Attributes:
         still: Frames that hold at all times.
         moving: Frames that joint states move.
-        gaps: Frames of which neither tf nor joint states say where they are.
+        gaps: Frames that neither tf nor joint states place.
         prefix: Prefix of a link's name in the name of its frame.
     """
 
@@ -106,7 +106,7 @@ def add_described(
         prefix: Prefix of the names of links in those of frames.
 
     Returns:
-        What was added, and what is still missing.
+        The added frames, and the missing ones.
     """
     still = []
     lacking = {joint.child for joint in robot.joints.values() if prefix + joint.child not in frames}

@@ -107,7 +107,7 @@ class Found:
     passed_over: tuple[Path, ...] = ()
 
     def told(self) -> list[str]:
-        """List what is worth saying, as sentences: files that are passed over, a convention."""
+        """Return notes, as sentences: files that are passed over, a convention."""
         if self.kind is Kind.POSES:
             from tftool.recordings.poses.pose_formats import convention_of
 
@@ -136,7 +136,7 @@ def names_a_path(word: str) -> bool:
 
 
 def _meant(path: Path) -> str:
-    """Where such a path lies one folder further down, as in the src of a workspace; or nothing."""
+    """Return such a path one folder further down, as in the src of a workspace; or nothing."""
     if path.is_absolute() or ".." in path.parts:
         return ""
     with contextlib.suppress(OSError):
@@ -151,7 +151,7 @@ def find(word: str) -> Found:
     """Return the source that a path or a glob names.
 
     Raises:
-        InputError: If there is nothing, or nothing we read; it says what is there instead.
+        InputError: If there is nothing, or nothing we read; it names the content instead.
     """
     path = Path(word)
     try:
@@ -166,7 +166,7 @@ def find(word: str) -> Found:
                 raise InputError(f"'{word}' is a link to nothing: {os.readlink(path)}")
             if is_url(word):
                 raise InputError(
-                    f"'{word}' is a URL, of which 'tftool info' and 'tftool doctor' read "
+                    f"'{word}' is a URL: 'tftool info' and 'tftool doctor' read "
                     "recordings: fetch it to a file for what else is asked of it."
                 )
             active = Path(f"{word}{ACTIVE}")
@@ -219,7 +219,7 @@ def _prefixed(word: str, path: Path) -> Found:
 
 _DESCRIBING = {".urdf", ".xacro"}
 _WRITTEN = {*_DESCRIBING, ".yaml", ".yml", ".xml", ".py"}
-"""Suffixes of what people write, and no recorder."""
+"""Suffixes of files that people write, and no recorder."""
 
 
 def kind_of_file(path: Path) -> Kind:
@@ -350,7 +350,7 @@ def _several(word: str, matches: list[str]) -> Found:
 def _recordings(
     entries: list[Path],
 ) -> tuple[tuple[Path, ...], set[Kind], tuple[Path, ...]]:
-    """Those of many files and folders that are recordings, or may be; of which kinds; other files.
+    """Sort files and folders into recordings, or possible ones, their kinds, and other files.
 
     Raises:
         PermissionError: If none is known to be one, and some may not be read.

@@ -147,7 +147,7 @@ def _protobuf(payload: bytes, several: bool) -> list[Shaped]:
 def _of_protobuf(payload: bytes) -> Shaped:
     seconds = nanoseconds = 0
     names = ["", ""]
-    # What is zero is left out; a rotation that is left out altogether turns nothing.
+    # Protobuf leaves out zeros; a rotation that is missing altogether turns nothing.
     place, turn = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]
     turned = False
     for number, value in _fields(payload):

@@ -40,7 +40,7 @@ class Joined:
 
     @property
     def counts(self) -> list[int]:
-        """How many messages each stream has."""
+        """Return the number of messages of each stream."""
         found = [0] * len(self.streams)
         for (_, part), numbers in zip(self._parts, self._maps, strict=True):
             for number, count in zip(numbers.tolist(), part.counts, strict=True):
@@ -50,7 +50,7 @@ class Joined:
 
     @property
     def damage(self) -> list[str]:
-        """What is wrong, with the name of the file."""
+        """Return the damage, each with the name of its file."""
         return [
             *self._damage,
             *(f"{name}: {damage}" for name, part in self._parts for damage in part.damage),

@@ -101,7 +101,7 @@ def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
 
 @dataclass(frozen=True, slots=True)
 class _Template:
-    """Where everything lies in a message, and the bytes by which others are known to be alike.
+    """Offsets in a message, and the bytes by which equal layouts are known.
 
     Attributes:
         order: "<" or ">".
@@ -195,7 +195,7 @@ class _Cdr(_Layout):
     aligned = True
 
     def order(self, payload: bytes) -> str:
-        """What the second byte says."""
+        """Return the byte order by the second byte."""
         return "<" if payload[1:2] in (b"\1", b"\3") else ">"
 
 

@@ -193,7 +193,7 @@ class TemplateCutter(Cutter):
         """Cut messages of layouts that one word tells apart: each row is copied only once.
 
         Returns:
-            What is left, of layouts that are not known yet, in a batch and its numbers.
+            The rest, of layouts that are not known yet, in a batch and its numbers.
         """
         templates = self._templates[length]
         told = self._told.get(length)
@@ -318,7 +318,7 @@ AnyCutter: TypeAlias = "Cutter | Decoding"
 
 
 def cutter(table: Table, layout: Layout, static: bool) -> Cutter:
-    """What cuts messages of one layout and kind into a table, as fast as it can be done here."""
+    """Return the fastest cutter here for messages of one layout and kind."""
     kind = TemplateCutter if SCAN is None else ScanCutter
     return kind(table, layout, static)
 

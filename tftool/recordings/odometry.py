@@ -19,7 +19,7 @@ Odometry names both; a pose names what it is in, and its topic is taken for the 
 
 
 def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
-    """Those of many topics whose messages imply transforms."""
+    """Return the topics whose messages imply transforms."""
     return tuple(one for one in topics if one.type in IMPLYING and one.encoding in ("cdr", "ros1"))
 
 

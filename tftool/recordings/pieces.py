@@ -36,7 +36,7 @@ class Piece:
         Args:
             file: The other file's number; it is open for writing and reading.
             place: Where they are to begin in it.
-            crc: The CRC of what stands before them, if one is wanted.
+            crc: The CRC of the bytes before them, if one is wanted.
 
         Returns:
             The CRC with theirs; 0 if none is wanted.
@@ -57,7 +57,7 @@ class Piece:
             again = os.preadv(file, [memoryview(_other)[:count]], place + done)
             if again != count or not _begin_alike(count):
                 raise InputError(
-                    f"what was written at byte {place + done} is not what is read there"
+                    f"the bytes written at byte {place + done} are not those read there"
                 )
             if crc is not None:
                 crc = zlib.crc32(read[:count], crc)
@@ -87,6 +87,6 @@ class Piece:
 
 
 def _begin_alike(count: int) -> bool:
-    """Whether what was written and what was read back are the same."""
+    """Whether the written bytes and those read back are the same."""
     # Compared whole where that can be, as that makes no copy.
     return _one == _other if count == _STEP else _one[:count] == _other[:count]

@@ -293,7 +293,7 @@ class Recording:
     def robot(self) -> Robot | None:
         """The robot, by its description: the one that was given, else the one recorded.
 
-        What is wrong with a recorded one is told in `oddities`.
+        Mistakes in a recorded one are among `oddities`.
 
         Raises:
             UnexpandedXacro: If the recorded one has elements of xacro.
@@ -490,7 +490,7 @@ def _last(edge: Edge) -> int:
 
 
 def _silent(level: str, text: str) -> None:
-    """What a buffer refuses is counted here instead."""
+    """Log nothing: refused samples are counted here instead."""
 
 
 def open_recording(

@@ -108,7 +108,7 @@ def trees(transforms: Transforms) -> list[TreeFacts]:
     for name in names:
         passed: dict[str, None] = {}
         here = name
-        # Up to a root, to what is known already, or round a loop.
+        # Up to a root, to a known frame, or round a loop.
         while here not in roots and here in parents and here not in passed:
             passed[here] = None
             here = parents[here][1]
@@ -124,7 +124,7 @@ def trees(transforms: Transforms) -> list[TreeFacts]:
 def oddities(
     recording: Recording, edges: Sequence[EdgeFacts], forest: Sequence[TreeFacts]
 ) -> list[str]:
-    """What is odd about a recording's transforms, as sentences; damage is told apart.
+    """Return oddities of a recording's transforms, as sentences; damage is apart.
 
     Args:
         recording: Which.

@@ -22,11 +22,11 @@ class RecordingWriter:
     """A recording that is being written; `write_recording` makes one. Works in a `with`.
 
     At the end of the `with` it comes to its name, whole; an exception that leaves the `with`
-    takes what was written away, and the name stays what it was.
+    removes the written data, and the name keeps its old file.
     """
 
     def __init__(self, target: Target, container: ContainerWriter) -> None:
-        """Take what is written to.
+        """Take the target to write to.
 
         Args:
             target: Where it comes to stand.
@@ -141,7 +141,7 @@ class RecordingWriter:
         self._target.commit()
 
     def discard(self) -> None:
-        """Take away what was written; the name stays what it was."""
+        """Remove the written data; the name keeps its old file."""
         self.container.abandon()
         self._target.discard()
 

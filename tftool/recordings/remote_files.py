@@ -33,7 +33,7 @@ def fetched(place: str) -> Iterator[str]:
         return
     with tempfile.TemporaryDirectory(prefix="tftool-") as folder:
         system, path = _opened(place)
-        # The name stays, since parts of a recording are told by it.
+        # The name stays, since it tells the parts of a recording.
         name = path.rstrip("/").rpartition("/")[2] or "recording"
         own = os.path.join(folder, re.sub(r"[^\w.-]", "_", name))
         with _failures_told(place):

@@ -1,4 +1,4 @@
-"""A recording that grows while a session runs: what is lost with a kill is a second, at most.
+"""A recording that grows while a session runs: a kill loses a second, at most.
 
 Until a file is closed it has `.active` behind its name, as ROS 1's recorder has it; what is in it
 then can be read, and `tftool edit` makes it whole.
@@ -22,7 +22,7 @@ from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, wr
 from tftool.recordings.target import failed, refuse_existing, synced
 
 CHUNK_SIZE: Final = 256 * 1024
-"""Bytes of messages in a chunk: what is in one that is not full is lost with a kill."""
+"""Bytes of messages in a chunk: a kill loses one that is not full."""
 
 CHUNK_TIME: Final = seconds(1)
 """How long messages wait in a chunk, at most."""
@@ -89,7 +89,7 @@ class RollingRecording:
 
         Raises:
             UsageError: If there is something of that name and `force` is not given, or the name
-                cannot hold what is asked for.
+                cannot hold the messages.
             InputError: If it cannot be written there.
         """
         self.path = path
@@ -185,7 +185,7 @@ class RollingRecording:
             self._keep_static(channel, payload)
 
     def _forget(self, now: Stamp) -> None:
-        """Drop what is older than the ring is long."""
+        """Drop messages older than the ring is long."""
         held, oldest = self._held, now - self._limits.ring
         while held and (held[0].log_time < oldest or self._held_bytes > MOST_HELD):
             self._held_bytes -= len(held.popleft().payload)
@@ -267,7 +267,7 @@ class RollingRecording:
         return self._writer
 
     def tick(self, now: Stamp) -> None:
-        """Write what has waited for a second; call it a few times a second.
+        """Write messages that waited for a second; call it a few times a second.
 
         Raises:
             InputError: If it cannot be written; data written before stays readable.
@@ -281,7 +281,7 @@ class RollingRecording:
         self._flushed = now
 
     def held(self) -> list[Kept]:
-        """What the ring holds, the oldest first; the statics in front."""
+        """Yield the messages of the ring, the oldest first; the statics in front."""
         statics = [
             Kept(
                 channel,
@@ -307,7 +307,7 @@ class RollingRecording:
             return
         try:
             if self._limits.ring:
-                # From now on these say what is in the file, and not what went by.
+                # From now on these describe the file, and not the passing messages.
                 held = self.held()
                 self.messages = len(held)
                 self.transforms = sum(kept.transforms for kept in held)
@@ -363,7 +363,7 @@ class RollingRecording:
         self._facts.append(FileFacts(place.name, start, end, sum(writer.counts.values())))
 
     def _rescued(self, error: OSError) -> InputError:
-        """Save what is written, and say why there is no more."""
+        """Save the written part, and say why there is no more."""
         self._closed = True
         writer, self._writer = self._writer, None
         where = self.path

@@ -54,7 +54,7 @@ def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
 
 
 def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
-    """A type's definition as ROS 1 records it, made from what is known of its fields.
+    """A type's definition as ROS 1 records it, made from the known fields.
 
     Raises:
         InputError: If the type is not known, or ROS 1 has nothing like it.

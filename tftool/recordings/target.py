@@ -1,4 +1,4 @@
-"""Where a recording is written: beside its place, under another name, until it is whole.
+"""Target of a recording: beside its place, under another name, until it is whole.
 
 A file or folder comes to its final name by one rename, when all of it is on the disk. Until
 then the name is what it was before: nothing, or the recording that stood there.
@@ -17,7 +17,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.recordings.containers import SUFFIXES
 
 PART: Final = ".part"
-"""What is added to a name while it is written."""
+"""Suffix of a name while it is written."""
 
 
 def refuse_stdout(path: Path) -> None:
@@ -50,7 +50,7 @@ class Target:
     """
 
     def __init__(self, path: Path, *, folder: bool = False, force: bool = False) -> None:
-        """Make the part, after a look at what is in the way.
+        """Make the part, after a look at existing files.
 
         Args:
             path: Its name in the end.
@@ -139,8 +139,8 @@ def commit_together(targets: Sequence[Target]) -> None:
     """Bring files that belong together to their names: all of them, or none.
 
     The last is the one by which the others are found. It comes to its name last, and what it
-    replaces goes first: whenever a process ends, it never stands beside what is not its own.
-    What is replaced waits under a hidden name until all is done.
+    replaces goes first: whenever a process ends, it is never beside files that are not its own.
+    The replaced file waits under a hidden name until all is done.
 
     Raises:
         InputError: If that fails; the names are what they were before.

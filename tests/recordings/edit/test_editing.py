@@ -162,9 +162,7 @@ def test_links_are_dropped_renamed_prefixed_and_shifted(tmp_path, mcap):
     assert after["r1/base_link", "r1/laser"] == before["base_link", "laser"]
 
 
-def test_names_change_in_other_messages_only_when_asked_and_it_is_said_how_many_do_not(
-    tmp_path, mcap
-):
+def test_names_change_in_other_messages_only_when_asked(tmp_path, mcap):
     one, two = tmp_path / "b.mcap", tmp_path / "c.mcap"
 
     said = edit([str(mcap)], one, Edits(rename={"laser": "a_much_longer_lidar_name"}))

@@ -219,7 +219,7 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
     assert shown(saved, "/cloud", 2.0) == (20_000, [7.0, 2.0, 2.0])
 
 
-def test_of_a_topic_of_a_session_the_last_message_is_told_within_a_round_of_so_many_bytes():
+def test_the_last_message_of_a_topic_is_sent_within_the_bytes_of_a_round():
     world = World(SimClock())
     displays = LiveDisplays(world)
     place = point_stamped(world.clock.epoch, "world", 1.0, 2.0, 0.0)
@@ -280,7 +280,7 @@ def test_a_message_waits_for_the_transform_of_its_stamp_but_not_for_ever():
     assert b'"root":"world","pose":[4.0,' in displays.round()["goal"]
 
 
-def test_a_topic_of_another_type_here_is_left_alone_and_one_that_changes_its_quality_is_not():
+def test_a_topic_of_another_type_is_left_alone_and_a_changed_quality_followed():
     world = World(SimClock())
     displays = LiveDisplays(world)
     world.topic("odd", INTERFACES.message("std_msgs/msg/String"))

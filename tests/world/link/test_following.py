@@ -76,7 +76,7 @@ def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published():
     run(WallClock(), follow())
 
 
-def test_transforms_that_come_before_the_first_word_of_the_clock_are_not_called_years_old():
+def test_transforms_before_the_first_clock_message_are_not_called_years_old():
     async def follow():
         with joined() as (link, host, guest):
             clock = host.publisher("player", "clock", CLOCK, Quality())

@@ -91,7 +91,7 @@ def test_a_message_that_comes_with_the_word_of_its_publisher_names_it():
     play(send())
 
 
-def test_a_message_that_overtakes_the_word_of_its_publisher_is_heard_as_one_from_elsewhere():
+def test_a_message_that_overtakes_its_publishers_announcement_is_from_elsewhere():
     async def send():
         with Pair() as pair:
             topic = pair.other.topic("chatter", STRING)

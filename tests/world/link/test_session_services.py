@@ -40,7 +40,7 @@ def test_a_service_of_the_host_is_one_of_the_guests_world():
     play(ask())
 
 
-def test_what_a_watcher_of_the_world_changes_while_the_link_looks_at_it_is_carried_too():
+def test_changes_made_by_a_watcher_while_the_link_looks_are_carried_too():
     async def answer():
         async with Two() as two:
 

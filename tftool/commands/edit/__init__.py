@@ -106,7 +106,7 @@ def edit(
     ] = False,
     start: Annotated[
         At | None,
-        moment_option("Cut what lies before: seconds since the start, or a stamp.", "--from"),
+        moment_option("Cut everything before: seconds since the start, or a stamp.", "--from"),
     ] = None,
     end: Annotated[
         At | None,

@@ -70,7 +70,7 @@ def export(
         int, decimals("Decimals; 17 writes each number as short as it can be read back.")
     ] = 9,
     root: Annotated[
-        str | None, option("Of links, take what hangs below this frame.", metavar="FRAME")
+        str | None, option("Of links, take those below this frame.", metavar="FRAME")
     ] = None,
     with_moving: Annotated[
         bool,

@@ -186,7 +186,7 @@ class _Shown:
     Attributes:
         free: Directions among the nine parameters of a fit.
         axis: The only axis of rotation in moving_a; None if there are several.
-        unseen: Names of what is not shown.
+        unseen: Names of the parts that are not shown.
     """
 
     free: tuple[Floats, ...]

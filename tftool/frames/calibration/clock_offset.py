@@ -41,7 +41,7 @@ _DRAWS: Final = 200
 
 
 class CalibrationRefused(TftoolError):
-    """The motion does not determine what was asked for; the text says what would.
+    """The motion does not determine the answer; the text names one that would.
 
     Attributes:
         next_motion: The motion to record instead; empty if none helps.

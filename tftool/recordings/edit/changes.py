@@ -48,7 +48,7 @@ class Edits:
         start: Where to begin, nanoseconds.
         end: Where to end.
         by_record_time: Whether these are log times, not stamps.
-        shift: What to add to the stamps of what moves, nanoseconds.
+        shift: Nanoseconds to add to the stamps of moving links.
         restamp: Whether stamps become log times.
         everywhere: Whether names and stamps change in all messages with a header.
         split_every: How long each of several files lasts; 0 for one file.
@@ -178,7 +178,7 @@ class Changer:
     def __init__(
         self, edits: Edits, window: Window | None = None, reparenting: Reparenting | None = None
     ) -> None:
-        """Take what is to be done.
+        """Take the changes to make.
 
         Args:
             edits: What to change.
@@ -408,7 +408,7 @@ _NAMES: Final = ("frame_id", "child_frame_id")
 
 
 def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
-    """What changes names in a channel's messages; None where its type has no header.
+    """Return the function that renames in a channel's messages; None if its type has no header.
 
     Raises:
         InputError: If its type is not known.

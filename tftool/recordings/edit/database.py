@@ -48,7 +48,7 @@ class EditedDatabase:
     container = "db3"
 
     def __init__(self, path: Path, tape: Sqlite) -> None:
-        """Copy the file, and read back what was written.
+        """Copy the file, and read it back.
 
         Raises:
             OSError: If it cannot be written.
@@ -80,7 +80,7 @@ class EditedDatabase:
             # No journal: the file counts for nothing before it is whole and has its name.
             self._base.execute("pragma journal_mode = off").fetchall()
             self._base.execute("pragma synchronous = off")
-            # What is dropped is not to be found in the file any more.
+            # Dropped bytes must not be found in the file any more.
             self._base.execute("pragma secure_delete = on").fetchall()
             with translated(self.path):
                 self._base.execute("begin")
@@ -145,10 +145,10 @@ class EditedDatabase:
         self.end = max((high for _, _, _, high in found), default=0)
 
     def compare(self) -> None:
-        """Read again what was changed.
+        """Read the changed rows again.
 
         Raises:
-            InputError: If it is not what was to be written.
+            InputError: If they differ from the intended ones.
         """
         found: dict[int, int] = {}
         address = f"file:{quote(str(self.path))}?mode=ro&immutable=1"

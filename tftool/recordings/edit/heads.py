@@ -79,7 +79,7 @@ class StaticHeads:
 
     @property
     def topics(self) -> frozenset[str]:
-        """The topics that are latched because of what is written first."""
+        """The topics that are latched because their state is written first."""
         if not self.wanted:
             return frozenset()
         found = frozenset(one.channel.topic for one in self._statics)
@@ -124,7 +124,7 @@ class StaticHeads:
         Args:
             number: Which part of the result it is, from 0.
             output: The part's file, in which nothing stands yet.
-            start: The log time of what is written.
+            start: The log time of the written messages.
         """
         if not self.wanted:
             return
@@ -143,7 +143,7 @@ class StaticHeads:
                 continue
             child = stripped(one.row.child)
             held = chosen.get(child)
-            # The last one up to the end; what comes up only behind it is better than nothing.
+            # The last one up to the end; one that comes only behind it is better than nothing.
             if held is None or one.log_time <= end or held.log_time > end >= one.log_time:
                 chosen[child] = one
         groups: dict[tuple[int, int], list[_Static]] = {}

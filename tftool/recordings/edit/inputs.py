@@ -1,4 +1,4 @@
-"""The files of what is edited, each as a tape."""
+"""The input files of an edit, each as a tape."""
 
 import contextlib
 import tempfile
@@ -52,7 +52,7 @@ class EditedInput:
         return sum(tape.size for tape in self.tapes)
 
     def close(self) -> None:
-        """Close its files, and take away what was unpacked."""
+        """Close its files, and remove unpacked copies."""
         for tape in self.tapes:
             tape.close()
         for folder in self._unpacked:

@@ -1,4 +1,4 @@
-"""What an edited recording is written into: a file of each container, or a folder of files."""
+"""Outputs of an edit: a file of each container, or a folder of files."""
 
 import struct
 import zlib
@@ -29,7 +29,7 @@ _HEAD = struct.Struct("<qQQ")
 
 
 class EditedFile:
-    """One file that is written, and what is known of it for the comparison in the end.
+    """One file that is written, and facts for the comparison in the end.
 
     Attributes:
         path: Where it is written.
@@ -81,7 +81,7 @@ class EditedFile:
         self.end: Stamp = 0
         self.left_out: dict[str, str] = {}
         self.writer = self._opened(tape)
-        # A database is written row by row; what is copied has chunks.
+        # A database is written row by row; whole chunks are copied elsewhere.
         self._chunks = None if isinstance(self.writer, SqliteWriter) else self.writer
         if self._chunks is not None:
             self._chunks.first_free = first_free
@@ -260,7 +260,7 @@ class EditedFile:
             self._chunks.end_block(block)
 
     def finish(self, tapes: Sequence[Reader]) -> None:
-        """Write what is beside messages, and close the file."""
+        """Write attachments and metadata, and close the file."""
         if isinstance(self.writer, McapWriter):
             for number, tape in enumerate(tapes):
                 for attachment in tape.extras.attachments:
@@ -275,7 +275,7 @@ class EditedFile:
 
 
 def digest(before: int, message: Taken, container: str) -> int:
-    """A checksum over messages, one more; of what the container keeps of them."""
+    """A checksum over messages, one more; over the parts that the container keeps."""
     kept = container == "mcap"
     head = _HEAD.pack(
         message.log_time, message.publish_time if kept else 0, message.sequence if kept else 0

@@ -1,4 +1,4 @@
-"""What the options of `edit` come to for given recordings, once every name is known."""
+"""Plan of an edit: its options applied to given recordings, once every name is known."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
         recordings: The recordings, opened; their transforms are read where an option names links.
 
     Raises:
-        UsageError: If an option names what was not recorded, or asks what cannot be.
+        UsageError: If an option names a missing topic or frame, or asks the impossible.
     """
     _check_names(edits, recordings)
     window = _window(edits, recordings)
@@ -119,7 +119,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
 def _refuse_outside(
     edits: Edits, recordings: Sequence[Recording], moments: Sequence[Stamp]
 ) -> None:
-    """Refuse a cut of which nothing is left: one end of it lies beyond all of these moments.
+    """Refuse a cut that leaves nothing: one end of it is beyond all of these moments.
 
     Args:
         edits: Whose cut.
@@ -145,7 +145,7 @@ def _refuse_outside(
 
 
 def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:
-    """What finds the pose of a frame under its new parent; None where none gets one."""
+    """Return the function for a frame's pose under its new parent; None where none gets one."""
     if not edits.reparent:
         return None
     if len(recordings) > 1:

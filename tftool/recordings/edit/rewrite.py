@@ -1,7 +1,7 @@
 """A recording rewritten with changes: what they do not touch stays as it was, byte for byte.
 
 Every piece is read once, copied where it may be, else taken apart and changed. Then the result
-is opened, and all of it compared with what was to be written. Only then it gets its name.
+is opened, and all of it compared with the intended content. Only then it gets its name.
 """
 
 import contextlib
@@ -46,7 +46,7 @@ class EditReport:
         messages: How many the result has.
         counts: How often each thing was done, by its name.
         notes: What else is to be known, as sentences.
-        files: The names of what was written.
+        files: The names of the written files.
         copied: Chunks that were copied as they were.
     """
 
@@ -111,7 +111,7 @@ def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
 
 
 def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
-    """Refuse to write onto what is read, under whatever name.
+    """Refuse to write onto an input, under whatever name.
 
     Raises:
         UsageError: If the output is an input.
@@ -256,7 +256,7 @@ class _Job:
             output.finish(whose if self._by_tape or number == self._order[0] else [])
 
     def _examined_ahead(self, tape: Reader) -> Iterator[Block]:
-        """A tape's pieces; what is copied whole is examined while those before it are written.
+        """A tape's pieces; pieces copied whole are examined while those before are written.
 
         To unpack a chunk and hold its CRC against it takes as long as to copy it, and both
         work without Python's lock.
@@ -411,7 +411,7 @@ class _Job:
     # The end
 
     def _compare(self) -> None:
-        """Read what was written, and compare it with what was to be written.
+        """Read the output, and compare it with the intended content.
 
         Raises:
             InputError: If it differs.
@@ -454,7 +454,7 @@ class _Job:
             channel = output.channels[number]
             wanted[channel.topic, channel.type] += count
         if tape.damage or counts != wanted or found != output.digests:
-            what = tape.damage[0] if tape.damage else "its messages differ from what was written"
+            what = tape.damage[0] if tape.damage else "its messages differ from the written ones"
             raise InputError(f"'{self._path}' was not written as it should be: {what}.")
         self.report.messages += sum(counts.values())
         self.report.copied += len(output.copied)

@@ -139,7 +139,7 @@ class SingleMessages:
         self._bytes += whole
 
     def taken(self) -> Batch:
-        """Those that were read since the last time."""
+        """Return those read since the last call."""
         sizes = np.fromiter(map(len, self._pieces), dtype=np.int64, count=len(self))
         ends = np.cumsum(sizes)
         batch = Batch(
@@ -233,7 +233,7 @@ class IndexEntry(NamedTuple):
 
     @property
     def place(self) -> int:
-        """Where its messages begin, behind 49 bytes of head and the compression's name."""
+        """Return where its messages begin, behind 49 bytes of head and the compression's name."""
         return self.position + 49 + len(self.method.encode("utf-8", "surrogateescape"))
 
     def record(self) -> bytes:

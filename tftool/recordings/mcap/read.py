@@ -222,7 +222,7 @@ class Mcap(ChunkedReader):
         )
 
     def _forget(self) -> None:
-        """Drop what was learned, to begin again."""
+        """Drop all knowledge, to begin again."""
         super()._forget()
         self.is_indexed = False
         self.schemas.clear()
@@ -288,7 +288,7 @@ class Mcap(ChunkedReader):
                 self._loose.extend(block.found)
 
     def blocks(self) -> "Iterator[Chunk | Loose]":
-        """Its chunks, and the messages between them; what is beside them goes to `extras`."""
+        """Its chunks, and the messages between them; other records go to `extras`."""
         yield from self._pieces()
         if not self._ended:
             self.note(f"The recording breaks off at byte {self._ended_at}.")
@@ -446,7 +446,7 @@ class Mcap(ChunkedReader):
             return self._batch(chunk, chosen, singly, ahead)
 
         for chunk, batch in self._chunk_batches(chosen, batch_of):
-            # What was read singly before it comes before it.
+            # Messages read singly before it come before it.
             if singly.is_full or (batch is not None and len(singly)):
                 yield singly.taken()
             if batch is not None:

@@ -142,7 +142,7 @@ class McapWriter:
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last log time of what is in the file; 0 where there is none."""
+        """First and last log time of the messages in the file; 0 where there is none."""
         return (0 if self._low == _NOTHING_YET else self._low), self._high
 
     # What is known

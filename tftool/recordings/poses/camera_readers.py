@@ -22,7 +22,7 @@ _CALIBRATED: Final = re.compile(r"P[0-9]|Tr(_[a-z_]+)?|R|T|R0_rect|R_rect")
 
 
 def read_colmap(file: PoseFile) -> list[PoseLink]:
-    """Read COLMAP's images.txt: two lines an image, of which the second holds points."""
+    """Read COLMAP's images.txt: two lines an image; the second holds points."""
     images: list[tuple[str, list[float]]] = []
     is_image = True
     for line in file.lines():

@@ -73,7 +73,7 @@ class PoseContainer:
 
     @property
     def counts(self) -> list[int]:
-        """How many messages each stream has."""
+        """Return the number of messages of each stream."""
         found: list[int] = np.bincount(self._batch.senders, minlength=len(self.streams)).tolist()
         return found
 

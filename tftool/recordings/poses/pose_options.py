@@ -22,7 +22,7 @@ class PoseOptions:
         frames: Names of its frames, "PARENT:CHILD"; those of the format if None.
         pose_rate: Poses in a second, for a file without stamps.
         pose_format: Name of the format; decided by content if None.
-        inverted: Whether the file holds the inverse of what its format usually holds.
+        inverted: Whether the file holds the inverse of its format's usual poses.
         axes: Axes of the file's cameras, one of `AXES`; those of the format if None.
         prefix: Name that goes before each frame, with a slash.
     """

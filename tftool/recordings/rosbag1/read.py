@@ -127,7 +127,7 @@ class Rosbag1(ChunkedReader):
         return True
 
     def _forget(self) -> None:
-        """Drop what was learned, to begin again."""
+        """Drop all knowledge, to begin again."""
         super()._forget()
         self._headers.clear()
         self._infos.clear()

@@ -1,4 +1,4 @@
-"""What rosbag2 writes beside its files, and any recording opened by what is found.
+"""Metadata that rosbag2 writes beside its files, and opening of any found recording.
 
 The metadata is advice, never a gate: files are read as they are, whatever it says.
 """
@@ -67,7 +67,7 @@ def _open_folder(folder: Path) -> Container:
 
 
 def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
-    """The files of a rosbag2 recording, in order; what is odd about them is added to `damage`.
+    """The files of a rosbag2 recording, in order; oddities are added to `damage`.
 
     Raises:
         InputError: If there is none.
@@ -77,7 +77,7 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
         key=_natural,
     )
     listed = _listed(folder, damage)
-    # What is no recording, as an empty file, is told when it is opened.
+    # A file that is no recording, as an empty one, is named when it is opened.
     parts = [folder / name for name in listed if (folder / name).is_file()]
     missing = [name for name in listed if not (folder / name).is_file()]
     others = [path for path in there if path not in parts]
@@ -104,7 +104,7 @@ def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) 
 
     Args:
         paths: The files.
-        damage: What is odd about them is added to it.
+        damage: List to which oddities are added.
         by_time: Whether the recording that begins first comes first, whatever its name.
     """
     parts: list[tuple[str, Container]] = []
@@ -220,7 +220,7 @@ class _Unpacked:
 
     @property
     def counts(self) -> list[int]:
-        """How many messages each stream has."""
+        """Return the number of messages of each stream."""
         return self._inner.counts
 
     def close(self) -> None:
@@ -230,7 +230,7 @@ class _Unpacked:
 
 
 def unpack_file(path: Path, target: Path) -> str:
-    """Unpack a file; what was wrong with it, as a sentence."""
+    """Unpack a file; return its damage as a sentence."""
     free = shutil.disk_usage(target.parent).free
     limit = min(_LARGEST_UNPACKED, free - (1 << 26))
     plausible = most_of(path.stat().st_size)

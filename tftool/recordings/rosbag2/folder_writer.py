@@ -46,7 +46,7 @@ def metadata_text(
         storage: "mcap" or "sqlite3".
         files: The files, in order.
         topics: How many messages each topic has.
-        compression: Format and mode of what is compressed beyond the storage.
+        compression: Format and mode of compression beyond the storage's own.
         old: What the metadata of the recording it was made from said: its version and what
             else does not follow from the files is kept.
     """

@@ -1,6 +1,6 @@
 """rosbag2's messages straight from sqlite's pages: what sqlite hands over row by row, in bulk.
 
-Only what is plain is read so: at the first page or row that is not as expected it ends, and
+Only plain pages are read so: at the first page or row that is not as expected it ends, and
 sqlite itself goes on behind the last row that was read.
 
 Source: the SQLite database file format, sections 1.3 to 1.6 and 2.1.
@@ -48,7 +48,7 @@ def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple
         streams: Of a topic's number in the file that of its stream.
 
     Returns:
-        Pieces, each with the id of its last row: what comes behind the last one was not read.
+        Pieces, each with the id of its last row: rows behind the last one were not read.
     """
     if root < 2:
         return
@@ -77,7 +77,7 @@ class _Table:
         if self._size < 512 or self._size & (self._size - 1) or self._usable < 480:
             raise _Odd
         room = _AT_ONCE * (self._size // _LEAST_ROW)
-        # For one batch after the other: what is new costs more.
+        # For one batch after the other: new memory costs more.
         self._pages = np.empty(_MOST_APART * _AT_ONCE * self._size, dtype=np.uint8)
         self._senders = np.empty(room, dtype=np.int32)
         self._columns = [np.empty(room, dtype=np.int64) for _ in range(3)]
@@ -96,11 +96,11 @@ class _Table:
                 yield self._batch(*self._read(pages[begin : begin + _AT_ONCE]), wanted)
 
     def _read(self, pages: Pages) -> tuple[Bytes, Pages]:
-        """Some pages, and where each begins in what was read."""
+        """Some pages, and where each begins in the bytes read."""
         first, apart = int(pages.min()), pages - pages.min()
         span = int(apart.max()) + 1
         if span <= _MOST_APART * len(pages):
-            # What lies between them, of an index as a rule, is less than what each call costs.
+            # Reading the bytes between them, an index as a rule, costs less than another call.
             found = self._pages[: span * self._size]
             self._file.into((first - 1) * self._size, found.data)
             return found, apart * self._size

@@ -92,15 +92,13 @@ class Sqlite:
     def _open(self, path: Path) -> sqlite3.Connection:
         log = path.with_name(path.name + "-wal")
         if log.exists() and log.stat().st_size:
-            # What was recorded last stands only in there. To read it, sqlite writes.
+            # The last messages are only in there. To read them, sqlite writes.
             if path.stat().st_size + log.stat().st_size <= _MOST_COPIED:
                 self._copy = tempfile.TemporaryDirectory(prefix="tftool-")
                 copied = Path(self._copy.name) / "recording.db3"
                 shutil.copyfile(path, copied)
                 shutil.copyfile(log, copied.with_name("recording.db3-wal"))
-                self.damage.append(
-                    "The recording was not closed: what stands in its write-ahead log is read too."
-                )
+                self.damage.append("The recording was not closed: its write-ahead log is read too.")
                 return _connected(f"file:{quote(str(copied))}?mode=rw")
             self.damage.append(
                 "The recording was not closed, and its end, in a write-ahead log, is left out: "
@@ -187,7 +185,7 @@ class Sqlite:
 
     @cached_property
     def counts(self) -> list[int]:
-        """How many messages each stream has."""
+        """Return the number of messages of each stream."""
         found: dict[int, int] = {}
         try:
             found.update(

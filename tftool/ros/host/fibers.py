@@ -307,7 +307,7 @@ class Fiber:
         finally:
             alarm.cancel()
             self._arrived = None
-        # The future told of the rest already; the lock is taken back for the next turn.
+        # The future reported the rest already; the lock is taken back for the next turn.
         self._rest.acquire(blocking=False)
 
     def _hand_over(self, answer: tuple[Any, BaseException | None], go: bool) -> None:

@@ -165,7 +165,7 @@ class _Finder(MetaPathFinder):
                 continue
             origin = Path(spec.origin or "")
             inside = self.tested is not None and origin.is_relative_to(self.tested)
-            # Where the tests lie around a checkout of tftool, that is still none of what they test.
+            # Where the tests lie around a checkout of tftool, that is still not their subject.
             ours = "site-packages" in origin.parts or fullname.partition(".")[0] == "tftool"
             if inside and spec.loader is not None and not ours:
                 spec.loader = _TestedLoader(spec.loader)
