@@ -1,8 +1,8 @@
 """The one door to frames: FROM becomes `Frames`, for Python and for the command line alike.
 
 FROM is a word that names a scenario, a recording, a robot description, a file of static
-transforms, or nothing: the session that runs on this machine. A file is read; a scenario is
-played on simulated time; a session is listened to.
+transforms, the address of a robot (`ws://robot:8765`), or nothing: the session that runs on this
+machine. A file is read; a scenario is played on simulated time; a session is listened to.
 """
 
 import math
@@ -25,7 +25,7 @@ from tftool.recordings.poses.pose_options import (
     pose_options,
 )
 from tftool.scenario import builtin
-from tftool.world.link.link_options import read_reach
+from tftool.world.link.link_options import REACHES, reach_at, read_reach
 
 if TYPE_CHECKING:
     from tftool.recordings.contract import Progress
@@ -70,7 +70,7 @@ def open_frames(
     Several recordings are joined in the order of time. It works inside a running event loop.
 
     Args:
-        place: Source of the frames; None for the session that runs.
+        place: Source of the frames, ws://robot:8765 too; None for the session that runs.
         listen_for: How long to listen to a session, seconds.
         until: Up to which second to play a scenario; 5 s if None, all of it if infinite.
         margin: How long to play on behind it, seconds, for what arrives after its stamp.
@@ -116,13 +116,18 @@ def open_frames(
             )
     robot = RobotOptions(joints or {}, arguments or {}, Path(urdf) if urdf else None)
     recording = RecordingOptions(no_cache, with_odometry, tuple(tf_topics))
-    if place is None:
-        refuse_options_of_files(robot, recording, None)
+    word = None if place is None else os.fspath(place)
+    far = None if word is None else reach_at(word)
+    if word is None or far is not None:
+        refuse_options_of_files(robot, recording, word)
         from tftool.world.link.heard_frames import join_to_listen, listened
 
-        session = session or join_to_listen(domain, read_reach({**reach, "connect": [*connects]}))
+        given = {**reach, "connect": [*connects]}
+        if word is not None:
+            refuse_beside_address(word, domain, given)
+        session = session or join_to_listen(domain, far or read_reach(given))
         return listened(session, nanoseconds(listen_for), cache_time, watch)
-    found = named(os.fspath(place))
+    found = named(word)
     if found.kind is Kind.SCENARIO:
         refuse_options_of_files(robot, recording, found.name)
         from tftool.scenario.played_frames import played
@@ -195,6 +200,19 @@ def refuse_options_of_files(
     robot.refuse(f"{what} is no robot description and no recording")
     recording.refuse(f"{what} is no recording")
     options_of(word or "").refuse(f"{what} is no pose file")
+
+
+def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, Any]) -> None:
+    """Refuse the options of other middlewares and domains beside the address of a session.
+
+    Raises:
+        UsageError: If one was given.
+    """
+    if domain is not None or any(given.values()):
+        raise UsageError(
+            f"'{visible(address)}' is the whole way to one robot: leave out --domain, "
+            f"{', '.join(flag for one in REACHES for flag in one.FLAGS)} and --tls-*."
+        )
 
 
 def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:

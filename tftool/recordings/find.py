@@ -164,6 +164,11 @@ def find(word: str) -> Found:
                 return _several(word, matches)
             if path.is_symlink():
                 raise InputError(f"'{word}' is a link to nothing: {os.readlink(path)}")
+            if word.startswith(("ws://", "wss://")):
+                raise InputError(
+                    f"'{word}' is a robot's Foxglove server, and a file is needed here: "
+                    f"'tftool record -o run.mcap {word}' writes one."
+                )
             if is_url(word):
                 raise InputError(
                     f"'{word}' is a URL: 'tftool info' and 'tftool doctor' read "

@@ -2,6 +2,8 @@
 
 from typing import Annotated
 
+import typer
+
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.declaration import declare
@@ -11,6 +13,14 @@ from tftool.commands.shared.options import Json, option, seconds_option
 @declare(looks_only=True)
 def session(
     connection: Connection,
+    place: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[FROM]",
+            help="Address of a robot's Foxglove server: ws://robot:8765.",
+            show_default=False,
+        ),
+    ] = None,
     listen_for: Annotated[
         Duration,
         seconds_option(
@@ -33,4 +43,5 @@ def session(
 
     tftool session
     tftool session --connect tcp/localhost:7447
+    tftool session ws://robot:8765
     """

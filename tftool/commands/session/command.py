@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from tftool.base.errors import LinkError, UsageError
+from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, as_seconds
 from tftool.commands.shared.connection import Connection, Mode
@@ -98,11 +99,17 @@ def _written(found: dict[str, Any], *, verbose: bool) -> str:
 
 def run(
     connection: Connection,
+    place: str | None,
     listen_for: int,
     verbose: bool,
     for_programs: bool,
 ) -> ExitStatus:
     """Run `tftool session`; the parameters are its options."""
+    if place is not None:
+        raise UsageError(
+            f"'{visible(place)}' is no session that runs: leave it out, or give the address of a "
+            "Foxglove server, such as ws://robot:8765."
+        )
     if connection.mode is Mode.HOST:
         raise UsageError("session lists who is there: it has nothing to --host.")
     link = connection.open_link()

@@ -15,7 +15,7 @@ from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.commands.shared.notices import notice
 from tftool.frames.source_options import RecordingOptions, RobotOptions
-from tftool.world.link.link_options import REACHES, Options, domain_here, read_reach
+from tftool.world.link.link_options import REACHES, Options, domain_here, reach_at, read_reach
 from tftool.world.link.reach import Reach
 
 if TYPE_CHECKING:
@@ -191,6 +191,11 @@ class Connection:
         Raises:
             UsageError: If one was given.
         """
+        if word is None and self.reach.only_reads:
+            raise UsageError(
+                f"{self.place} is a session that runs, without a past to ask about: leave out the "
+                "moment, or record it first ('tftool record')."
+            )
         self.refuse_to_join(word)
         if self.needs_link:
             flags = ", ".join(flag for reach in REACHES for flag in reach.FLAGS)
@@ -200,11 +205,15 @@ class Connection:
             )
 
     def refuse_to_join(self, word: str | None) -> None:
-        """Refuse --join for a named world, which is always hosted.
+        """Refuse --join, and a robot's address, beside a named world, which is always hosted.
 
         Raises:
-            UsageError: If it was given.
+            UsageError: If one was given.
         """
+        if word is not None and self.reach.only_reads:
+            raise UsageError(
+                f"'{visible(word)}' and {self.place} are two sources: name one at a time."
+            )
         if word is not None and self.mode is Mode.JOIN:
             raise UsageError(f"'{visible(word)}' is always hosted: leave out --join, or the name.")
 
@@ -243,9 +252,10 @@ def read(
     with_odometry: bool = False,
     no_cache: bool = False,
     tf_topic: list[str] | None = None,
+    address: str | None = None,
     **reach: Any,
 ) -> Connection:
-    """Put the options together; `reach` has those of the middlewares.
+    """Put the options together; `reach` has those of the middlewares, FROM may be an `address`.
 
     Raises:
         UsageError: If they contradict each other.
@@ -255,13 +265,19 @@ def read(
         raise UsageError("--join and --host contradict each other: choose one.")
     if host and read_only:
         raise UsageError("--read-only looks at a session, so it cannot --host one.")
+    far = None
+    if address is not None:
+        from tftool.opener import refuse_beside_address
+
+        far = reach_at(address)
+        refuse_beside_address(address, domain, {**reach, "host": host})
     return Connection(
         command,
         looks_only,
         hosts_turtles,
         Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
         domain_here() if domain is None else domain,
-        read_reach(reach),
+        far or read_reach(reach),
         read_only,
         RobotOptions(
             dict(_joint(word) for word in joint or ()),

@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, Annotated, Any, get_args
 
 import typer
 
+from tftool.base.errors import UsageError
+from tftool.base.escaping import visible
 from tftool.commands.shared.options import option
-from tftool.world.link.link_options import LARGEST_DOMAIN, REACHES
+from tftool.world.link.link_options import LARGEST_DOMAIN, REACHES, reach_at
 from tftool.world.link.reach import Reach
 
 if TYPE_CHECKING:
@@ -162,6 +164,10 @@ POSE_OPTIONS: dict[str, Any] = {
 """Options of commands whose FROM may be a pose file; `Command` puts them into effect."""
 
 
+LOOKING = "doctor, echo, explain, export, monitor, plot, record, session, tree and view"
+"""Commands that read a session by its address."""
+
+
 @dataclass(frozen=True, slots=True)
 class Declaration:
     """A command's own options, and what kind of command it is.
@@ -220,11 +226,13 @@ class Declaration:
                 given.pop(name, None)
             if not self.shares:
                 return self._run(*args, **words)
+            address = self._take_address(words)
             with read(
                 self.name,
                 providers or Providers(),
                 looks_only=self.looks_only,
                 hosts_turtles=self.hosts_turtles,
+                address=address,
                 **given,
             ) as connection:
                 return self._run(connection, *args, **words)
@@ -239,6 +247,33 @@ class Declaration:
         if first is not None:
             connected.__annotations__.pop(first.name, None)
         return connected
+
+    def _take_address(self, words: dict[str, Any]) -> str | None:
+        """Take the address of a session out of a command's words, where FROM is one.
+
+        Raises:
+            UsageError: If the command does not read sessions, or the address is out of place.
+        """
+        parameters = inspect.signature(self.declared).parameters
+        for name, value in words.items():
+            several = value if isinstance(value, list) else [value]
+            found = [one for one in several if isinstance(one, str) and reach_at(one) is not None]
+            if not found:
+                continue
+            if not self.looks_only:
+                raise UsageError(
+                    f"'{visible(found[0])}' is a robot that is only looked at, and 'tftool "
+                    f"{self.name}' publishes or reads files: {LOOKING} look at it."
+                )
+            is_from = parameters[name].default is not inspect.Parameter.empty
+            if len(found) > 1 or not is_from:
+                raise UsageError(
+                    f"'{visible(found[0])}' is out of place: it is FROM, behind everything else, "
+                    "and the only one."
+                )
+            words[name] = [one for one in several if one not in found] if several is value else None
+            return found[0]
+        return None
 
     def _run(self, *args: Any, **options: Any) -> Any:
         """Run the code of the command: in a folder `command.py`, else the function itself."""

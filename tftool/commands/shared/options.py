@@ -258,8 +258,9 @@ From = Annotated[
     str | None,
     typer.Argument(
         metavar="[FROM]",
-        help="Whose frames: a scenario (name or file), a recording (file, folder, glob) or a robot "
-        "description; if not said, the session that runs, else the turtles.",
+        help="Whose frames: a scenario (name or file), a recording (file, folder, glob), a robot "
+        "description, or a robot's Foxglove server (ws://robot:8765); if not said, the session "
+        "that runs, else the turtles.",
         show_default=False,
     ),
 ]

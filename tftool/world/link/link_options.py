@@ -15,6 +15,7 @@ LARGEST_DOMAIN = 232
 MIDDLEWARES: Final = (
     "tftool.world.link.zenoh.reach:ZenohReach",
     "tftool.world.link.dds.reach:DdsReach",
+    "tftool.world.link.foxglove.reach:FoxgloveReach",
 )
 """What each middleware declares; the first one carries what no option says otherwise."""
 
@@ -46,6 +47,16 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
     if len(asked) > 1:
         raise UsageError(asked[-1].ALONE)
     return (asked or REACHES)[0].read(given)
+
+
+def reach_at(word: str) -> Reach | None:
+    """Return the reach to the session whose address a word is; None for other words.
+
+    Raises:
+        UsageError: If it is an address that is written wrong.
+    """
+    found = (one.at(word) for one in REACHES)
+    return next((one for one in found if one is not None), None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -51,6 +51,18 @@ class Reach:
     """Whether it is among a robot's nodes: there, commands that only look write nothing, and
     static transforms that were lost come again."""
 
+    only_reads: ClassVar[bool] = False
+    """Whether nothing can be published by it."""
+
+    @classmethod
+    def at(cls, word: str) -> "Reach | None":
+        """Return the reach to the session that a word is the address of; None if it is none.
+
+        Raises:
+            UsageError: If it begins as such an address, and is wrong.
+        """
+        return None
+
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "Reach":
         """Put the values of its options together.

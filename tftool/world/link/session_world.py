@@ -160,6 +160,8 @@ def joined_session(
 
 def session_name(link: "Link", place: str) -> str:
     """Name the session that a link leads to, by the process that hosts it or a ROS node."""
+    if link.options.reach.only_reads:
+        return visible(place)
     processes = link.graph.processes()
     sources = [one for one in processes if one.role is not Role.GUEST]
     first = next(iter(hosts(processes) or sources), None)

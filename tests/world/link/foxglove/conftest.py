@@ -1,0 +1,110 @@
+"""A server that is not ours: foxglove-sdk's, in this process, on a free port of the loopback."""
+
+import contextlib
+import itertools
+import threading
+import time
+
+import pytest
+
+from tests.world.link.conftest import new_world
+from tftool.buffer.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.messages.transforms import encode_transforms
+from tftool.world.link.foxglove.reach import FoxgloveReach
+from tftool.world.link.graph import Role
+from tftool.world.link.link_options import Options
+from tftool.world.link.session import Link
+from tftool.world.link.session_world import shared
+from tftool.world.world import World
+
+foxglove = pytest.importorskip("foxglove", reason="pip install foxglove-sdk")
+
+TF = "tf2_msgs/msg/TFMessage"
+
+
+def transform(parent, child, stamp=1, x=1.0):
+    return TransformStamped(stamp, parent, child, Transform((x, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0)))
+
+
+class Robot(foxglove.websocket.ServerListener):
+    """A server, and what it keeps for those who subscribe late, as foxglove_bridge does."""
+
+    def __init__(self, port=0, capabilities=None, **options):
+        self.context = foxglove.Context()
+        self.kept = {}
+        self.subscribed = []
+        self.server = foxglove.start_server(
+            host="127.0.0.1",
+            port=port,
+            name="bridge",
+            server_listener=self,
+            context=self.context,
+            capabilities=capabilities,
+            **options,
+        )
+        self.port = self.server.port
+        self.address = f"ws://127.0.0.1:{self.port}"
+
+    def on_subscribe(self, client, channel):
+        self.subscribed.append(channel.topic)
+        for topic, payload in self.kept.get(channel.topic, ()):
+            topic.log(payload)
+
+    def topic(self, name, ros_type=TF, *, encoding="cdr", definition="", schema_encoding="ros2msg"):
+        schema = foxglove.Schema(name=ros_type, encoding=schema_encoding, data=definition.encode())
+        return foxglove.Channel(
+            name, message_encoding=encoding, schema=schema, context=self.context
+        )
+
+    def keep(self, topic, payload):
+        self.kept.setdefault(topic.topic(), []).append((topic, payload))
+
+    def stop(self):
+        self.server.stop()
+
+
+@pytest.fixture
+def robots():
+    """Starts servers, all of which are stopped at the end."""
+    started = []
+
+    def start(**options):
+        started.append(Robot(**options))
+        return started[-1]
+
+    yield start
+    for one in started:
+        one.stop()
+
+
+@pytest.fixture
+def moving(robots):
+    """A robot whose base moves along x in odom, a millimetre each 10 ms, with a laser on it."""
+    robot = robots()
+    statics = robot.topic("/tf_static")
+    robot.keep(statics, encode_transforms([transform("base", "laser", 0, 0.5)]))
+    tf = robot.topic("/tf")
+    ended = threading.Event()
+
+    def move():
+        for number in itertools.count():
+            sample = transform("odom", "base", time.time_ns(), number * 0.001)
+            tf.log(encode_transforms([sample]))
+            if ended.wait(0.01):
+                return
+
+    thread = threading.Thread(target=move)
+    thread.start()
+    yield robot
+    ended.set()
+    thread.join()
+
+
+@contextlib.contextmanager
+def joined(address, clock=None):
+    """A world that reads a robot; by a followed clock it follows the robot's, too."""
+    world = new_world() if clock is None else World(clock)
+    link = Link(Options("test", 0, FoxgloveReach(address), read_only=True))
+    with link, shared(link, world, Role.GUEST):
+        yield world, link

@@ -1,0 +1,402 @@
+"""Client of one server, on a thread of its own: it connects, subscribes, and connects again.
+
+`websockets` is imported with this module, and this module when `FoxgloveReach` joins. What comes
+in goes through an inbox to the event loop of the world.
+"""
+
+import asyncio
+import contextlib
+import os
+import re
+import ssl
+import threading
+from collections.abc import Callable, Coroutine, Iterator, Sequence
+from typing import Any, Final, NamedTuple
+
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import (
+    ConnectionClosed,
+    InvalidHandshake,
+    InvalidMessage,
+    InvalidStatus,
+    InvalidURI,
+    NegotiationError,
+)
+from websockets.typing import Subprotocol
+
+from tftool.base.errors import LinkError
+from tftool.base.stamps import Stamp
+from tftool.world.link.foxglove import protocol
+from tftool.world.link.foxglove.payloads import ros_topic
+from tftool.world.link.foxglove.protocol import FoxgloveChannel, ProtocolError, ServerState
+from tftool.world.link.inbox import Inbox
+
+PAUSES: Final = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+"""Seconds before each further attempt to connect again; the last one from then on."""
+
+STEADY: Final = 5.0
+"""Seconds after which a connection counts as one that works, and pauses begin anew."""
+
+QUIET: Final = 0.2
+"""Seconds without news after which a server has said what it offers."""
+
+PATIENCE: Final = 5.0
+"""Seconds to wait for that at most."""
+
+TIMEOUT: Final = 10.0
+"""Seconds for a connection to open; a server that does not answer a ping is as slow at most."""
+
+_WAITING: Final = 4
+"""Frames that wait unread in `websockets`; then the server has to wait."""
+
+
+class FoxgloveData(NamedTuple):
+    """A message that came in: its channel and its payload, as the server writes it."""
+
+    channel: FoxgloveChannel
+    payload: bytes
+
+
+class ClientReceiver(NamedTuple):
+    """Receiver of what a client hears; each function is called on the event loop.
+
+    Attributes:
+        changed: Called when the server has come, gone or offers something else.
+        data: Called with each message.
+        time: Called with each time the server tells.
+        warn: Called with sentences for the user.
+    """
+
+    changed: Callable[[None], object]
+    data: Callable[[FoxgloveData], object]
+    time: Callable[[Stamp], object]
+    warn: Callable[[str], object]
+
+
+class _Direct(connect):
+    """A connection to the address that was given, and to no other place it redirects to."""
+
+    def process_redirect(self, exc: Exception) -> Exception:
+        """Refuse to go elsewhere."""
+        return exc
+
+
+class FoxgloveClient:
+    """Connection to one server, renewed whenever it ends; closed by `close`."""
+
+    def __init__(
+        self,
+        address: str,
+        inbox: Inbox,
+        receiver: ClientReceiver,
+        *,
+        place: str = "",
+        pauses: Sequence[float] = PAUSES,
+    ) -> None:
+        """Begin to connect.
+
+        Args:
+            address: The server's address.
+            inbox: Brings calls to the event loop.
+            receiver: Receiver of the calls.
+            place: The address as sentences show it.
+            pauses: Seconds before each further attempt.
+        """
+        self._address = address
+        self._inbox = inbox
+        self._receiver = receiver
+        self._place = place or address
+        self._pauses = pauses
+        self._lock = threading.Lock()
+        self._state = ServerState()
+        self._is_change_due = False
+        self._wanted: set[tuple[str, str]] = set()
+        self._heard: dict[int, FoxgloveChannel] = {}
+        self._subscriptions: dict[int, int] = {}
+        self._count = 0
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._connection: ClientConnection | None = None
+        self._first = threading.Event()
+        self._failure = ""
+        self._is_closed = False
+        self._loop = asyncio.new_event_loop()
+        self._woken = asyncio.Event()
+        self._thread = threading.Thread(target=self._run, name="tftool foxglove", daemon=True)
+        self._thread.start()
+
+    # On any thread
+
+    def wait(self) -> None:
+        """Wait until the server has said what it offers.
+
+        Raises:
+            LinkError: If it cannot be reached, or is no such server.
+        """
+        self._first.wait(TIMEOUT + PATIENCE)
+        if self._failure or not self._first.is_set():
+            reason = self._failure or "it does not answer"
+            raise LinkError(
+                f"No Foxglove server can be read at {self._place}: {reason}. Is foxglove_bridge "
+                "running there ('ros2 run foxglove_bridge foxglove_bridge'; port 8765 unless "
+                "another one was chosen)?"
+            )
+
+    @contextlib.contextmanager
+    def state(self) -> Iterator[ServerState]:
+        """Give what the server has said, which does not change meanwhile."""
+        with self._lock:
+            yield self._state
+
+    def want(self, name: str, ros_type: str, *, again: bool = False) -> None:
+        """Subscribe a topic, now or when the server has it.
+
+        Args:
+            name: The topic without a leading slash.
+            ros_type: Its type.
+            again: Whether to ask anew where it is subscribed, for messages the server keeps.
+        """
+        self._call(self._want, (name, ros_type), again)
+
+    def forget(self, name: str, ros_type: str) -> None:
+        """Subscribe a topic no more."""
+        self._call(self._forget, (name, ros_type))
+
+    def close(self) -> None:
+        """Leave the server."""
+        self._call(self._stop)
+        self._thread.join(TIMEOUT)
+
+    def _call(self, function: Callable[..., None], *arguments: Any) -> None:
+        # A loop that has just been closed has nothing to do any more.
+        with contextlib.suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(function, *arguments)
+
+    # On our thread
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        try:
+            self._loop.run_until_complete(self._live())
+        finally:
+            self._loop.close()
+            self._first.set()
+
+    def _stop(self) -> None:
+        self._is_closed = True
+        self._woken.set()
+        if self._connection is not None:
+            self._start(self._connection.close())
+
+    async def _live(self) -> None:
+        """Connect, and connect again, until it is closed."""
+        failures = lost = 0
+        while not self._is_closed:
+            began = self._loop.time()
+            reason = await self._connected()
+            if self._is_closed:
+                return
+            was_there = bool(self._state.name)
+            if not self._first.is_set():
+                self._failure = reason
+                self._first.set()
+                return
+            if was_there:
+                lost += 1
+                self._warn(
+                    f"The connection to {self._place} has ended ({reason}); what it sent stays as "
+                    f"it was. Trying again ({lost})."
+                )
+                self._replace(ServerState())
+            failures = 0 if self._loop.time() - began > STEADY else failures + 1
+            pause = self._pauses[min(failures, len(self._pauses)) - 1 if failures else 0]
+            # `asyncio.sleep` could not be woken.
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self._woken.wait(), pause)
+
+    async def _connected(self) -> str:
+        """Read a connection until it ends; return why it did, as a part of a sentence."""
+        try:
+            async with _Direct(
+                self._address,
+                subprotocols=[Subprotocol(one) for one in protocol.SUBPROTOCOLS],
+                compression=None,
+                max_size=protocol.LARGEST,
+                max_queue=_WAITING,
+                open_timeout=TIMEOUT,
+                close_timeout=1.0,
+                ping_interval=TIMEOUT,
+                ping_timeout=TIMEOUT,
+                proxy=None,
+            ) as connection:
+                if connection.subprotocol is None:
+                    return "it speaks WebSocket, but not Foxglove's protocol"
+                self._connection = connection
+                await self._read(connection)
+        except ProtocolError as error:
+            return f"it sent {error}"
+        except ConnectionClosed as error:
+            return _of_closed(error)
+        except (InvalidHandshake, InvalidURI, OSError, TimeoutError, ValueError) as error:
+            return _of_failure(error)
+        finally:
+            self._connection = None
+        return "the server has closed it"
+
+    async def _read(self, connection: ClientConnection) -> None:
+        """Take in everything that comes."""
+        self._heard.clear()
+        self._subscriptions.clear()
+        quiet: asyncio.TimerHandle | None = None
+        try:
+            async for message in connection:
+                if isinstance(message, bytes):
+                    self._take_binary(message)
+                    continue
+                await self._take_text(connection, message)
+                if not self._first.is_set():
+                    if quiet is not None:
+                        quiet.cancel()
+                    if self._state.name:
+                        quiet = self._loop.call_later(QUIET, self._first.set)
+        finally:
+            if quiet is not None:
+                quiet.cancel()
+
+    def _take_binary(self, frame: bytes) -> None:
+        found = protocol.message_data(frame)
+        if found is not None:
+            number, payload = found
+            channel = self._heard.get(number)
+            # What was sent before a subscription ended is of no channel any more.
+            if channel is not None:
+                data = FoxgloveData(channel, payload)
+                self._inbox.put(self._receiver.data, data, len(payload))
+            return
+        stamp = protocol.server_time(frame)
+        if stamp is not None:
+            self._inbox.put(self._receiver.time, stamp, len(frame))
+
+    async def _take_text(self, connection: ClientConnection, text: str) -> None:
+        with self._lock:
+            operation = self._state.take(text)
+            warnings, self._state.warnings = self._state.warnings, []
+        for one in warnings:
+            self._warn(f"{self._place} says: {one}")
+        if operation == "serverInfo" and "connectionGraph" in self._state.capabilities:
+            await connection.send(protocol.request("subscribeConnectionGraph"))
+        if operation in ("advertise", "unadvertise"):
+            self._subscribe()
+        if operation and operation != "status":
+            self._tell_change()
+
+    def _replace(self, state: ServerState) -> None:
+        with self._lock:
+            self._state = state
+        self._tell_change()
+
+    def _tell_change(self) -> None:
+        """Have the change taken in; many that come at once are taken in together."""
+        with self._lock:
+            is_due, self._is_change_due = self._is_change_due, True
+        if not is_due:
+            self._inbox.put(self._changed, None)
+
+    def _changed(self, _: None) -> None:
+        with self._lock:
+            self._is_change_due = False
+        self._receiver.changed(None)
+
+    def _warn(self, sentence: str) -> None:
+        # Without a size an event is never dropped: a server may say much.
+        self._inbox.put(self._receiver.warn, sentence, len(sentence))
+
+    # Subscriptions
+
+    def _want(self, topic: tuple[str, str], again: bool) -> None:
+        is_new = topic not in self._wanted
+        self._wanted.add(topic)
+        if again and not is_new:
+            self._unsubscribe([one for one in self._subscriptions if self._topic_of(one) == topic])
+        self._subscribe()
+
+    def _forget(self, topic: tuple[str, str]) -> None:
+        self._wanted.discard(topic)
+        self._unsubscribe([one for one in self._subscriptions if self._topic_of(one) == topic])
+
+    def _topic_of(self, channel: int) -> tuple[str, str]:
+        return ros_topic(self._heard[self._subscriptions[channel]])
+
+    def _subscribe(self) -> None:
+        """Subscribe the channels that are wanted, and drop those that are gone or differ."""
+        channels = self._state.channels
+        gone = [
+            number
+            for number, subscription in self._subscriptions.items()
+            if channels.get(number) != self._heard[subscription]
+        ]
+        self._unsubscribe(gone)
+        asked = []
+        for number, channel in channels.items():
+            if number in self._subscriptions or ros_topic(channel) not in self._wanted:
+                continue
+            self._count += 1
+            self._subscriptions[number] = self._count
+            self._heard[self._count] = channel
+            asked.append({"id": self._count, "channelId": number})
+        if asked:
+            self._send(protocol.request("subscribe", subscriptions=asked))
+
+    def _unsubscribe(self, channels: Sequence[int]) -> None:
+        ended = [self._subscriptions.pop(number) for number in channels]
+        for subscription in ended:
+            del self._heard[subscription]
+        if ended:
+            self._send(protocol.request("unsubscribe", subscriptionIds=ended))
+
+    def _send(self, text: str) -> None:
+        if self._connection is not None:
+            self._start(self._connection.send(text))
+
+    def _start(self, work: Coroutine[Any, Any, None]) -> None:
+        async def done() -> None:
+            # The reader notices, too, and says why.
+            with contextlib.suppress(ConnectionClosed):
+                await work
+
+        task = self._loop.create_task(done())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+
+def _of_closed(error: ConnectionClosed) -> str:
+    """Return why a connection ended."""
+    close = error.rcvd or error.sent
+    if close is None:
+        return "it broke off"
+    if close.code == 1009:
+        return f"it sent a message of more than {protocol.LARGEST >> 20} MB"
+    if close.code in (1000, 1001):
+        return "the server has closed it"
+    return f"closed with {close.code} {close.reason}".rstrip()
+
+
+def _of_failure(error: Exception) -> str:
+    """Return why no connection came about."""
+    if isinstance(error, ssl.SSLCertVerificationError):
+        return (
+            f"its certificate is not trusted: {error.verify_message} (SSL_CERT_FILE=FILE names "
+            "the certificate of one who signed it)"
+        )
+    if isinstance(error, TimeoutError):
+        return "it does not answer"
+    if isinstance(error, InvalidStatus):
+        return f"it answers with HTTP {error.response.status_code}"
+    if isinstance(error, NegotiationError):
+        return "it speaks WebSocket, but not Foxglove's protocol"
+    if isinstance(error, InvalidMessage):
+        return "what answers there is no web server"
+    if isinstance(error, OSError):
+        # asyncio puts its own words for the system's, and joins those of several addresses.
+        found = re.search(r"\[Errno (\d+)\]", str(error))
+        return os.strerror(int(found[1])) if found else error.strerror or str(error)
+    return str(error)

@@ -1,0 +1,269 @@
+"""A server of the Foxglove WebSocket protocol as the middleware of a link, which only reads it."""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Final
+
+from tftool.base.errors import InputError, LinkError, MalformedMessage
+from tftool.base.stamps import Stamp
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.link.foxglove.client import ClientReceiver, FoxgloveClient, FoxgloveData
+from tftool.world.link.foxglove.payloads import conversion, define, ros_topic
+from tftool.world.link.foxglove.protocol import FoxgloveChannel, ServerState, clock_message
+from tftool.world.link.foxglove.reach import FoxgloveReach
+from tftool.world.link.graph import NODE, SERVER, Graph, GraphEntity, Process
+from tftool.world.link.inbox import Inbox
+from tftool.world.link.link_context import UNKNOWN
+from tftool.world.link.link_options import Options
+from tftool.world.link.seam import (
+    Arrived,
+    Middleware,
+    Watcher,
+    WireClient,
+    WirePublisher,
+    WireRequest,
+)
+
+CLOCK: Final = ("clock", "rosgraph_msgs/msg/Clock")
+
+MOST_DEFINED: Final = 1_000
+"""Types that are learnt from a server's definitions."""
+
+_TIME_GID: Final = b"time"
+
+_NO_WRITING: Final = "a Foxglove server is only read here: nothing is published to it"
+
+
+class FoxgloveMiddleware:
+    """This process as a client of a server; see `seam.Middleware`.
+
+    Attributes:
+        graph: What the server says is there.
+        session: The name of our side, which is in no graph.
+        unanswering: None; the processes are another machine's.
+        notices: None.
+    """
+
+    def __init__(self, options: Options, reach: FoxgloveReach) -> None:
+        """Connect, as the seam says."""
+        self._domain = options.domain
+        self._place = reach.place(options.domain)
+        self.session = "tftool"
+        self.graph = Graph(self.session, options.domain)
+        self.unanswering: tuple[int, ...] = ()
+        self.notices: tuple[str, ...] = ()
+        self._watcher: Watcher | None = None
+        self._ears: dict[tuple[str, str], list[Callable[[Arrived], object]]] = {}
+        self._conversions: dict[FoxgloveChannel, Callable[[bytes], bytes] | None] = {}
+        self._gids: dict[FoxgloveChannel, bytes] = {}
+        self._defined: set[str] = set()
+        self._entities: dict[str, GraphEntity] = {}
+        self._inbox = Inbox()
+        receiver = ClientReceiver(self._changed, self._arrived, self._time, self._warn)
+        self._client = FoxgloveClient(reach.address, self._inbox, receiver, place=self._place)
+        try:
+            self._client.wait()
+            self._inbox.call_now()
+        except BaseException:
+            self._client.close()
+            raise
+
+    @property
+    def lost(self) -> int:
+        """Messages that were dropped because too many waited to be taken in."""
+        return self._inbox.lost
+
+    def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
+        """Call back on `loop` from now on, and report changes of the graph."""
+        self._watcher = watcher
+        self._inbox.start(loop)
+        if watcher is not None:
+            for one in self.graph.entities():
+                watcher.graph_changed(one, True)
+
+    def tell_frames(self, names: Sequence[str]) -> None:
+        """Do nothing: command lines are completed from sessions over zenoh."""
+
+    def settle(self) -> None:
+        """Do nothing: a server takes clients at any time."""
+
+    def close(self) -> None:
+        """Leave the server."""
+        self._inbox.close()
+        self._client.close()
+
+    # What is only shown or written to others
+
+    def process(self, process: Process) -> Callable[[], None]:
+        """Show nothing: a server does not list its clients."""
+        return _nothing
+
+    def node(self, name: str) -> Callable[[], None]:
+        """Show nothing."""
+        return _nothing
+
+    def subscription(
+        self, node: str, name: str, ros_type: str, quality: Quality
+    ) -> Callable[[], None]:
+        """Show nothing."""
+        return _nothing
+
+    def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
+        """Refuse to publish."""
+        raise LinkError(_NO_WRITING)
+
+    def server(
+        self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
+    ) -> Callable[[], None]:
+        """Refuse to serve."""
+        raise LinkError(_NO_WRITING)
+
+    def client(self, node: str, name: str, ros_type: str) -> WireClient:
+        """Refuse to ask."""
+        raise LinkError(_NO_WRITING)
+
+    # Topics
+
+    def listen(
+        self,
+        name: str,
+        ros_type: str,
+        on_message: Callable[[Arrived], object],
+        *,
+        is_latched: bool = False,
+    ) -> Callable[[], None]:
+        """Have `on_message` called with what others publish."""
+        topic = name, ros_type
+        ears = self._ears.setdefault(topic, [])
+        ears.append(on_message)
+        self._client.want(name, ros_type, again=is_latched)
+
+        def stop() -> None:
+            if on_message in ears:
+                ears.remove(on_message)
+            if not ears and self._ears.get(topic) is ears:
+                del self._ears[topic]
+                self._client.forget(name, ros_type)
+
+        return stop
+
+    def _arrived(self, data: FoxgloveData) -> None:
+        channel = data.channel
+        name, ros_type = ros_topic(channel)
+        convert = self._conversion(channel)
+        if convert is None:
+            return
+        try:
+            arrived = Arrived(convert(data.payload), self._gids.get(channel, b""))
+        except MalformedMessage as refusal:
+            if self._watcher is not None:
+                self._watcher.refuse(name, refusal)
+            return
+        self._deliver((name, ros_type), arrived)
+
+    def _time(self, stamp: Stamp) -> None:
+        # Where /clock is a channel, the server's own time would only say it again.
+        if _TIME_GID.hex() in self._entities:
+            self._deliver(CLOCK, Arrived(clock_message(stamp), _TIME_GID))
+
+    def _deliver(self, topic: tuple[str, str], arrived: Arrived) -> None:
+        for on_message in tuple(self._ears.get(topic, ())):
+            on_message(arrived)
+
+    def _conversion(self, channel: FoxgloveChannel) -> Callable[[bytes], bytes] | None:
+        """Return what makes CDR of a channel's payloads; None where nothing does."""
+        if channel not in self._conversions:
+            if len(self._conversions) > MOST_DEFINED:
+                self._conversions.clear()
+            self._conversions[channel] = None
+            try:
+                self._conversions[channel] = conversion(channel)
+            except InputError as error:
+                self._warn(f"'{channel.topic}' cannot be read: {error}.".replace("..", "."))
+        return self._conversions[channel]
+
+    def _warn(self, sentence: str) -> None:
+        if self._watcher is not None:
+            self._watcher.say_once(sentence, sentence)
+
+    # What the server shows
+
+    def _changed(self, _: None) -> None:
+        """Align the graph with what the server has said."""
+        with self._client.state() as state:
+            self._learn_types(state)
+            found = self._shown(state)
+            ignored = state.ignored
+        if ignored:
+            self._warn(
+                f"{self._place} offers more than {len(state.channels)} channels: further ones "
+                "are ignored."
+            )
+        for key in [key for key, one in self._entities.items() if found.get(key) != one]:
+            self._entities.pop(key)
+            self._report(self.graph.remove(key), there=False)
+        for key in found.keys() - self._entities.keys():
+            self._entities[key] = found[key]
+            self._report(self.graph.add(key, found[key]), there=True)
+
+    def _report(self, entity: GraphEntity | Process | None, *, there: bool) -> None:
+        if self._watcher is not None and entity is not None:
+            self._watcher.graph_changed(entity, there)
+
+    def _learn_types(self, state: ServerState) -> None:
+        """Learn types that only the server knows, so that they are recorded and listed."""
+        for channel in state.channels.values():
+            if channel.type in self._defined or len(self._defined) >= MOST_DEFINED:
+                continue
+            self._defined.add(channel.type)
+            try:
+                define(channel)
+            except InputError as error:
+                self._warn(f"The definition of '{channel.type}' cannot be used: {error}.")
+
+    def _shown(self, state: ServerState) -> dict[str, GraphEntity]:
+        """Return everything that is there, by keys of our own."""
+        found: dict[str, GraphEntity] = {}
+        types: dict[str, str] = {}
+        nodes: set[str] = set()
+        self._gids = {}
+        topics = {number: ros_topic(one) for number, one in state.channels.items()}
+        for number, channel in state.channels.items():
+            name, ros_type = topics[number]
+            types.setdefault(channel.topic, ros_type)
+            publishers = state.publishers.get(channel.topic) or (state.name,)
+            for place, node in enumerate(publishers):
+                gid = number.to_bytes(4) + place.to_bytes(4)
+                found[gid.hex()] = self._entity(PUBLISHER, node, name, ros_type, gid)
+            # A message does not say which of several publishers sent it.
+            if len(publishers) == 1:
+                self._gids[channel] = gid
+        if "time" in state.capabilities and CLOCK not in topics.values():
+            entity = self._entity(PUBLISHER, state.name, *CLOCK, _TIME_GID)
+            found[_TIME_GID.hex()] = entity
+        for topic, subscribers in state.subscribers.items():
+            for node in subscribers if topic in types else ():
+                entity = self._entity(SUBSCRIPTION, node, topic.strip("/"), types[topic])
+                found[f"s {topic} {node}"] = entity
+        for name, ros_type in state.services.values():
+            for node in state.providers.get(name) or (state.name,):
+                entity = self._entity(SERVER, node, name.strip("/"), ros_type)
+                found[f"q {name} {node}"] = entity
+        for table in (state.publishers, state.subscribers, state.providers):
+            nodes.update(node for several in table.values() for node in several)
+        for node in nodes:
+            found[f"n {node}"] = self._entity(NODE, node)
+        return found
+
+    def _entity(
+        self, kind: str, node: str, name: str = "", ros_type: str = "", gid: bytes = b""
+    ) -> GraphEntity:
+        return GraphEntity(kind, self._domain, self._place, node, name, ros_type, UNKNOWN, gid)
+
+
+def _nothing() -> None:
+    """Hide nothing."""
+
+
+if TYPE_CHECKING:
+    _AS_SEAM: type[Middleware] = FoxgloveMiddleware

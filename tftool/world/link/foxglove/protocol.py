@@ -1,0 +1,244 @@
+"""Messages of the Foxglove WebSocket protocol, as far as a reader needs them.
+
+A server sends JSON about what there is, and binary messages of what was subscribed. All of it
+comes from strangers: every field is checked, and what is kept has a limit.
+
+Source: the protocol's description in foxglove/ws-protocol, and foxglove-sdk.
+"""
+
+import json
+import struct
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from tftool.base.stamps import NANOSECONDS, Stamp
+
+SUBPROTOCOLS: Final = ("foxglove.sdk.v1", "foxglove.websocket.v1")
+"""Names by which servers know the protocol, the newer one first."""
+
+LARGEST: Final = 64 * 1024 * 1024
+"""Bytes of the largest message that is taken in."""
+
+LARGEST_TEXT: Final = 32 * 1024 * 1024
+"""Characters of the largest JSON that is read."""
+
+MOST_CHANNELS: Final = 5_000
+"""Channels that are remembered; a server's further ones are ignored."""
+
+MOST_NODES: Final = 10_000
+"""Publishers, subscribers and services that are remembered of a server, each."""
+
+MOST_DEFINITIONS: Final = 32 * 1024 * 1024
+"""Characters of all definitions of types that are remembered."""
+
+_LONGEST_NAME: Final = 300
+_DATA: Final = struct.Struct("<BIQ")
+_TIME: Final = struct.Struct("<BQ")
+_CLOCK: Final = struct.Struct("<4siI")
+
+
+class ProtocolError(Exception):
+    """Something that no Foxglove server sends; its text is a part of a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoxgloveChannel:
+    """One topic of a server, by one schema.
+
+    Attributes:
+        number: Its number on this connection.
+        topic: The topic, as the server writes it.
+        encoding: How messages are written: "cdr", "ros1", "protobuf", "json".
+        type: The type, as the server writes it.
+        schema_encoding: How its definition is written: "ros2msg", "ros1msg", "protobuf".
+        definition: The definition; "" where it is left out or not remembered.
+    """
+
+    number: int
+    topic: str
+    encoding: str
+    type: str
+    schema_encoding: str
+    definition: str
+
+
+@dataclass(slots=True)
+class ServerState:
+    """Everything a server has said about itself on one connection.
+
+    Attributes:
+        name: Its name for itself; "" until it has said it.
+        capabilities: What it offers beyond topics.
+        channels: Its channels by number.
+        publishers: Names of each topic's publishers.
+        subscribers: Names of each topic's subscribers.
+        providers: Names of each service's nodes.
+        services: Name and type of each service, by its number.
+        warnings: Sentences of the server for its client that were not passed on yet.
+        ignored: Channels beyond the limit.
+    """
+
+    name: str = ""
+    capabilities: frozenset[str] = frozenset()
+    channels: dict[int, FoxgloveChannel] = field(default_factory=dict)
+    publishers: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    subscribers: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    providers: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    services: dict[int, tuple[str, str]] = field(default_factory=dict)
+    warnings: list[str] = field(default_factory=list)
+    ignored: int = 0
+    _definitions: int = 0
+
+    def take(self, text: str) -> str:
+        """Take in one message in JSON; return its operation, "" for one that is of no interest.
+
+        Raises:
+            ProtocolError: If it is none of the protocol.
+        """
+        if len(text) > LARGEST_TEXT:
+            raise ProtocolError(f"a text of {len(text)} characters")
+        try:
+            message = json.loads(text)
+        except (ValueError, RecursionError):
+            raise ProtocolError("a text that is no JSON") from None
+        if not isinstance(message, dict):
+            raise ProtocolError("a text that is no JSON object")
+        operation = message.get("op")
+        change = _CHANGES.get(operation) if isinstance(operation, str) else None
+        if change is None:
+            return ""
+        try:
+            change(self, message)
+        except (KeyError, TypeError, ValueError, AttributeError, OverflowError):
+            raise ProtocolError(f"a message '{operation}' whose fields are wrong") from None
+        return str(operation)
+
+    def _take_info(self, message: dict[str, Any]) -> None:
+        self.name = _text(message.get("name") or "server")
+        self.capabilities = frozenset(_text(one) for one in message.get("capabilities") or ())
+
+    def _take_status(self, message: dict[str, Any]) -> None:
+        if int(message["level"]) >= 1 and len(self.warnings) < 10:
+            self.warnings.append(_text(message["message"]))
+
+    def _take_channels(self, message: dict[str, Any]) -> None:
+        for one in message["channels"]:
+            number = _number(one["id"])
+            self._drop(number)
+            if len(self.channels) >= MOST_CHANNELS:
+                self.ignored += 1
+                continue
+            definition = one.get("schema") or ""
+            if not isinstance(definition, str):
+                raise TypeError("a schema that is no text")
+            if self._definitions + len(definition) > MOST_DEFINITIONS:
+                definition = ""
+            self._definitions += len(definition)
+            self.channels[number] = FoxgloveChannel(
+                number,
+                _text(one["topic"]),
+                _text(one["encoding"]),
+                _text(one.get("schemaName") or ""),
+                _text(one.get("schemaEncoding") or ""),
+                definition,
+            )
+
+    def _drop_channels(self, message: dict[str, Any]) -> None:
+        for number in message["channelIds"]:
+            self._drop(_number(number))
+
+    def _drop(self, number: int) -> None:
+        gone = self.channels.pop(number, None)
+        if gone is not None:
+            self._definitions -= len(gone.definition)
+
+    def _take_services(self, message: dict[str, Any]) -> None:
+        for one in message["services"]:
+            if len(self.services) < MOST_NODES:
+                self.services[_number(one["id"])] = _text(one["name"]), _text(one["type"])
+
+    def _drop_services(self, message: dict[str, Any]) -> None:
+        for number in message["serviceIds"]:
+            self.services.pop(_number(number), None)
+
+    def _take_graph(self, message: dict[str, Any]) -> None:
+        tables = (
+            (self.publishers, "publishedTopics", "publisherIds"),
+            (self.subscribers, "subscribedTopics", "subscriberIds"),
+            (self.providers, "advertisedServices", "providerIds"),
+        )
+        for table, key, ids in tables:
+            for one in message.get(key) or ():
+                name, nodes = _text(one["name"]), one[ids]
+                table.pop(name, None)
+                left = MOST_NODES - sum(map(len, table.values())) - len(table)
+                if nodes and left > 0:
+                    table[name] = tuple(_text(node).strip("/") for node in nodes[:left])
+        for name in message.get("removedTopics") or ():
+            self.publishers.pop(_text(name), None)
+            self.subscribers.pop(_text(name), None)
+        for name in message.get("removedServices") or ():
+            self.providers.pop(_text(name), None)
+
+
+_CHANGES: Final = {
+    "serverInfo": ServerState._take_info,
+    "status": ServerState._take_status,
+    "advertise": ServerState._take_channels,
+    "unadvertise": ServerState._drop_channels,
+    "advertiseServices": ServerState._take_services,
+    "unadvertiseServices": ServerState._drop_services,
+    "connectionGraphUpdate": ServerState._take_graph,
+}
+"""What each operation of a server changes; others need no answer."""
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError("no text")
+    return value[:_LONGEST_NAME]
+
+
+def _number(value: Any) -> int:
+    if not (isinstance(value, int) and 0 <= value < 1 << 32):
+        raise ValueError("no number of 32 bits")
+    return value
+
+
+def message_data(frame: bytes) -> tuple[int, bytes] | None:
+    """Return the subscription and the payload of a binary message; None for other kinds.
+
+    Raises:
+        ProtocolError: If it ends too early.
+    """
+    if not frame or frame[0] != 1:
+        return None
+    if len(frame) < _DATA.size:
+        raise ProtocolError(f"message data of {len(frame)} bytes")
+    return _DATA.unpack_from(frame)[1], frame[_DATA.size :]
+
+
+def server_time(frame: bytes) -> Stamp | None:
+    """Return the time that a binary message tells; None for other kinds.
+
+    Raises:
+        ProtocolError: If it is cut off, or no time of 32-bit seconds.
+    """
+    if not frame or frame[0] != 2:
+        return None
+    if len(frame) != _TIME.size:
+        raise ProtocolError(f"a time of {len(frame)} bytes")
+    stamp: Stamp = _TIME.unpack(frame)[1]
+    if stamp >= NANOSECONDS << 31:
+        raise ProtocolError(f"a time of {stamp} ns")
+    return stamp
+
+
+def clock_message(stamp: Stamp) -> bytes:
+    """Return the CDR of a rosgraph_msgs/msg/Clock."""
+    return _CLOCK.pack(b"\x00\x01\x00\x00", *divmod(stamp, NANOSECONDS))
+
+
+def request(operation: str, **fields: Any) -> str:
+    """Return a message of a client, in JSON."""
+    return json.dumps({"op": operation, **fields})

@@ -1,0 +1,65 @@
+"""Reach of a link over the Foxglove WebSocket protocol: the address that FROM gives."""
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from tftool.base.errors import UsageError
+from tftool.world.link.reach import Reach
+
+if TYPE_CHECKING:
+    from tftool.world.link.link_options import Options
+    from tftool.world.link.seam import Middleware
+
+_SCHEME: Final = re.compile(r"wss?://", re.IGNORECASE)
+_ADDRESS: Final = re.compile(
+    r"wss?://(?:[^\s/?#@]*@)?(?:\[[0-9a-f:.%]+\]|[^\s/?#@:\[\]]+)(?::([0-9]{1,5}))?(?:[/?][^\s#]*)?",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class FoxgloveReach(Reach):
+    """Reach of a client that reads one server.
+
+    Attributes:
+        address: Address of the server, "ws://robot:8765".
+    """
+
+    is_robots = True
+    only_reads = True
+
+    address: str = ""
+
+    @classmethod
+    def at(cls, word: str) -> "FoxgloveReach | None":
+        """Return the reach to the server that a word is the address of; see `Reach.at`."""
+        if _SCHEME.match(word) is None:
+            return None
+        found = _ADDRESS.fullmatch(word)
+        if found is None or not 0 < int(found[1] or 1) < 65536:
+            raise UsageError(f"'{word}' is no address of a server: write ws://HOST:8765.")
+        return cls(word)
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether a link is needed: always, as the robot is in another process."""
+        return True
+
+    def awaits_others(self, *, hosts: bool) -> bool:
+        """Whether the session is elsewhere: always."""
+        return True
+
+    def place(self, domain: int) -> str:
+        """Return the address without a password or a token that it may contain."""
+        scheme, _, rest = self.address.partition("://")
+        host = re.split(r"[?]", rest, maxsplit=1)[0]
+        authority, slash, path = host.partition("/")
+        return f"{scheme.lower()}://{authority.rpartition('@')[2]}{slash}{path}"
+
+    def join(self, options: "Options") -> "Middleware":
+        """Connect to the server; see `Reach.join`."""
+        # asyncio's client takes 60 ms to import, and no other command needs it.
+        from tftool.world.link.foxglove.middleware import FoxgloveMiddleware
+
+        return FoxgloveMiddleware(options, self)
