@@ -53,7 +53,7 @@ def test_info_shows_joints_with_their_limits(tftool, robot):
     result = tftool("info", str(robot))
 
     assert result.status == 0
-    assert "3 links, 2 joints of which 1 moves" in result.out
+    assert "3 links, 2 joints, 1 of them moves" in result.out
     assert "Root: foot" in result.out
     (turn,) = [line for line in result.out.splitlines() if line.startswith("  turn ")]
     assert "arm in foot" in turn

@@ -123,7 +123,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
     found = recording.described or DescribedFrames()
     text = (
         f"'{visible(robot.name)}' is described: {count(len(robot.links), 'link')}, "
-        f"{count(len(robot.joints), 'joint')} of which {moving} move"
+        f"{count(len(robot.joints), 'joint')}, {moving} of them move"
     )
     if found.still or found.moving:
         text += (

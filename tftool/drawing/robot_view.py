@@ -21,7 +21,7 @@ def as_text(name: str, robot: Robot, width: int | None = None) -> str:
     moving = sum(joint.moves for joint in joints.values())
     lines = [
         f"{visible(name)}: description of robot '{visible(robot.name)}'",
-        f"{count(len(links), 'link')}, {count(len(joints), 'joint')} of which {moving} "
+        f"{count(len(links), 'link')}, {count(len(joints), 'joint')}, {moving} of them "
         f"{'moves' if moving == 1 else 'move'}",
         f"Root: {visible(robot.root)}",
         _mass(robot),

@@ -33,7 +33,7 @@ def convert(
         ),
     ] = None,
     degrees: Annotated[
-        bool, option("Angles are degrees: what is read, and what --into prints.", "--degrees")
+        bool, option("Angles are in degrees, in the input and in what --into prints.", "--degrees")
     ] = False,
     then: Annotated[
         list[str] | None,

@@ -79,7 +79,7 @@ def doctor(
         bool, option("Print rate, latency and gaps of everything, too.", "--statistics")
     ] = False,
     verbose: Annotated[
-        bool, option("Print all evidence, and what was skipped.", "--verbose", "-v")
+        bool, option("Print all evidence, and skipped checks.", "--verbose", "-v")
     ] = False,
     for_programs: Json = False,
     markdown: Annotated[bool, option("Print it for an issue on the web.", "--markdown")] = False,

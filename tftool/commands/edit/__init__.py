@@ -117,7 +117,7 @@ def edit(
     by_record_time: Annotated[
         bool,
         option(
-            "--from and --to say when messages were received, not what is in their headers.",
+            "--from and --to are times of reception, not stamps of headers.",
             "--record-time",
             panel=WHEN,
         ),
@@ -148,7 +148,7 @@ def edit(
 ) -> None:
     """Change the frames of a recording; repair, join, cut, convert.
 
-    What is not touched stays as it is, byte for byte. Without any change a damaged
+    Everything else stays as it is, byte for byte. Without any change a damaged
     recording becomes a whole one with an index, several become one, and the suffix of FILE
     turns one container into another. IN is never written to; FILE has its name only once
     it is whole, and was read again and compared.

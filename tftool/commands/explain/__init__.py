@@ -60,7 +60,7 @@ def explain(
 ) -> None:
     """Say why a lookup refuses: which link, by how much, and what would let it through.
 
-    A listener is imagined that holds what had arrived when it asks. The exit status is 0
+    It asks as a listener would that holds the samples arrived by then. The exit status is 0
     when the lookup answers, 4 when it does not.
 
     tftool explain odom base_scan run.mcap --message /scan@4.25

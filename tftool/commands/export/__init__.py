@@ -92,7 +92,7 @@ def export(
 
     The pose of SOURCE in TARGET is written at the stamps of the fastest link between the two;
     what a lookup refuses is left out and counted. Of a scenario all of it is played. With FROM
-    alone, what holds at all times is written so that it can be published again, and to .mcap
+    alone, static transforms are written so that it can be published again, and to .mcap
     all transforms.
 
     tftool export map base_link run.mcap -o run.tum

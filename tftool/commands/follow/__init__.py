@@ -86,7 +86,7 @@ def follow(
     stale_after: Annotated[
         Duration | None,
         seconds_option(
-            "Stop when what is known of the leader is older; never, if not said.", panel=None
+            "Stop when the leader's newest transform is older; never, if not said.", panel=None
         ),
     ] = None,
     run_for: RunFor = None,

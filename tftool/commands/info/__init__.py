@@ -30,7 +30,7 @@ def info(
 
     Topics with their types, counts and publishers; frames and trees; every edge with its
     rate, who publishes it (by node in ROS 1 bags, by topic else), and its delay: how much
-    later than its stamp it was received; what is damaged, what is odd, and what the doctor
+    later than its stamp it was received; damage, oddities, and what the doctor
     finds. On a terminal columns that have no room are left out.
     Of a robot description: joints with limits and mimics, the root, masses where given.
     Of several descriptions and launch files, how many transforms each gives, and every mistake.

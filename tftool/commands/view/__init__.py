@@ -64,7 +64,7 @@ def view(
     The page is served on this machine alone, and asks no other for anything. It shows axes,
     names and arrows in any fixed frame, scrubs back through the buffer, and tells the transform
     of a pair you pick. A robot is drawn by its description: FROM itself, the one in a
-    recording, or what is published on /robot_description; sliders move the joints of FROM.
+    recording, or the one on /robot_description; sliders move the joints of FROM.
     With -o the page becomes one file that opens anywhere, without tftool: a recording or a
     scenario as a whole, a session for so long as --for says.
 

@@ -306,7 +306,7 @@ class Wire:
     # Tokens
 
     def token(self, key: str) -> Callable[[], None]:
-        """Show `key` to all sessions until what is returned is called, or this process ends."""
+        """Show `key` to all sessions until the returned function is called or this process ends."""
         return _undeclare(self._session.liveliness().declare_token(key))
 
     def tokens(self, key: str, timeout: float = 1.0) -> list[str]:
