@@ -1,10 +1,12 @@
 """Calibration from made motions whose mount and clock offset are known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import tftool
-from tests.frames.motions import errors, world
+from tests.frames.motions import errors, product, quaternions, turned, world
 
 
 def solved(made, **options):
@@ -159,3 +161,22 @@ def test_the_drift_of_a_clock_is_estimated_over_a_long_recording():
 
     assert found.drift_ppm == pytest.approx(50.0, abs=10.0)
     assert solved(world(10)).drift_ppm is None
+
+
+def wandering(poses, degrees, metres):
+    """Return poses whose fixed frame turns and moves slowly, as that of an odometry does."""
+    share = np.linspace(-1.0, 1.0, len(poses))[:, None]
+    bend = np.sin(2.0 * share)
+    turns = quaternions(np.radians(degrees) * bend * [0.2, 0.1, 1.0])
+    places = turned(turns, poses.translations) + metres * bend * [1.0, -0.5, 0.2]
+    return replace(poses, translations=places, rotations=product(turns, poses.rotations))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_chain_that_drifts_slowly_is_fitted_in_short_pieces(seed):
+    made = world(seed, seconds=60.0, noise=(0.001, 0.1))
+    found = tftool.calibrate(wandering(made.a, 3.0, 0.1), made.b)
+    shift, turn = errors(found.mount, made.mount)
+    assert np.abs(shift).max() < 0.006
+    assert np.abs(turn).max() < 0.3
+    assert np.mean(np.abs(shift) <= found.interval95.translation) >= 2 / 3
