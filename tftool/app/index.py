@@ -37,6 +37,7 @@ GROUPS = {
         "calibrate": "Find a sensor's mount and clock offset from motion.",
         "diff": "Say what differs between two sets of frames, link by link.",
         "edit": "Change the frames of a recording; repair, join, cut, convert.",
+        "mcp": "Answer questions of an agent about recordings (MCP).",
     },
     "Run your own nodes": {
         "new": "Make a package of nodes to begin with (ros2 pkg create).",

@@ -1,0 +1,315 @@
+"""A server of the Model Context Protocol: each tool runs a command in a process of its own."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from itertools import islice
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.base.errors import InputError, TftoolError, UsageError
+from tftool.base.exit_status import ExitStatus
+from tftool.opener import named
+from tftool.recordings.find import Kind
+from tftool.scenario.doctor_expectations import ENDING
+
+MOST_CHARACTERS: Final = 4000
+"""Characters of an answer: an agent reads all of it, and pays for it."""
+
+TIMEOUT: Final = 120.0
+"""Seconds a command may take."""
+
+MOST_ENTRIES: Final = 10_000
+"""Entries of a folder that are looked at."""
+
+SUFFIXES: Final = (".mcap", ".db3", ".bag", ".urdf", ".launch.py", ".launch.xml", ".launch.yaml")
+
+INSTRUCTIONS: Final = """Coordinate frames (TF2) of robots, in recordings and robot descriptions.
+Call info first, without a source for the list of files. Frames: the transform of source_frame in
+target_frame. Moments: seconds since the recording began, or a stamp in seconds. A long list ends
+with how many are missing: `part` names one key of an answer, `skip` leaves out its first items."""
+
+
+def run(root: Path) -> ExitStatus:
+    """Run `tftool mcp`; the parameters are its options."""
+    if not root.is_dir():
+        raise InputError(f"'{root}' is no folder: name the one that holds the recordings.")
+    try:
+        # An extra: 40 MB that only this command needs.
+        from mcp.server import MCPServer
+        from mcp.server.mcpserver.exceptions import ToolError
+        from mcp.types import ToolAnnotations
+    except ImportError as missing:
+        raise UsageError("'mcp' needs an extra: pip install 'tftool-tf2[mcp]'") from missing
+
+    def answered(question: Callable[..., str]) -> Callable[..., str]:
+        """Turn our errors into the answer that the protocol has for errors."""
+        from functools import wraps
+
+        @wraps(question)
+        def answer(**words: Any) -> str:
+            try:
+                return question(**words)
+            except TftoolError as error:
+                raise ToolError(str(error)) from error
+
+        return answer
+
+    server = MCPServer("tftool", instructions=INSTRUCTIONS, version=_version(), log_level="ERROR")
+    with tempfile.TemporaryDirectory(prefix="tf") as sessions:
+        questions = Questions(root.resolve(), sessions)
+        for name in ("info", "tree", "echo", "explain", "doctor", "plot"):
+            look = ToolAnnotations(read_only_hint=True, open_world_hint=False)
+            server.add_tool(
+                answered(getattr(questions, name)), annotations=look, structured_output=False
+            )
+        server.run("stdio")
+    return ExitStatus.DONE
+
+
+class Questions:
+    """Questions about the files below one folder; each method is a tool, its docstring the help."""
+
+    def __init__(self, root: Path, sessions: str) -> None:
+        """Answer about files below `root`; `sessions` is an empty folder, so that none is found."""
+        self._root = root
+        self._environment = {**os.environ, "TFTOOL_SESSION_DIR": sessions, "NO_COLOR": "1"}
+
+    def info(self, source: str = "", part: str = "", skip: int = 0) -> str:
+        """Say what a file holds: topics, edges with rates and publishers, damage; joints of a URDF.
+
+        Args:
+            source: A recording or robot description below the root; empty to list the files there.
+            part: One key of the answer, such as "topics" or "edges"; all of it if empty.
+            skip: How many items of that part's list to leave out.
+        """
+        if source:
+            return self._asked("info", source, part=part, skip=skip)
+        names = [path.relative_to(self._root).as_posix() for path in self._files()]
+        return fitted(names[skip:])
+
+    def tree(self, source: str, at: str = "", part: str = "", skip: int = 0) -> str:
+        """Say which frame hangs from which, with rates, ages and transforms.
+
+        Args:
+            source: A recording, robot description or launch file below the root.
+            at: The moment; the end if empty.
+            part: One key of the answer, such as "roots" or "frames"; all of it if empty.
+            skip: How many items of that part's list to leave out.
+        """
+        return self._asked("tree", source, *_option("at", at), part=part, skip=skip)
+
+    def echo(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
+        """Say where source_frame is in target_frame: translation, quaternion, roll, pitch, yaw.
+
+        Args:
+            target_frame: The frame in which the answer is given.
+            source_frame: The frame that is looked for.
+            source: A recording, robot description or launch file below the root.
+            at: The moment; the newest transform if empty.
+        """
+        when = _option("at", at) or ["--once"]
+        return self._asked("echo", source, *when, frames=(target_frame, source_frame))
+
+    def explain(self, target_frame: str, source_frame: str, source: str, at: str = "") -> str:
+        """Say why a lookup answers or refuses, link by link, and what would help.
+
+        Args:
+            target_frame: The frame in which the answer would be given.
+            source_frame: The frame that is looked for.
+            source: A recording, robot description or launch file below the root.
+            at: The moment; the end if empty.
+        """
+        frames = (target_frame, source_frame)
+        return self._asked("explain", source, *_option("at", at), frames=frames)
+
+    def doctor(
+        self, source: str, check: str = "", urdf: str = "", part: str = "", skip: int = 0
+    ) -> str:
+        """Say what is wrong with the frames of a recording: cause, evidence, consequence, fix.
+
+        Args:
+            source: A recording below the root.
+            check: The only checks to run, with commas, such as "split-tree,gap"; all if empty.
+            urdf: A robot description below the root to compare with.
+            part: One key of the answer, such as "findings" or "summary"; all of it if empty.
+            skip: How many items of that part's list to leave out.
+        """
+        options = _option("select", check)
+        if urdf:
+            options.append(f"--urdf={self._file(urdf)}")
+        return self._asked("doctor", source, *options, part=part, skip=skip)
+
+    def plot(
+        self,
+        target_frame: str,
+        source_frame: str,
+        source: str,
+        begin: str = "",
+        end: str = "",
+        only: str = "",
+    ) -> str:
+        """Draw position, rotation, distance and speed of source_frame in target_frame over time.
+
+        Args:
+            target_frame: The frame in which the motion is given.
+            source_frame: The frame that moves.
+            source: A recording below the root.
+            begin: Leave out everything before that moment.
+            end: Leave out everything after.
+            only: What to draw, with commas: x,y,z,roll,pitch,yaw,distance,speed.
+        """
+        options = [*_option("from", begin), *_option("to", end), *_option("only", only)]
+        frames = (target_frame, source_frame)
+        return self._asked("plot", source, "--ascii", *options, frames=frames)
+
+    def _asked(
+        self,
+        command: str,
+        source: str,
+        *options: str,
+        frames: tuple[str, ...] = (),
+        part: str = "",
+        skip: int = 0,
+    ) -> str:
+        """Run a command about a file; return what it printed, within the bounds of an answer.
+
+        Raises:
+            InputError: If the file may not be asked about, or the command cannot read it.
+        """
+        file = self._file(source)
+        form = [] if command == "plot" else ["--json"]
+        cached = [] if file.endswith(".urdf") or command == "doctor" else ["--no-cache"]
+        # Python would else import modules that are in the folder.
+        words = [sys.executable, "-P", "-m", "tftool", command, *form, *cached, *options]
+        try:
+            done = subprocess.run(
+                [*words, "--", *frames, file],
+                cwd=self._root,
+                env=self._environment,
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                encoding="utf-8",
+                errors="replace",
+                timeout=TIMEOUT,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            raise InputError(f"'{command}' took more than {TIMEOUT:g} s: ask for less.") from None
+        if not done.stdout.strip():
+            told = {"refused": done.stderr.strip()}
+            if done.returncode == ExitStatus.NO_TRANSFORM:
+                return fitted(told)
+            raise InputError(fitted(told["refused"]))
+        if command == "plot":
+            return fitted({"plot": done.stdout})
+        answer = json.loads(done.stdout)
+        if part:
+            if not isinstance(answer, dict) or part not in answer:
+                keys = ", ".join(answer) if isinstance(answer, dict) else "none"
+                raise UsageError(f"There is no part '{part}'. There are: {keys}.")
+            answer = answer[part]
+        return fitted(answer[skip:] if isinstance(answer, list) else answer)
+
+    def _file(self, source: str) -> str:
+        """Return the name of a file below the root, as a word that can be no option.
+
+        Raises:
+            InputError: If it is elsewhere, or a link in it leads elsewhere, or it is not of a
+                kind that is read here.
+        """
+        try:
+            path = (self._root / source).resolve(strict=True)
+        except (OSError, ValueError, RuntimeError) as error:
+            raise InputError(f"'{source}' is no file below the root.") from error
+        if not self._stays_inside(path):
+            raise InputError(f"'{source}' is, or leads, out of the root: it is not read.")
+        word = f"./{path.relative_to(self._root)}"
+        if path.suffix == ".xacro" or source.endswith(".xacro"):
+            raise InputError(f"'{source}' is xacro, which may run code: expand it first.")
+        if named(str(path)).kind is Kind.SCENARIO:
+            raise InputError(
+                f"'{source}' is a scenario: recordings and descriptions are read here."
+            )
+        return word
+
+    def _stays_inside(self, path: Path) -> bool:
+        """Whether it is below the root, and everything that is read with it."""
+        places = (path, *_read_with(path.resolve()))
+        return all(one.resolve().is_relative_to(self._root) for one in places)
+
+    def _files(self) -> Iterator[Path]:
+        """Yield the files and rosbag2 folders below the root that can be asked about."""
+        for path in islice(_below(self._root), MOST_ENTRIES):
+            is_bag = path.is_dir() and (path / "metadata.yaml").exists()
+            if (is_bag or path.name.endswith(SUFFIXES)) and self._stays_inside(path):
+                yield path
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    """Yield every entry below a folder, in the order of names; follow no links to folders."""
+    for entry in sorted(folder.iterdir()):
+        yield entry
+        if entry.is_dir() and not entry.is_symlink():
+            yield from _below(entry)
+
+
+def _read_with(path: Path) -> list[Path]:
+    """Return what is read with a file: its folder's content, or the doctor's list beside it.
+
+    Raises:
+        InputError: If a folder has too many entries to look at.
+    """
+    if not path.is_dir():
+        return [path.with_name(f"{name}{ENDING}") for name in (path.name, path.stem)]
+    found = list(islice(_below(path), MOST_ENTRIES + 1))
+    if len(found) > MOST_ENTRIES:
+        raise InputError(f"'{path.name}' has more than {MOST_ENTRIES} entries: name one file.")
+    return found
+
+
+def _option(name: str, value: str) -> list[str]:
+    return [f"--{name}={value}"] if value else []
+
+
+def _version() -> str:
+    # The package is above every room: it is asked, not imported.
+    found: str = sys.modules["tftool"].__version__
+    return found
+
+
+# Answers that are not too long
+
+
+def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
+    """Return an answer as JSON of at most `most` characters; what was cut is counted in it.
+
+    Lists deep in the answer are cut first: an agent wants all findings before all their evidence.
+    """
+    sizes = [(outer, inner) for outer in (200, 20) for inner in (20, 8, 3, 1)]
+    sizes += [(outer, inner) for outer in (12, 8, 5, 3, 2, 1) for inner in (3, 1, 0)]
+    for outer, inner in ((MOST_ENTRIES, MOST_ENTRIES), *sizes):
+        text = json.dumps(_cut(answer, outer, inner, 0), ensure_ascii=False)
+        if len(text) <= most:
+            return text
+    missing = len(text) - most + 100
+    while len(json.dumps({"cut": text[:-missing], "missing_characters": missing})) > most:
+        missing += 100
+    return json.dumps({"cut": text[:-missing], "missing_characters": missing})
+
+
+def _cut(value: Any, outer: int, inner: int, depth: int) -> Any:
+    """Return a value with at most `outer` items in a list of the first levels, `inner` below."""
+    keep = outer if depth < 2 else inner
+    if isinstance(value, dict):
+        return {key: _cut(one, outer, inner, depth + 1) for key, one in value.items()}
+    if isinstance(value, list):
+        found = [_cut(one, outer, inner, depth + 1) for one in value[:keep]]
+        return found + ([f"{len(value) - keep} more"] if len(value) > keep else [])
+    longest = 80 * max(keep, 3)
+    if isinstance(value, str) and len(value) > longest and outer < MOST_ENTRIES:
+        return f"{value[:longest]}… {len(value) - longest} characters more"
+    return value
