@@ -29,7 +29,7 @@ class TimeTraveller(Node):
             return
 
         try:
-            # What has just been sent may not have arrived, so "now" is a tenth of a second ago.
+            # The newest transform may not have arrived, so "now" is a tenth of a second ago.
             now = self.get_clock().now() - Duration(seconds=0.1)
             found = self.buffer.lookup_transform_full(
                 target_frame="turtle2",
