@@ -129,3 +129,62 @@ def test_a_folder_that_cannot_be_written_is_said(tftool, place):
 
     assert result.status == 3
     assert "cannot be made" in result.err
+
+
+@pytest.mark.parametrize("step", STEPS)
+def test_an_exercise_fails_its_scenario_until_its_lines_are_written(tftool, place, step):
+    made = tftool("new", "mine", "--example", step, "--exercise")
+    tftool("new", "solved", "--example", step)
+    judge = ("check", f"mine/scenarios/{step}.yaml", "--launch", f"mine/launch/{step}.launch.py")
+
+    assert (made.status, "Write the lines marked TODO." in made.out) == (0, True)
+    blank = [one for one in (place / "mine").rglob("*.py") if "TODO" in one.read_text()]
+    solved = [place / "solved" / "solved" / one.name for one in blank]
+    assert blank
+    assert all(one.parent == place / "mine" / "mine" for one in blank)
+    assert tftool(*judge).status == 1
+
+    for one, solution in zip(blank, solved, strict=True):
+        one.write_text(solution.read_text())
+    assert tftool(*judge).status == 0
+
+
+def test_a_package_of_one_empty_node_runs_by_its_name_and_builds(tftool, place):
+    made = tftool("new", "pkg_tf", "--node-name", "turtle_tf_broadcaster")
+
+    assert made.status == 0
+    assert files(place / "pkg_tf") == {
+        "package.xml",
+        "setup.cfg",
+        "setup.py",
+        "resource/pkg_tf",
+        "pkg_tf/__init__.py",
+        "pkg_tf/turtle_tf_broadcaster.py",
+    }
+    setup = (place / "pkg_tf" / "setup.py").read_text()
+    assert '"turtle_tf_broadcaster = pkg_tf.turtle_tf_broadcaster:main",' in setup
+    assert "learning_tf" not in setup
+    ran = subprocess.run(
+        [sys.executable, "-m", "tftool", "run", "pkg_tf", "turtle_tf_broadcaster"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (ran.returncode, ran.stdout) == (0, "Hi from pkg_tf.\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("a", "--node-name", "my-node"), "is no name for a node"),
+        (("a", "--node-name", "class"), "is no name for a node"),
+        (("a", "--node-name", "b", "--exercise"), "leave out --node-name"),
+        (("a", "--scenario", "--exercise"), "--scenario makes no package"),
+    ],
+)
+def test_words_that_make_no_package_are_refused(tftool, place, words, said):
+    result = tftool("new", *words)
+
+    assert result.status == 2
+    assert said in result.err
+    assert list(place.iterdir()) == []

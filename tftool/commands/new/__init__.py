@@ -30,6 +30,12 @@ def new(
         str,
         option(f"Which step of the tutorial: {', '.join(EXAMPLES)}.", "--example", metavar="STEP"),
     ] = "follower",
+    exercise: Annotated[
+        bool, option("Leave the key lines of the step's nodes to you: TODO.", "--exercise")
+    ] = False,
+    node_name: Annotated[
+        str, option("Make a package with this empty node instead.", metavar="NAME")
+    ] = "",
     scenario: Annotated[
         bool, option("Make a scenario of that name, and nothing else.", "--scenario")
     ] = False,
@@ -41,6 +47,7 @@ def new(
     'pytest --ros-free' runs the test.
 
     tftool new my_frames
-    tftool new my_frames --example carrot
+    tftool new my_frames --example carrot --exercise
+    tftool new pkg_tf --node-name turtle_tf_broadcaster
     tftool new my_world.yaml --scenario
     """

@@ -6,11 +6,14 @@ import re
 import shutil
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.new import EXAMPLES
+from tftool.commands.new.blanks import with_blanks
+from tftool.commands.shared.contradictions import refuse
 from tftool.messages.classes import INTERFACES
 from tftool.scenario.builtin import shipped
 
@@ -20,6 +23,16 @@ TEMPLATE = "learning_tf"
 
 OF_ROS = {"rclpy", "tf2_py", "tf2_ros", "launch", "launch_ros", "turtlesim", "turtle_tf2_py"}
 """Packages that the files of the new one import, or run; those of messages are known beside."""
+
+
+EMPTY_NODE = """\
+def main():
+    print("Hi from {package}.")
+
+
+if __name__ == "__main__":
+    main()
+"""
 
 
 def _check_name(name: str) -> None:
@@ -37,28 +50,48 @@ def _check_name(name: str) -> None:
         raise UsageError(f"'{name}' is a package of ROS 2's own; choose another name.")
 
 
+def _check_node(name: str) -> None:
+    """Refuse what Python would not import as a module of the package."""
+    if not name.isidentifier() or not name.isascii() or keyword.iskeyword(name):
+        raise UsageError(
+            f"'{name}' is no name for a node: letters, digits and underscores, a letter first, "
+            "as in 'turtle_tf_broadcaster'."
+        )
+
+
 def _refuse_existing(path: Path) -> None:
     if path.exists() or path.is_symlink():
         raise UsageError(f"'{path}' is there already; nothing was written. Choose another name.")
 
 
-def _files(package: str, example: str) -> dict[str, str]:
-    """The text of every file of the new package, by its path within it."""
-    source = shipped("examples", TEMPLATE) / TEMPLATE
+def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
+    """Return the text of every file of a step's package, by its path within it."""
     nodes = EXAMPLES[example]
-    wanted = [
-        "package.xml",
-        "setup.cfg",
-        "setup.py",
-        f"resource/{TEMPLATE}",
-        f"{TEMPLATE}/__init__.py",
-        *(f"{TEMPLATE}/{node}.py" for node in nodes),
-        f"launch/{example}.launch.py",
-        f"test/test_{example}.py",
-        f"scenarios/{example}.yaml",
-    ]
+    sources = {f"{TEMPLATE}/{node}.py": node for node in nodes}
+    step = (f"launch/{example}.launch.py", f"test/test_{example}.py", f"scenarios/{example}.yaml")
+    files = _texts(package, nodes, (*sources, *step))
+    for source, node in sources.items() if exercise else ():
+        name = source.replace(TEMPLATE, package)
+        files[name] = with_blanks(node, files[name])
+    return files
+
+
+def _files_of_node(package: str, node: str) -> dict[str, str]:
+    """Return the files of a package with one empty node, as ROS 2 makes it."""
+    files = _texts(package, (), ())
+    entry = f'            "{node} = {package}.{node}:main",\n'
+    mark = '"console_scripts": [\n'
+    files["setup.py"] = files["setup.py"].replace(mark, mark + entry)
+    files[f"{package}/{node}.py"] = EMPTY_NODE.format(package=package)
+    return files
+
+
+def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str, str]:
+    """Return the files that every package has, and `more`; its setup offers `nodes`."""
+    source = shipped("examples", TEMPLATE) / TEMPLATE
+    every = ("package.xml", "setup.cfg", "setup.py", f"resource/{TEMPLATE}")
     files = {}
-    for one in wanted:
+    for one in (*every, f"{TEMPLATE}/__init__.py", *more):
         text = (source / one).read_text(encoding="utf-8")
         if one == "setup.py":
             text = "".join(
@@ -99,10 +132,11 @@ def _make_scenario(path: Path) -> None:
     )
 
 
-def _say_what_next(path: Path, example: str, count: int) -> None:
+def _say_what_next(path: Path, example: str, count: int, *, exercise: bool) -> None:
     launch = path / "launch" / f"{example}.launch.py"
+    todo = " Write the lines marked TODO." if exercise else ""
     _tell(
-        f"Made {path}: {count} files.",
+        f"Made {path}: {count} files.{todo}",
         (f"tftool launch {launch}", "run it; 'tftool demo --join' shows it"),
         (f"pytest --ros-free {path}", "test it, after 'pip install pytest'"),
         (f"tftool check {path / 'scenarios' / f'{example}.yaml'} --launch {launch}", "judge it"),
@@ -119,9 +153,15 @@ def _tell(made: str, *lines: tuple[str, str]) -> None:
 def run(
     name: str,
     example: str,
+    exercise: bool,
+    node_name: str,
     scenario: bool,
 ) -> ExitStatus:
     """Run `tftool new`; the parameters are its options."""
+    refuse(
+        (scenario and (exercise or node_name), "--scenario makes no package: leave it out."),
+        (exercise and node_name, "--exercise is about a step: leave out --node-name."),
+    )
     if scenario:
         _make_scenario(Path(name))
         return ExitStatus.DONE
@@ -130,7 +170,16 @@ def run(
     if example not in EXAMPLES:
         raise UsageError(f"there is no example '{example}'; there are {', '.join(EXAMPLES)}.")
     _refuse_existing(path)
-    files = _files(path.name, example)
+    if node_name:
+        _check_node(node_name)
+        files = _files_of_node(path.name, node_name)
+        _write(path, files)
+        _tell(
+            f"Made {path}: {len(files)} files.",
+            (f"tftool run {path / path.name / node_name}.py", "run the node"),
+        )
+        return ExitStatus.DONE
+    files = _files(path.name, example, exercise=exercise)
     _write(path, files)
-    _say_what_next(path, example, len(files))
+    _say_what_next(path, example, len(files), exercise=exercise)
     return ExitStatus.DONE
