@@ -1,4 +1,4 @@
-"""Recordings written: editing against `cp`, and how many transforms a second a recorder holds.
+"""Recordings written: editing against `cp` and against `info`, and how much a recorder holds.
 
     python -m tests.benchmarks.writing [MEGABYTES]
 
@@ -6,7 +6,9 @@ Sides take turns; only the ratios travel. Editing reads the result again and com
 """
 
 import os
+import resource
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
@@ -28,6 +30,8 @@ from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 START = seconds(1_750_000_000)
 TURNS = 3
 IMAGE = 500_000
+MANY = 1_200_000
+EACH = 5
 
 
 def _large(path: Path, megabytes: int) -> None:
@@ -81,6 +85,45 @@ def _edits(folder: Path, megabytes: int) -> None:
         )
 
 
+def _edits_of_transforms(folder: Path) -> None:
+    """Processor time of edits that change transforms, against `info` of the same recording."""
+    source = folder / "transforms.mcap"
+    writer = McapWriter(source)
+    tf = writer.channel(ros2_channel("/tf", TRANSFORMS))
+    links = [("odom", "base"), *(("base", f"joint_{number}") for number in range(1, EACH))]
+    for number in range(MANY // EACH):
+        now = START + number * 5_000_000
+        pose = Transform((number / 7.0, 0.0, 0.0))
+        writer.write(
+            tf, now, encode_transforms([TransformStamped(now, *one, pose) for one in links])
+        )
+    writer.finish()
+    end = (MANY // EACH) // 2 * 0.005
+    sides = {
+        "info": ["info", source, "--no-cache"],
+        "rename": ["edit", source, "--rename", "odom=world", "-o", folder / "out.mcap"],
+        "cut": ["edit", source, "--to", str(end), "-o", folder / "out.mcap"],
+        "to .bag": ["edit", source, "-o", folder / "out.bag"],
+    }
+    times: dict[str, list[float]] = {name: [] for name in sides}
+    for _ in range(TURNS):
+        for name, words in sides.items():
+            force = ["--force"] if name != "info" else []
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            subprocess.run(
+                [sys.executable, "-m", "tftool", *map(str, words), *force],
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            spent = after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
+            times[name].append(spent)
+    base = min(times["info"])
+    sys.stdout.write(f"{MANY:,} transforms, processor time\n")
+    for name, found in times.items():
+        sys.stdout.write(f"  {name:16} {min(found):6.2f} s, {min(found) / base:5.2f} x info\n")
+
+
 def _sync(path: Path) -> None:
     number = os.open(path, os.O_RDONLY)
     os.fsync(number)
@@ -121,4 +164,5 @@ def _records(folder: Path) -> None:
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as place:
         _edits(Path(place), int(sys.argv[1]) if len(sys.argv) > 1 else 500)
+        _edits_of_transforms(Path(place))
         _records(Path(place))

@@ -36,10 +36,11 @@ class TransformRows:
     """A TFMessage taken apart.
 
     Attributes:
+        payload: Its bytes.
         rows: Its transforms.
     """
 
-    __slots__ = ("_layout", "_payload", "_walked", "rows")
+    __slots__ = ("_layout", "_walked", "payload", "rows")
 
     def __init__(self, layout: Layout, payload: bytes) -> None:
         """Take it apart.
@@ -48,15 +49,15 @@ class TransformRows:
             MalformedMessage: If the bytes are none.
         """
         self._layout = layout
-        self._payload = payload
+        self.payload = payload
         self._walked: Walked = walk(layout, payload)
         self.rows = tuple(self._row(place) for place in self._walked.places)
 
     def _row(self, place: Place) -> TransformRow:
-        stamp, numbers = sample(self._payload, self._walked.order, place)
+        stamp, numbers = sample(self.payload, self._walked.order, place)
         sequence = 0
         if self._layout is not CDR:
-            (sequence,) = _WORD.unpack_from(self._payload, place.stamp - 4)
+            (sequence,) = _WORD.unpack_from(self.payload, place.stamp - 4)
         return TransformRow(stamp, place.parent, place.child, numbers, sequence)
 
     def rewritten(self, rows: Sequence[TransformRow]) -> bytes:
@@ -73,7 +74,7 @@ class TransformRows:
         if not same:
             return encode_rows(self._layout, rows)
         order = self._walked.order
-        patched = bytearray(self._payload)
+        patched = bytearray(self.payload)
         for place, row, old in zip(self._walked.places, rows, self.rows, strict=True):
             if row.stamp != old.stamp:
                 patched[place.stamp : place.stamp + 8] = _packed_stamp(

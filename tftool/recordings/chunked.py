@@ -12,9 +12,11 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import LAST_STAMP, Stamp
+from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
 from tftool.recordings.container import MOST_STREAMS, Extras, File, Taken
@@ -65,6 +67,89 @@ class Walked:
     def span(self) -> tuple[Stamp, Stamp]:
         """First and last log time; 0 where there is none."""
         return min(self.log_times, default=0), max(self.log_times, default=0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MessageTable:
+    """Messages of a chunk as columns, in their order.
+
+    Attributes:
+        data: The bytes that their payloads are in.
+        channels: The number of each one's channel, shape (n,).
+        log_times: When each was received, nanoseconds, shape (n,).
+        publish_times: When each was sent, shape (n,).
+        sequences: Its number at its publisher, shape (n,).
+        starts: Where its payload begins, shape (n,).
+        lengths: Bytes of the payload, shape (n,).
+    """
+
+    data: Bytes
+    channels: Stamps
+    log_times: Stamps
+    publish_times: Stamps
+    sequences: Stamps
+    starts: Stamps
+    lengths: Stamps
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+    @property
+    def owners(self) -> list[int]:
+        """The channels that have messages in it, in the order of their first ones."""
+        channels, firsts = np.unique(self.channels, return_index=True)
+        found: list[int] = channels[np.argsort(firsts)].tolist()
+        return found
+
+    def payload(self, number: int) -> bytes:
+        """The bytes of one message."""
+        start = int(self.starts[number])
+        return self.data[start : start + int(self.lengths[number])].tobytes()
+
+    def message(self, number: int) -> Taken:
+        """One message."""
+        return Taken(
+            int(self.channels[number]),
+            int(self.log_times[number]),
+            self.payload(number),
+            int(self.publish_times[number]),
+            int(self.sequences[number]),
+        )
+
+    def chosen(self, which: Stamps) -> "MessageTable":
+        """Some of them."""
+        columns = (self.channels, self.log_times, self.publish_times, self.sequences)
+        rest = (self.starts, self.lengths)
+        return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
+
+    def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
+        """Copy their payloads, each behind a head of its own.
+
+        Args:
+            heads: One item for each message.
+
+        Returns:
+            The bytes, and where each head begins, shape (n,).
+        """
+        size = heads.dtype.itemsize
+        ends = np.cumsum(self.lengths + size)
+        places: Stamps = ends - self.lengths - size
+        found = np.empty(int(ends[-1]), dtype=np.uint8)
+        _items(found, size)[places] = heads.view(f"V{size}")
+        order = np.argsort(self.lengths, kind="stable")
+        cuts = np.flatnonzero(np.diff(self.lengths[order])) + 1
+        for which in np.split(order, cuts):
+            length = int(self.lengths[which[0]])
+            if length:
+                # As single items: numpy then copies a payload in one go.
+                rows = _items(self.data, length)[self.starts[which]]
+                _items(found, length)[places[which] + size] = rows
+        return found, places
+
+
+def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
+    """Every run of so many bytes, wherever it begins, as one item."""
+    return np.ndarray((len(data) - size + 1,), f"V{size}", buffer=data.data, strides=(1,))
 
 
 class Head(NamedTuple):
@@ -148,6 +233,10 @@ class Chunk:
         if self._found is None:
             self._found = self.reader.taken(self)
         return self._found
+
+    def table(self) -> MessageTable | None:
+        """Its messages as columns; None where it must be taken apart message by message."""
+        return self.reader.table(self) if self.whole and self.counts and self.sound() else None
 
     def sound(self) -> bool:
         """Whether its content is as written, as far as it carries proof of that.
@@ -358,6 +447,47 @@ class ChunkedReader(File):
             chunk.whole = False
         chunk.counts = counts
         return found
+
+    def table(self, chunk: Chunk) -> MessageTable | None:
+        """The messages of a sound chunk as columns; None where its indexes do not tell all."""
+        data = np.frombuffer(self.unpacked(chunk), dtype=np.uint8)
+        try:
+            parts = list(self._parts(chunk, data))
+            owners = [np.full(len(begins), channel) for channel, begins, _, _ in parts]
+            columns = zip(*(part[1:] for part in parts), strict=True)
+            channels, begins, starts, lengths = map(np.concatenate, (owners, *columns))
+            order = np.argsort(starts, kind="stable")
+            starts, lengths, begins = starts[order], lengths[order], begins[order]
+            ends = np.concatenate([[0], starts + lengths])
+            begins = np.append(begins, len(data))
+            if (begins < ends).any():
+                return None
+            for gap in np.flatnonzero(begins > ends).tolist():
+                # What is between messages was learned before, if it is no message.
+                between = data[ends[gap] : begins[gap]].tobytes()
+                if any(True for _ in self._heads(between, learns=False)):
+                    return None
+            return MessageTable(
+                data, channels[order], *self._moments(data, starts), starts, lengths
+            )
+        except (*FAULTS, ValueError):
+            return None
+
+    def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
+        """What the indexes of a chunk tell of its messages.
+
+        Returns:
+            For each channel its number, and of each message where the record and the payload
+            begin, and the payload's length, shape (n,).
+
+        Raises:
+            InputError: If they point at something else; others of `FAULTS` likewise.
+        """
+        raise NotImplementedError
+
+    def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
+        """Log times, publish times and sequences of messages, by where their payloads begin."""
+        raise NotImplementedError
 
     def known(self, messages: list[Taken]) -> list[Taken]:
         """Return the messages whose channel is known."""

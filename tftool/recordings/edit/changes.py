@@ -6,6 +6,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
+import numpy as np
+import numpy.typing as npt
+
 from tftool.base.errors import InputError, TftoolError
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp
 from tftool.buffer.forest import stripped
@@ -15,7 +18,9 @@ from tftool.messages.classes import Interfaces, Message
 from tftool.messages.codec import Codec
 from tftool.messages.schema import PRIMITIVES, full_name
 from tftool.messages.splice import TransformRow, TransformRows
+from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
+from tftool.recordings.chunked import MessageTable
 from tftool.recordings.container import Taken
 from tftool.recordings.container_reader import (
     LAYOUTS,
@@ -24,6 +29,8 @@ from tftool.recordings.container_reader import (
     is_static,
     short_type,
 )
+from tftool.recordings.contract import Stamps
+from tftool.recordings.edit.tables import Kinds, MessageKind, Result, TableChange
 
 LinkName = tuple[str, str]
 """Parent and child, each without a leading slash; "*" stands for any name."""
@@ -191,6 +198,7 @@ class Changer:
         self._replaced = frozenset(stripped(one.child_frame_id) for one in edits.statics_from)
         self._renamers: dict[Channel, Renamer | None] = {}
         self._has_header: dict[Channel, bool] = {}
+        self._kinds: dict[Channel, Kinds] = {}
         self.counts: Counter[str] = Counter()
         self.passed_over: dict[str, str] = {}
         self.topics: frozenset[str] | None = None
@@ -230,19 +238,119 @@ class Changer:
         except TftoolError:
             self.counts["messages that are no transforms, copied as they are"] += 1
             return message
-        rows = [
-            row
-            for old in taken_apart.rows
-            if (row := self.row(old, message.log_time, static=static)) is not None
-        ]
-        if not rows and taken_apart.rows:
+        rows = [self.row(old, message.log_time, static=static) for old in taken_apart.rows]
+        payload = self._rewritten(taken_apart, rows)
+        if payload is message.payload:
+            return message
+        return None if payload is None else message._replace(payload=payload)
+
+    def _rewritten(
+        self, before: TransformRows, after: Sequence[TransformRow | None]
+    ) -> bytes | None:
+        """A message's bytes with other transforms in it; None where none is left."""
+        rows = [row for row in after if row is not None]
+        if not rows and before.rows:
             self.counts["messages without a transform left"] += 1
             return None
-        if len(rows) == len(taken_apart.rows) and all(
-            one is other for one, other in zip(rows, taken_apart.rows, strict=True)
-        ):
-            return message
-        return message._replace(payload=taken_apart.rewritten(rows))
+        if all(one is other for one, other in zip(after, before.rows, strict=True)):
+            return before.payload
+        return before.rewritten(rows)
+
+    # Many messages at once
+
+    def changed_table(self, table: MessageTable, channels: Mapping[int, Channel]) -> MessageTable:
+        """Messages as they are afterwards; the same table where none of them changes."""
+        change = TableChange(table)
+        for number in table.owners:
+            channel = channels[number]
+            transforms = carries_transforms(channel)
+            if self.window is None and not transforms and not self.touches(channel):
+                continue
+            which = np.flatnonzero(table.channels == number)
+            if transforms:
+                which = self._by_kind(change, which, channel)
+            for row in which.tolist():
+                message = table.message(row)
+                after = self.changed(message, channel)
+                if after is None:
+                    change.keep[row] = False
+                elif after is not message:
+                    change.put_one(row, after.payload)
+        return change.finished()
+
+    def _by_kind(self, change: TableChange, which: Stamps, channel: Channel) -> Stamps:
+        """Change the transforms of messages of one kind at once; return the others."""
+        edits, static = self._edits, carries_statics(channel)
+        if edits.stamps or edits.reparent:
+            return which
+        kinds = self._kinds.get(channel)
+        if kinds is None:
+            kinds = self._kinds[channel] = Kinds(
+                LAYOUTS[channel.encoding], lambda payload: self._learned(payload, channel)
+            )
+        found, rest = kinds.groups(change.table, which)
+        others = [rest]
+        for kind, numbers, rows in found:
+            whole: npt.NDArray[np.bool_] = np.ones(len(numbers), dtype=np.bool_)
+            if self.window is not None:
+                logs = change.table.log_times[numbers]
+                inside = self._inside(kind, rows, logs, static=static)
+                whole = np.logical_and.reduce(inside, axis=1)
+                none = ~np.logical_or.reduce(inside, axis=1)
+                change.keep[numbers[none]] = False
+                gone = int(none.sum())
+                if gone:
+                    self.counts["transforms outside of the cut"] += gone * len(kind.places)
+                    self.counts["messages without a transform left"] += gone
+                others.append(numbers[~whole & ~none])
+            if not (edits.links or self._replaced):
+                continue
+            chosen, count = numbers[whole], int(whole.sum())
+            if count:
+                self.counts.update({what: many * count for what, many in kind.counts.items()})
+            if kind.result.payload is None:
+                change.keep[chosen] = False
+            elif kind.changes and count:
+                length = int(change.table.lengths[chosen[0]])
+                change.put(chosen, kind.changed(rows[whole], length))
+        return np.sort(np.concatenate(others))
+
+    def _inside(
+        self, kind: MessageKind, rows: Bytes, log_times: Stamps, *, static: bool
+    ) -> npt.NDArray[np.bool_]:
+        """Which transforms of messages of a kind a cut keeps, shape (messages, transforms)."""
+        window = self.window
+        assert window is not None
+        found = []
+        for number, place in enumerate(kind.places):
+            span = (
+                None
+                if static
+                else window.links.get((stripped(place.parent), stripped(place.child)))
+            )
+            first, last = span or (window.start, window.end)
+            moments = log_times
+            if span is not None and window.stamps is not None:
+                moments = kind.stamps(rows, number)
+            found.append((moments >= first) & (moments <= last))
+        return np.stack(found, axis=1)
+
+    def _learned(self, payload: bytes, channel: Channel) -> "tuple[Result, Counter[str]]":
+        """Change one message, whatever a cut keeps of it, as an example of its kind."""
+        layout, static = LAYOUTS[channel.encoding], carries_statics(channel)
+        before, self.counts = self.counts, Counter()
+        try:
+            taken = TransformRows(layout, payload)
+            after = [self.edited(row, 0, static=static) for row in taken.rows]
+            pairs = zip(taken.rows, after, strict=True)
+            given = [
+                n for n, (old, new) in enumerate(pairs) if new and new.numbers is not old.numbers
+            ]
+            kept = [n for n, row in enumerate(after) if row is not None]
+            result = Result(self._rewritten(taken, after), layout, kept, frozenset(given))
+            return result, self.counts
+        finally:
+            self.counts = before
 
     def row(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
         """A transform as it is afterwards; None where it is left out."""

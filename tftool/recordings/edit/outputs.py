@@ -3,18 +3,25 @@
 import struct
 import zlib
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 from tftool.base.errors import InputError, TftoolError
 from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.schema import full_name
+from tftool.messages.transform_rows import walk
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
-from tftool.recordings.chunked import Chunk, ChunkedReader
+from tftool.recordings.chunked import Chunk, ChunkedReader, MessageTable
 from tftool.recordings.compression import best_compression, compressor
 from tftool.recordings.container import Block, Reader, Taken
+from tftool.recordings.container_reader import LAYOUTS
+from tftool.recordings.contract import Stamps
+from tftool.recordings.edit.changes import carries_transforms
+from tftool.recordings.edit.tables import Kinds, Result, TableChange
 from tftool.recordings.mcap.write import CHUNK_SIZE, McapWriter
 from tftool.recordings.message_conversion import Conversion, as_ros1, as_ros2
 from tftool.recordings.recording_writer import library_name
@@ -26,6 +33,7 @@ from tftool.recordings.schema_text import known_hash, ros2_definition
 
 _LARGEST_CHUNK: Final = 1 << 26
 _HEAD = struct.Struct("<qQQ")
+_HEADS = np.dtype([("log_time", "<i8"), ("publish_time", "<u8"), ("sequence", "<u8")])
 
 
 class EditedFile:
@@ -80,6 +88,7 @@ class EditedFile:
         self.start: Stamp = LAST_STAMP
         self.end: Stamp = 0
         self.left_out: dict[str, str] = {}
+        self._kinds: dict[Channel, Kinds] = {}
         self.writer = self._opened(tape)
         # A database is written row by row; whole chunks are copied elsewhere.
         self._chunks = None if isinstance(self.writer, SqliteWriter) else self.writer
@@ -208,6 +217,70 @@ class EditedFile:
         self.append(number, message._replace(payload=payload))
         return True
 
+    def write_table(self, source: int, table: MessageTable, tape: Reader) -> bool:
+        """Append messages of a tape's; whether the container takes any of them."""
+        numbers = np.full(len(table), -1, dtype=np.int64)
+        change = TableChange(table)
+        for own in table.owners:
+            number = self._register(source, own, tape.channels[own], tape)
+            which = np.flatnonzero(table.channels == own)
+            if number is None:
+                change.keep[which] = False
+                continue
+            numbers[which] = number
+            conversion = self._conversions[source, own]
+            assert conversion is not None
+            if conversion.payload is not bytes:
+                self._convert(change, which, tape.channels[own], conversion)
+        change.table = replace(change.table, channels=numbers)
+        table = change.finished()
+        if not len(table):
+            return False
+        if self._pack is not None or self._chunks is None or not self._chunks.write_table(table):
+            for row in range(len(table)):
+                message = table.message(row)
+                self.append(message.channel, message)
+            return True
+        self._note_table(table)
+        return True
+
+    def _convert(
+        self, change: TableChange, which: Stamps, channel: Channel, conversion: Conversion
+    ) -> None:
+        """Convert messages of one channel, those of transforms at once."""
+        if carries_transforms(channel):
+            kinds = self._kinds.get(channel)
+            if kinds is None:
+                layout = LAYOUTS[conversion.channel.encoding]
+
+                def learned(payload: bytes) -> "tuple[Result, Counter[str]]":
+                    count = len(walk(LAYOUTS[channel.encoding], payload).places)
+                    return Result(conversion.payload(payload), layout, range(count)), Counter()
+
+                kinds = self._kinds[channel] = Kinds(LAYOUTS[channel.encoding], learned)
+            found, which = kinds.groups(change.table, which)
+            others = [which]
+            for kind, numbers, rows in found:
+                # Seconds of one layout have a sign, and those of the other have none.
+                fit = np.ones(len(rows), dtype=np.bool_)
+                for number in range(len(kind.places)):
+                    fit &= kind.stamps(rows, number) >= 0
+                others.append(numbers[~fit])
+                if fit.any():
+                    length = int(change.table.lengths[numbers[0]])
+                    change.put(numbers[fit], kind.changed(rows[fit], length))
+            which = np.concatenate(others)
+        for row in which.tolist():
+            change.put_one(row, conversion.payload(change.table.payload(row)))
+
+    def _note_table(self, table: MessageTable) -> None:
+        """Note what messages hold, for the comparison."""
+        for number, count in Counter(table.channels.tolist()).items():
+            self.counts[number] += count
+        digest_table(self.digests, table, self.channels, self.container)
+        self.start = min(self.start, int(table.log_times.min()))
+        self.end = max(self.end, int(table.log_times.max()))
+
     def append(self, number: int, message: Taken) -> None:
         """Append a message as it is."""
         self.note(number, message)
@@ -281,6 +354,26 @@ def digest(before: int, message: Taken, container: str) -> int:
         message.log_time, message.publish_time if kept else 0, message.sequence if kept else 0
     )
     return zlib.crc32(message.payload, zlib.crc32(head, before))
+
+
+def digest_table(
+    digests: dict[tuple[str, str], int],
+    table: MessageTable,
+    channels: Mapping[int, Channel],
+    container: str,
+) -> None:
+    """Go on with the checksum of each topic by messages; see `digest`."""
+    numbers: dict[tuple[str, str], list[int]] = {}
+    for number in table.owners:
+        channel = channels[number]
+        numbers.setdefault((channel.topic, channel.type), []).append(number)
+    for key, own in numbers.items():
+        some = table.chosen(np.flatnonzero(np.isin(table.channels, own)))
+        heads = np.zeros(len(some), dtype=_HEADS)
+        heads["log_time"] = some.log_times
+        if container == "mcap":
+            heads["publish_time"], heads["sequence"] = some.publish_times, some.sequences
+        digests[key] = zlib.crc32(some.behind(heads)[0].data, digests.get(key, 0))
 
 
 def _defined(channel: Channel) -> Channel:

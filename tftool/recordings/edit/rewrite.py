@@ -18,7 +18,7 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk, ChunkedReader
+from tftool.recordings.chunked import Chunk, ChunkedReader, MessageTable
 from tftool.recordings.container import Block, Reader
 from tftool.recordings.containers import PACKED_SUFFIX, container_named, container_of
 from tftool.recordings.contract import Progress
@@ -26,7 +26,7 @@ from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.database import EditedDatabase, Unsound
 from tftool.recordings.edit.heads import StaticHeads
 from tftool.recordings.edit.inputs import EditedInput, open_input, open_tape
-from tftool.recordings.edit.outputs import EditedFile, digest
+from tftool.recordings.edit.outputs import EditedFile, digest, digest_table
 from tftool.recordings.edit.plan import changer_for
 from tftool.recordings.recording import Recording, open_recording
 from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
@@ -327,21 +327,48 @@ class _Job:
         return part / f"{self._path.name}_{number}{suffix}"
 
     def _write_block(self, source: int, tape: Reader, block: Block, part: Path) -> None:
-        if self._untouched(block, tape):
+        table = self._table(block, tape)
+        after, done = None, Counter[str]()
+        if table is not None:
+            counts, self._changer.counts = self._changer.counts, done
+            after = self._changer.changed_table(table, tape.channels)
+            self._changer.counts = counts
+        stays = after is table if table is not None else self._untouched(block, tape)
+        if stays and isinstance(block, Chunk) and self._may_copy(block):
             output = self._output(self._part_of(source, block.start), part)
-            if isinstance(block, Chunk) and output.can_copy(source, block, tape):
+            if output.can_copy(source, block, tape):
                 output.copy(block)
                 return
+        self._changer.counts.update(done)
+        if after is not None:
+            if not len(after):
+                return
+            output = self._output(self._part_of(source, int(after.log_times[0])), part)
+            if output.write_table(source, after, tape):
+                output.closed_block(block)
+            return
         touched = set()
         for message in block.messages():
-            after = self._changer.changed(message, tape.channels[message.channel])
-            if after is None:
+            changed = self._changer.changed(message, tape.channels[message.channel])
+            if changed is None:
                 continue
-            output = self._output(self._part_of(source, after.log_time), part)
-            if output.write(source, after, tape.channels[after.channel], tape):
+            output = self._output(self._part_of(source, changed.log_time), part)
+            if output.write(source, changed, tape.channels[changed.channel], tape):
                 touched.add(output)
         for output in touched:
             output.closed_block(block)
+
+    def _table(self, block: Block, tape: Reader) -> MessageTable | None:
+        """A chunk's messages as columns, if they are looked at and stay in one file."""
+        if not isinstance(block, Chunk) or self._edits.split_every:
+            return None
+        if tape.container == self._container and self._stays_unseen(block, tape):
+            return None
+        return block.table()
+
+    def _may_copy(self, chunk: Chunk) -> bool:
+        """Whether a chunk in which nothing changes may be copied as it is."""
+        return not self._edits.links or self._changer.keeps_all(chunk.start, chunk.end)
 
     def _untouched(self, block: Block, tape: Reader) -> bool:
         """Whether a block stays as it is, as far as it shows without a look inside, or with one."""
@@ -443,6 +470,13 @@ class _Job:
                 for number, count in (block.counts or {}).items():
                     channel = tape.channels[number]
                     counts[channel.topic, channel.type] += count
+                continue
+            table = block.table() if isinstance(block, Chunk) else None
+            if table is not None:
+                for number, count in Counter(table.channels.tolist()).items():
+                    channel = tape.channels[number]
+                    counts[channel.topic, channel.type] += count
+                digest_table(found, table, tape.channels, output.container)
                 continue
             for message in block.messages():
                 channel = tape.channels[message.channel]

@@ -14,9 +14,16 @@ import numpy as np
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import LAST_STAMP
+from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk, ChunkedReader, Head, Walked, reason_of
-from tftool.recordings.columns import Batch, in_order
+from tftool.recordings.chunked import (
+    Chunk,
+    ChunkedReader,
+    Head,
+    Walked,
+    reason_of,
+)
+from tftool.recordings.columns import Batch, in_order, words_at
 from tftool.recordings.container import MOST_STREAMS, CopiedAttachment, Taken, check_told
 from tftool.recordings.containers import MCAP_MAGIC
 from tftool.recordings.contract import Progress, Stamps
@@ -432,6 +439,19 @@ class Mcap(ChunkedReader):
                 yield Head(channel, log_time, first + 22, last, publish_time, sequence)
             elif learns and code in _TELLING:
                 self._describe(code, data[first:last])
+
+    def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
+        """What message indexes tell of a chunk's messages; see `ChunkedReader`."""
+        for channel, place in chunk.indexes.items():
+            pairs = self._pairs(channel, place)
+            if len(pairs):
+                starts, lengths, _ = indexed(data, pairs, channel)
+                yield channel, pairs[:, 1], starts, lengths
+
+    def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
+        """Log times, publish times and sequences of messages; see `ChunkedReader`."""
+        log_times = np.minimum(words_at(data, starts - 16, "<u8"), LAST_STAMP).astype(np.int64)
+        return log_times, words_at(data, starts - 8, "<u8"), words_at(data, starts - 20, "<u4")
 
     # Messages
 

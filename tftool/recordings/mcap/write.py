@@ -11,10 +11,12 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk
+from tftool.recordings.chunked import Chunk, MessageTable
 from tftool.recordings.compression import compressor
 from tftool.recordings.container import CopiedAttachment
 from tftool.recordings.containers import MCAP_MAGIC
@@ -53,6 +55,18 @@ CHUNK_SIZE: Final = 1 << 20
 """Bytes of messages in a chunk, before they are compressed."""
 
 MOST_CHANNELS: Final = 65_535
+
+_HEADS = np.dtype(
+    [
+        ("code", "u1"),
+        ("length", "<u8"),
+        ("channel", "<u2"),
+        ("sequence", "<u4"),
+        ("log_time", "<u8"),
+        ("publish_time", "<u8"),
+    ]
+)
+"""A message's record up to its payload; as `MESSAGE_RECORD`."""
 
 _UNCHUNKED: Final = 1 << 16  # bytes that are written at a time where there are no chunks
 _LARGE_PIECE: Final = 1 << 16  # bytes from which on joining costs more than a write of its own
@@ -259,6 +273,28 @@ class McapWriter:
             self._chunk_high = log_time
         if self._length >= self._limit:
             self.flush()
+
+    def write_table(self, table: MessageTable) -> bool:
+        """Append messages at once; whether that was possible, else nothing is appended."""
+        channels = table.owners
+        size = int(table.lengths.sum()) + 31 * len(table)
+        known = self._defined.issuperset(channels)
+        if self._length or not known or not self._chunk_size or size >= self._limit:
+            return False
+        heads = np.empty(len(table), dtype=_HEADS)
+        heads["code"] = MESSAGE
+        heads["length"] = table.lengths + 22
+        heads["channel"] = table.channels
+        heads["sequence"] = table.sequences
+        heads["log_time"] = table.log_times
+        heads["publish_time"] = table.publish_times
+        data, places = table.behind(heads)
+        self._keep(data.tobytes())
+        pairs = np.stack([table.log_times, places], axis=1)
+        for channel in channels:
+            self._indexes[channel] = array("Q", pairs[table.channels == channel].tobytes())
+        self._chunk_low, self._chunk_high = int(pairs[:, 0].min()), int(pairs[:, 0].max())
+        return True
 
     def _keep(self, piece: bytes) -> None:
         self._pieces.append(piece)

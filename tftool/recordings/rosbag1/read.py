@@ -3,18 +3,20 @@
 Source: wiki.ros.org/Bags/Format/2.0.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Container, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 
 from tftool.base.errors import InputError
+from tftool.base.stamps import NANOSECONDS
+from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, Head, reason_of
-from tftool.recordings.columns import Batch, in_order
+from tftool.recordings.columns import Batch, in_order, words_at
 from tftool.recordings.container import Taken, check_told
 from tftool.recordings.containers import ROS1_MAGIC
-from tftool.recordings.contract import Progress
+from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import Ahead, Packed
 from tftool.recordings.rosbag1.format import (
     BAG,
@@ -35,6 +37,7 @@ from tftool.recordings.rosbag1.format import (
     time_of,
 )
 
+_BEFORE_TIME = int.from_bytes(b"ime=", "little")
 _KEPT = (b"callerid", b"latching", b"md5sum")
 
 
@@ -238,6 +241,24 @@ class Rosbag1(ChunkedReader):
             elif learns and code == CONNECTION:
                 self._describe(header, data[first:last])
 
+    def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
+        """What a chunk's index tells of its messages; see `ChunkedReader`."""
+        for connection, entries in self._entries(chunk, self.channels):
+            starts, lengths, _ = indexed(data, entries, connection)
+            begins = entries[:, 2].astype(np.int64)
+            # Most writers put the time last in a message's header.
+            times = np.stack([words_at(data, starts - n, "<u4") for n in (12, 8)], axis=1)
+            marks = words_at(data, starts - 16, "<u4")
+            if (times != entries[:, :2]).any() or (marks != _BEFORE_TIME).any():
+                raise InputError("its index tells other times")
+            yield connection, begins, starts, lengths
+
+    def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
+        """Log times, twice, and no sequences; see `ChunkedReader`."""
+        sec, nanosec = (words_at(data, starts - n, "<u4").astype(np.int64) for n in (12, 8))
+        log_times = sec * NANOSECONDS + nanosec
+        return log_times, log_times, np.zeros(len(starts), dtype=np.int64)
+
     def taken(self, chunk: Chunk) -> list[Taken]:
         """A chunk's messages; when it begins and ends shows in them alone."""
         found = super().taken(chunk)
@@ -281,7 +302,7 @@ class Rosbag1(ChunkedReader):
         if not chunk.place:
             self._look_at(chunk, *record_head(self, chunk.position))
 
-    def _entries(self, chunk: Chunk, chosen: Mapping[int, int]) -> list[tuple[int, Entries]]:
+    def _entries(self, chunk: Chunk, chosen: Container[int]) -> list[tuple[int, Entries]]:
         """The index records behind a chunk: chosen connections with messages, and their entries."""
         counts = chunk.counts or {}
         expected = len(counts) * 64 + 12 * sum(counts.values()) + 64
@@ -297,7 +318,7 @@ class Rosbag1(ChunkedReader):
             if connection in chosen and count:
                 table = np.frombuffer(data, dtype="<u4", count=3 * count, offset=first)
                 found.append((connection, table.reshape(-1, 3)))
-        if not missing.isdisjoint(chosen):
+        if any(connection in chosen for connection in missing):
             raise InputError("its index is incomplete")
         return found
 

@@ -11,10 +11,12 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Final
 
+import numpy as np
+
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk
+from tftool.recordings.chunked import Chunk, MessageTable
 from tftool.recordings.compression import compressor
 from tftool.recordings.containers import ROS1_MAGIC
 from tftool.recordings.message_conversion import as_ros1
@@ -34,6 +36,20 @@ CHUNK_SIZE: Final = 768 * 1024
 """Bytes of messages in a chunk, as ROS 1 has it."""
 
 _HEADER_SIZE: Final = 4096  # of the bag's own record, which is written again in the end
+_BEFORE: Final = b"\x26\x00\x00\x00\x04\x00\x00\x00op=\x02\x09\x00\x00\x00conn="
+_BETWEEN: Final = b"\x0d\x00\x00\x00time="
+_HEADS = np.dtype(
+    [
+        ("before", f"V{len(_BEFORE)}"),
+        ("connection", "<u4"),
+        ("between", f"V{len(_BETWEEN)}"),
+        ("sec", "<u4"),
+        ("nanosec", "<u4"),
+        ("length", "<u4"),
+    ]
+)
+"""A message's record up to its payload: three fields of 4, 9 and 13 bytes, and a length."""
+
 _LATEST: Final = 2**32 * NANOSECONDS
 
 
@@ -140,6 +156,40 @@ class Rosbag1Writer:
         self._low, self._high = min(self._low, log_time), max(self._high, log_time)
         if self._length >= self._chunk_size:
             self.flush()
+
+    def write_table(self, table: MessageTable) -> bool:
+        """Append messages at once; whether that was possible, else nothing is appended."""
+        logs = table.log_times
+        known = self._defined.issuperset(table.owners)
+        if not known or not 0 <= int(logs.min()) <= int(logs.max()) < _LATEST:
+            return False
+        heads = np.zeros(len(table), dtype=_HEADS)
+        heads["before"], heads["between"] = np.void(_BEFORE), np.void(_BETWEEN)
+        heads["connection"] = table.channels
+        heads["sec"], heads["nanosec"] = np.divmod(logs, NANOSECONDS)
+        heads["length"] = table.lengths
+        data, places = table.behind(heads)
+        ends = np.append(places[1:], len(data))
+        begin = 0
+        while begin < len(table):
+            # Up to the message with which the chunk is full.
+            moved = self._length - int(places[begin])
+            full = int(np.searchsorted(ends, self._chunk_size - moved))
+            end = min(full + 1, len(table))
+            which = slice(begin, end)
+            columns = [heads["sec"][which], heads["nanosec"][which], places[which] + moved]
+            entries = np.stack(columns, axis=1).astype(np.uint32)
+            owners = table.channels[which]
+            for channel in dict.fromkeys(owners.tolist()):
+                index = self._indexes.setdefault(channel, array("I"))
+                index.frombytes(entries[owners == channel].tobytes())
+            self._low = min(self._low, int(logs[which].min()))
+            self._high = max(self._high, int(logs[which].max()))
+            self._keep(data[places[begin] : ends[end - 1]].tobytes())
+            if self._length >= self._chunk_size:
+                self.flush()
+            begin = end
+        return True
 
     def _keep(self, piece: bytes) -> None:
         self._pieces.append(piece)
@@ -286,12 +336,12 @@ def record(fields: Mapping[str, bytes], data: bytes) -> bytes:
 
 def _message(number: int, sec: int, nanosec: int, length: int) -> bytes:
     """A message's record up to its payload."""
-    # By hand, as there is one for each message: its three fields are 4, 9 and 13 bytes long.
+    # By hand, as there is one for each message.
     return b"".join(
         (
-            b"\x26\x00\x00\x00\x04\x00\x00\x00op=\x02\x09\x00\x00\x00conn=",
+            _BEFORE,
             U32.pack(number),
-            b"\x0d\x00\x00\x00time=",
+            _BETWEEN,
             struct.pack("<III", sec, nanosec, length),
         )
     )

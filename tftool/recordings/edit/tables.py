@@ -1,0 +1,212 @@
+"""Messages of one chunk as columns, and transforms in them changed all at once.
+
+A publisher sends the same frames again and again. One message of a kind is changed by itself;
+others that differ in stamps and numbers alone get the same new bytes, with their own stamps
+and numbers in them.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.errors import TftoolError
+from tftool.base.stamps import NANOSECONDS
+from tftool.messages.layouts import CDR, Layout
+from tftool.messages.transform_rows import Bytes, Place, Template, row_span, rows_of, walk
+from tftool.recordings.chunked import MessageTable
+from tftool.recordings.contract import Stamps
+
+_MOST_KINDS = 16
+"""Kinds of one length that are learned; messages of others are changed one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """New bytes of the message by which a kind is learned.
+
+    Attributes:
+        payload: The bytes; None where the message is left out.
+        layout: How they are written.
+        kept: Which of its transforms are still in it, by their places.
+        given: Those of the kept ones whose numbers are given by an option.
+    """
+
+    payload: bytes | None
+    layout: Layout
+    kept: Sequence[int] = ()
+    given: frozenset[int] = frozenset()
+
+
+@dataclass(slots=True)
+class MessageKind:
+    """Messages with the same frames, which differ in stamps and numbers alone.
+
+    Attributes:
+        places: Their transforms.
+        counts: How often each thing was done to one of them, by its name.
+    """
+
+    places: tuple[Place, ...]
+    template: Template
+    begin: int
+    result: Result
+    copies: list[tuple[int, int, int]] = field(default_factory=list)
+    counts: "Counter[str]" = field(default_factory=Counter)
+    keeps_bytes: bool = False
+
+    @property
+    def changes(self) -> bool:
+        """Whether they become other bytes."""
+        return not self.keeps_bytes or bool(self.result.given)
+
+    def stamps(self, rows: Bytes, number: int) -> Stamps:
+        """The stamp of one transform in each of some rows, nanoseconds, shape (n,)."""
+        first = self.places[number].stamp - self.begin
+        times = np.ascontiguousarray(rows[:, first : first + 8]).view(np.int32)
+        found: Stamps = times[:, 0].astype(np.int64) * NANOSECONDS
+        return found + np.ascontiguousarray(times[:, 1]).view(np.uint32)
+
+    def changed(self, rows: Bytes, length: int) -> Bytes:
+        """The new bytes of messages of a length, shape (n, new length)."""
+        payload = self.result.payload
+        assert payload is not None
+        new = np.frombuffer(payload, np.uint8)
+        if self.keeps_bytes:
+            found = rows[:, -self.begin : length - self.begin].copy()
+            for number in self.result.given:
+                place = self.places[number].numbers
+                found[:, place : place + 56] = new[place : place + 56]
+            return found
+        found = np.tile(new, (len(rows), 1))
+        for source, target, size in self.copies:
+            first = source - self.begin
+            found[:, target : target + size] = rows[:, first : first + size]
+        return found
+
+
+class Kinds:
+    """Kinds of messages of one channel, learned from the messages."""
+
+    def __init__(
+        self, layout: Layout, learn: "Callable[[bytes], tuple[Result, Counter[str]]]"
+    ) -> None:
+        """Begin with none.
+
+        Args:
+            layout: How the channel's messages are written.
+            learn: Changes one message, and tells what was counted of it.
+        """
+        self._layout = layout
+        self._learn = learn
+        self._known: dict[int, list[MessageKind]] = {}
+
+    def groups(
+        self, table: MessageTable, which: Stamps
+    ) -> "tuple[list[tuple[MessageKind, Stamps, Bytes]], Stamps]":
+        """Sort messages by their kind.
+
+        Args:
+            table: The messages.
+            which: Those of the channel.
+
+        Returns:
+            Each kind with its messages and their bytes as rows, and the messages of no kind.
+        """
+        found, rest = [], []
+        for length in np.unique(table.lengths[which]).tolist():
+            left = which[table.lengths[which] == length]
+            begin, width = row_span(self._layout, length)
+            if int(table.starts[left].min()) + begin < 0 or width < 8:
+                rest.append(left)
+                continue
+            known = self._known.setdefault(length, [])
+            number = 0
+            while len(left):
+                if number == len(known) and not self._add(known, table.payload(int(left[0]))):
+                    rest.append(left)
+                    break
+                kind = known[number]
+                words = rows_of(table.data, table.starts[left] + begin, width)
+                fits = kind.template.fits(words)
+                chosen = slice(None) if fits is None else fits
+                if len(left[chosen]):
+                    rows = words[chosen].view(np.uint8).reshape(-1, width)
+                    found.append((kind, left[chosen], rows))
+                left = left[:0] if fits is None else left[~fits]
+                number += 1
+        return found, np.concatenate(rest) if rest else which[:0]
+
+    def _add(self, known: list[MessageKind], payload: bytes) -> bool:
+        """Learn the kind of a message; whether that is possible."""
+        if len(known) >= _MOST_KINDS:
+            return False
+        try:
+            walked = walk(self._layout, payload)
+            if walked.order != "<" or not walked.places:
+                return False
+            begin, width = row_span(self._layout, len(payload))
+            ends = max(place.numbers + 56 for place in walked.places)
+            if ends > begin + width:
+                return False
+            result, counts = self._learn(payload)
+            kind = MessageKind(
+                walked.places, Template(self._layout, payload, walked), begin, result, [], counts
+            )
+            if result.payload is not None:
+                target = walk(result.layout, result.payload)
+                names = [(one.parent, one.child) for one in walked.places]
+                kind.keeps_bytes = (
+                    result.layout is self._layout
+                    and len(result.payload) == len(payload)
+                    and [(one.parent, one.child) for one in target.places] == names
+                )
+                # ROS 1's number of the header comes before the stamp.
+                lead = 0 if CDR in (self._layout, result.layout) else 4
+                for number, place in zip(result.kept, target.places, strict=True):
+                    old = walked.places[number]
+                    kind.copies.append((old.stamp - lead, place.stamp - lead, 8 + lead))
+                    if number not in result.given:
+                        kind.copies.append((old.numbers, place.numbers, 56))
+        except TftoolError:
+            return False
+        known.append(kind)
+        return True
+
+
+class TableChange:
+    """Messages of a table while they are changed."""
+
+    def __init__(self, table: MessageTable) -> None:
+        """Begin with all of them as they are."""
+        self.table = table
+        self.keep: npt.NDArray[np.bool_] = np.ones(len(table), dtype=np.bool_)
+        self._starts, self._lengths = table.starts.copy(), table.lengths.copy()
+        self._pieces: list[Bytes] = [table.data]
+        self._end = len(table.data)
+
+    def put(self, which: Stamps, payloads: Bytes) -> None:
+        """Give messages new bytes, shape (n, length)."""
+        length = payloads.shape[1]
+        self._starts[which] = self._end + np.arange(len(which)) * length
+        self._lengths[which] = length
+        self._pieces.append(payloads.ravel())
+        self._end += payloads.size
+
+    def put_one(self, number: int, payload: bytes) -> None:
+        """Give one message new bytes."""
+        self.put(np.array([number]), np.frombuffer(payload, np.uint8).reshape(1, -1))
+
+    def finished(self) -> MessageTable:
+        """The messages afterwards; the same table if none has changed."""
+        if len(self._pieces) == 1 and self.keep.all():
+            return self.table
+        after = replace(
+            self.table,
+            data=np.concatenate(self._pieces),
+            starts=self._starts,
+            lengths=self._lengths,
+        )
+        return after if self.keep.all() else after.chosen(np.flatnonzero(self.keep))
