@@ -173,3 +173,58 @@ def test_a_scenario_s_own_list_is_kept_by_the_doctor(tftool, tmp_path):
 def test_what_was_not_looked_at_is_not_called_fine(tftool):
     result = tftool("doctor", "turtles", "--select", "shape")
     assert "publishers: skipped, not selected · shape fine · names: skipped" in result.out
+
+
+def broken(tmp_path, tftool):
+    """A recording with a finding, from the built-in robot without its lidar's mount."""
+    place = tmp_path / "broken.mcap"
+    made = tftool("record", "--in", "robot", "-o", str(place), "--for", "5")
+    assert made.status == 0, made.err
+    cut = tmp_path / "cut.mcap"
+    assert tftool("edit", str(place), "-o", str(cut), "--drop", "odom:base_link").status == 0
+    return str(cut)
+
+
+def test_only_what_a_baseline_lacks_fails(tftool, tmp_path):
+    source = broken(tmp_path, tftool)
+    first = tftool("doctor", source, "--json")
+    assert first.status == 1
+    report = json.loads(first.out)
+    assert report["schema"] == "tftool.doctor/2"
+    accepted = tmp_path / "accepted.json"
+    accepted.write_text(first.out, encoding="utf-8")
+
+    again = tftool("doctor", source, "--baseline", str(accepted))
+    assert again.status == 0
+    assert "(in the baseline)" in again.out
+
+    # A report from before fingerprints has the names they are made of.
+    for row in report["findings"]:
+        del row["fingerprint"]
+    accepted.write_text(json.dumps([report]), encoding="utf-8")
+    assert tftool("doctor", source, "turtles", "--baseline", str(accepted)).status == 0
+
+    report["findings"] = report["findings"][1:]
+    accepted.write_text(json.dumps(report), encoding="utf-8")
+    assert tftool("doctor", source, "--baseline", str(accepted)).status == 1
+
+
+@pytest.mark.parametrize("content", ["{", "[]]", "3", '{"findings": []}', '[{"source": "a"}]'])
+def test_a_baseline_that_is_no_report_is_refused(tftool, tmp_path, content):
+    old = tmp_path / "old.json"
+    old.write_text(content, encoding="utf-8")
+    result = tftool("doctor", "turtles", "--baseline", str(old))
+    assert result.status == 3
+    assert "tftool doctor FROM --json > OLD.json" in result.err
+    assert tftool("doctor", "turtles", "--baseline", str(tmp_path / "none.json")).status == 3
+
+
+def test_steps_are_a_table_or_json(tftool):
+    result = tftool("doctor", "robot", "--steps", "--json")
+    assert result.status == 0
+    assert json.loads(result.out)["schema"] == "tftool.steps/1"
+    assert tftool("doctor", "robot", "--steps", "--pair", "odom:base_link").out.strip()
+    refused = tftool("doctor", "robot", "--steps", "--pair", "odom:cup")
+    assert refused.status != 0
+    assert "cup" in refused.err
+    assert tftool("doctor", "robot", "--pair", "odom:base_link").status == 2

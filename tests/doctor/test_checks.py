@@ -160,7 +160,7 @@ def long_drive(child: str = "gps_link", parent: str = "base_link") -> Robot:
 def test_a_constant_on_tf_for_a_minute_is_possibly_a_mount():
     finding = found(long_drive(), "static-on-tf")
     assert finding.edges == (("base_link", "gps_link"),)
-    assert finding.confidence is Confidence.GUESS
+    assert finding.confidence is Confidence.POSSIBLE
 
     rests = robot(odometry=False)
     rests.moving("odom", "base_link", pose=stands, end=61.0)

@@ -85,7 +85,7 @@ def test_programs_get_names_as_they_are_and_whole_nanoseconds():
     made.static("base_link", "\x1b[31mred")
     text = json.dumps(findings.as_object(made.judged()), allow_nan=False)
     read = json.loads(text)
-    assert read["schema"] == "tftool.doctor/1"
+    assert read["schema"] == "tftool.doctor/2"
     assert read["read"]["transforms"] == 403
     assert read["summary"]["error"] == 1
     split = next(one for one in read["findings"] if one["id"] == "split-tree")

@@ -1,6 +1,8 @@
 """Findings of the diagnosis of frames: frozen values, for people and for programs."""
 
-from collections.abc import Mapping
+import hashlib
+import json
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeAlias
@@ -38,11 +40,11 @@ class Severity(Enum):
 
 
 class Confidence(Enum):
-    """Confidence of a finding: a fact, a rule that may err, a guess."""
+    """Confidence of a finding: a fact, a rule that may err, something to look at."""
 
     CERTAIN = "certain"
     LIKELY = "likely"
-    GUESS = "guess"
+    POSSIBLE = "possible"
 
 
 class Area(Enum):
@@ -92,6 +94,7 @@ class Finding:
         consequence: What it breaks.
         fixes: What to do, the likeliest first.
         because_of: The id of the finding that explains this one; None where none does.
+        known: Whether a report that was given as the baseline has it already.
     """
 
     id: str
@@ -111,10 +114,24 @@ class Finding:
     consequence: str = ""
     fixes: tuple[Fix, ...] = ()
     because_of: str | None = None
+    known: bool = False
+
+    @property
+    def fingerprint(self) -> str:
+        """Identity over recordings: the check, and the names it is about; no numbers."""
+        return fingerprint(self.id, self.frames, self.edges, self.topics)
 
     def __repr__(self) -> str:
         # Its facts may be those of a hundred edges.
         return f"<Finding: {self.severity.value} {self.id}, {self.message!r}>"
+
+
+def fingerprint(
+    check: str, frames: Iterable[str], edges: Iterable[Iterable[str]], topics: Iterable[str]
+) -> str:
+    """Return what is equal for two findings of one check about the same names."""
+    named = [check, sorted(frames), sorted(list(edge) for edge in edges), sorted(topics)]
+    return hashlib.sha256(json.dumps(named).encode()).hexdigest()[:16]
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,8 +60,8 @@ class Diagnosis:
 
     @property
     def worst(self) -> Severity | None:
-        """The worst severity of findings that are no consequence; None if there are none."""
-        found = [finding.severity for finding in self.findings if finding.because_of is None]
+        """The worst severity of new findings that are no consequence; None if there are none."""
+        found = [f.severity for f in self.findings if f.because_of is None and not f.known]
         return min(found, key=lambda severity: severity.rank, default=None)
 
 
@@ -176,15 +176,20 @@ def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tu
     for number, (check, _) in enumerate(hits):
         of_check[check.id].append(number)
     causes = [_cause_of(number, hits, of_check) for number in range(len(hits))]
-    grouped: dict[tuple[object, ...], list[Hit]] = {}
+    grouped: dict[tuple[str, Severity, str | None, int], list[Hit]] = {}
     for number, ((check, hit), cause) in enumerate(zip(hits, causes, strict=True)):
         severity = hit.severity or check.severity
+        if severity is Severity.ERROR and hit.confidence is Confidence.POSSIBLE:
+            severity = Severity.WARNING  # an error is what the data shows
         key = (check.id, severity, cause, number if hit.alone else -1)
         grouped.setdefault(key, []).append(hit)
     findings = [
-        replace(_joined(CHECKS[str(key[0])], group, limits[str(key[0])]), because_of=cause)
+        replace(
+            _joined(CHECKS[key[0]], group, limits[key[0]]),
+            because_of=key[2],
+            severity=key[1],
+        )
         for key, group in grouped.items()
-        for cause in [key[2] if isinstance(key[2], str) else None]
     ]
     order = list(CHECKS)
     areas = list(Area)
@@ -279,7 +284,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
         severity=first.severity or check.severity,
         area=check.area,
         message=filled(check.headline, facts),
-        confidence=min((hit.confidence for hit in hits), key=list(Confidence).index),
+        confidence=max((hit.confidence for hit in hits), key=list(Confidence).index),
         edges=tuple(dict.fromkeys(edge for hit in hits for edge in hit.edges)),
         frames=tuple(dict.fromkeys(frame for hit in hits for frame in hit.frames)),
         topics=tuple(dict.fromkeys(topic for hit in hits for topic in hit.topics)),

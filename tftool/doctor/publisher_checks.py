@@ -518,7 +518,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             edges=(track.edge,),
             publishers=track.nodes,
             count=len(track.stamps),
-            confidence=Confidence.GUESS,
+            confidence=Confidence.POSSIBLE,
             facts={
                 "edge": track.name,
                 "rate": rate(track),

@@ -411,7 +411,7 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
             yield Hit(
                 edges=(track.edge,),
                 publishers=track.nodes,
-                confidence=Confidence.GUESS,
+                confidence=Confidence.POSSIBLE,
                 facts={"edge": track.name, "away": away},
             )
 
@@ -435,7 +435,7 @@ def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:
             yield Hit(
                 edges=(track.edge,),
                 publishers=track.nodes,
-                confidence=Confidence.GUESS,
+                confidence=Confidence.POSSIBLE,
                 facts={"edge": track.name},
             )
 

@@ -11,7 +11,7 @@ from tftool.base.escaping import visible
 from tftool.base.report import Judgement, Report
 from tftool.base.stamps import as_seconds
 from tftool.doctor.check import Check
-from tftool.doctor.findings import Area, Finding, Severity
+from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
 from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
     from rich.table import Table
 
-SCHEMA = "tftool.doctor/1"
+SCHEMA = "tftool.doctor/2"
 
 _CALM = Severity.NOTE
 """What does not count as wrong."""
@@ -69,7 +69,11 @@ def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
 
     line = Text(finding.severity.value, _STYLES[finding.severity])
     line.append(f"  {finding.id}", "bold")
+    if finding.confidence is not Confidence.CERTAIN or verbose:
+        line.append(f" ({finding.confidence.value})", "dim")
     line.append(f": {visible(finding.message)}", "default")
+    if finding.known:
+        line.append(" (in the baseline)", "dim")
     body = Table.grid(padding=(0, 1), pad_edge=False)
     body.add_column(no_wrap=True)
     body.add_column(overflow="fold")
@@ -408,6 +412,8 @@ def as_row(finding: Finding) -> dict[str, Any]:
         "area": finding.area.value,
         "message": finding.message,
         "confidence": finding.confidence.value,
+        "fingerprint": finding.fingerprint,
+        "known": finding.known,
         "edges": [list(edge) for edge in finding.edges],
         "frames": list(finding.frames),
         "topics": list(finding.topics),
@@ -498,7 +504,7 @@ def as_junit(rows: "Sequence[tuple[str, Diagnosis | str]]", fails: Severity | No
         looked = tuple(
             Judgement(
                 f"{one.id}: {one.message}",
-                fails is None or one.severity.rank > fails.rank,
+                fails is None or one.known or one.severity.rank > fails.rank,
                 expected="nothing found",
                 found="; ".join((*one.evidence, *(fix.text for fix in one.fixes))),
             )

@@ -3,7 +3,6 @@
 import json
 import sys
 from collections.abc import Sequence
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
@@ -71,7 +70,7 @@ def _result(source: str, finding: Finding) -> dict[str, Any]:
         "level": finding.severity.value,
         "message": {"text": _message(finding)},
         "locations": [_location(source, finding)],
-        "partialFingerprints": {"tftoolDoctor/v1": _fingerprint(finding)},
+        "partialFingerprints": {"tftoolDoctor/v1": finding.fingerprint},
         "properties": {
             "confidence": finding.confidence.value,
             "publishers": list(finding.publishers),
@@ -110,9 +109,3 @@ def _location(source: str, finding: Finding | None = None) -> dict[str, Any]:
             {"kind": kind, "fullyQualifiedName": name} for kind, name in named
         ]
     return location
-
-
-def _fingerprint(finding: Finding) -> str:
-    """Return what stays equal from run to run: the check and where it found something."""
-    parts = [finding.id, finding.edges, sorted(finding.frames), sorted(finding.topics)]
-    return sha256(json.dumps(parts).encode()).hexdigest()

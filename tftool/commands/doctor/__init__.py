@@ -53,6 +53,10 @@ def doctor(
         list[str] | None, option("Leave these checks or areas out.", metavar="ID,...")
     ] = None,
     fail_on: Annotated[FailOn, option("From what on the exit status is 1.")] = FailOn.warning,
+    baseline: Annotated[
+        Path | None,
+        option("Fail by what this report of --json lacks alone.", metavar="OLD.json"),
+    ] = None,
     limits: Annotated[
         list[str] | None,
         option("Another threshold: gap.seconds=2.", "--limit", metavar="ID.NAME=VALUE"),
@@ -78,6 +82,16 @@ def doctor(
     statistics: Annotated[
         bool, option("Print rate, latency and gaps of everything, too.", "--statistics")
     ] = False,
+    steps: Annotated[
+        bool,
+        option("Print where a localiser or odometry steps: when, how far, the drift.", "--steps"),
+    ] = False,
+    pair: Annotated[
+        str,
+        option(
+            "Steps of the edges between two frames; else of map to odom.", metavar="TARGET:SOURCE"
+        ),
+    ] = "",
     verbose: Annotated[
         bool, option("Print all evidence, and skipped checks.", "--verbose", "-v")
     ] = False,
@@ -105,5 +119,7 @@ def doctor(
     tftool doctor run.mcap
     tftool doctor bags/*.mcap --junit report.xml
     tftool doctor 'runs/**/*.mcap' -j 8 -o findings.parquet --resume
+    tftool doctor run.mcap --steps --pair map:base_link
+    tftool doctor run.mcap --baseline accepted.json
     tftool doctor --explain split-tree
     """

@@ -11,17 +11,21 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.doctor import FailOn
+from tftool.commands.doctor.baseline import Baseline
 from tftool.commands.fleet.fleet import expanded
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.evidence_sources import evidence_from, rules_of
 from tftool.commands.shared.notices import complain
+from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width, write, write_file
 from tftool.doctor.evidence import Scope, described_by
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
-from tftool.doctor.model import Settings
+from tftool.doctor.localisation_steps import steps_of
+from tftool.doctor.model import Model, Settings
 from tftool.drawing import finding_view as view
+from tftool.drawing import step_view
 from tftool.drawing.sarif import as_sarif
 from tftool.frames.moment import At
 from tftool.recordings.remote_files import fetched
@@ -49,6 +53,7 @@ class DoctorReport:
     statistics: bool
     junit: Path | None
     sarif: Path | None
+    steps: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +121,7 @@ def run(
     select: list[str] | None,
     ignore: list[str] | None,
     fail_on: FailOn,
+    baseline: Path | None,
     limits: list[str] | None,
     cache_time: Duration | None,
     fixed_frame: str,
@@ -124,6 +130,8 @@ def run(
     end: At | None,
     lasting: Duration | None,
     statistics: bool,
+    steps: bool,
+    pair: str,
     verbose: bool,
     for_programs: bool,
     markdown: bool,
@@ -141,16 +149,27 @@ def run(
         return _show_checks("" if listed else explain, markdown=markdown)
     chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
     selection = CheckSelection(chosen, left_out, limits or [], cache_time, fixed_frame)
-    report = DoctorReport(for_programs, markdown, verbose, statistics, junit, sarif)
+    report = DoctorReport(for_programs, markdown, verbose, statistics, junit, sarif, steps)
     rows = RowOptions(output, processes, scheduler, resume)
     _refuse_contradictions(report, rows)
     settings = selection.settings(tuple(tf_topic or ()))
     urdf = connection.robot.urdf
     scope = Scope(None if urdf is None else described_by(urdf), settings.tf_topics, begin, end)
     fails = None if fail_on is FailOn.never else Severity(fail_on.value)
+    if pair and not steps:
+        raise UsageError(f"--pair {pair} is about steps: add --steps.")
+    if steps:
+        (ends,), _ = pairs_and_place([], [pair]) if pair else ([("", "")], None)
+        return _show_steps(connection, places or [], ends, (lasting, scope), for_programs)
+    if baseline is not None and output is not None:
+        raise UsageError("--baseline judges reports, and -o writes rows: leave one out.")
+    accepted = None if baseline is None else Baseline.read(baseline)
     if output is not None:
         return _sweep(places or [], output, rows, selection, settings, scope, fails)
     judged = _diagnosed(connection, places or [], lasting, settings, selection, scope)
+    if accepted is not None:
+        judged = [(name, found if isinstance(found, str) else accepted.marked(name, found))
+                  for name, found in judged]  # fmt: skip
     _print(judged, report)
     if junit is not None:
         write_file(junit, view.as_junit(judged, fails))
@@ -177,6 +196,35 @@ def _show_checks(name: str, *, markdown: bool) -> ExitStatus:
     return ExitStatus.DONE
 
 
+def _show_steps(
+    connection: Connection,
+    places: list[str],
+    ends: tuple[str, str],
+    listening: tuple[Duration | None, Scope],
+    for_programs: bool,
+) -> ExitStatus:
+    """Print the steps of every source.
+
+    Raises:
+        InputError: If one cannot be read.
+        LookupException: If a frame is unknown, or nothing joins the two.
+    """
+    lasting, scope = listening
+    objects = []
+    for word in [*expanded(places)] if places else [None]:
+        with fetched(word or "") as path:
+            model = Model(evidence_from(connection, path or None, lasting, scope))
+        steps = steps_of(model, *ends)
+        if for_programs:
+            objects.append(step_view.as_object(model, steps))
+        else:
+            write(step_view.render(model, steps))
+    if for_programs:
+        content = objects[0] if len(objects) == 1 else objects
+        sys.stdout.write(json.dumps(content, indent=2, allow_nan=False) + "\n")
+    return ExitStatus.DONE
+
+
 def _refuse_contradictions(report: DoctorReport, rows: RowOptions) -> None:
     """Refuse options that do not go together.
 
@@ -190,6 +238,7 @@ def _refuse_contradictions(report: DoctorReport, rows: RowOptions) -> None:
         "--markdown": report.markdown,
         "--verbose": report.verbose,
         "--statistics": report.statistics,
+        "--steps": report.steps,
     }
     others = " and ".join(name for name, is_given in asked.items() if is_given)
     makes_rows = rows.output is not None
@@ -199,6 +248,11 @@ def _refuse_contradictions(report: DoctorReport, rows: RowOptions) -> None:
             "--json and --markdown are two ways to print it: leave one out.",
         ),
         (makes_rows and others, f"-o writes rows, and {others} another report: leave one out."),
+        (
+            report.steps and (report.markdown or report.junit or report.statistics),
+            "--steps prints a table in place of the findings: leave out --markdown, --junit and "
+            "--statistics.",
+        ),
         (
             not makes_rows and (rows.resume or rows.processes > 1 or rows.scheduler),
             "--jobs, --resume and --scheduler make rows: add -o FILE.",

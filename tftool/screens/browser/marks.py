@@ -1,5 +1,6 @@
 """Marks on the page's ruler of time: links without data, and the doctor's findings."""
 
+from math import degrees
 from typing import Any, Final
 
 from tftool.base.stamps import Stamp
@@ -7,6 +8,7 @@ from tftool.buffer.buffer import Buffer
 from tftool.doctor.coverage_checks import gap, holes
 from tftool.doctor.evidence import evidence_of_buffer
 from tftool.doctor.judge import judge
+from tftool.doctor.localisation_steps import LocalisationStep, steps_of
 from tftool.doctor.model import Settings
 from tftool.screens.browser.protocol import since
 
@@ -48,5 +50,14 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
                 "until": since(epoch, one.until or one.since or 0),
             }
             for one in found[:MOST_FINDINGS]
-        ],
+        ]
+        + [_step(step, epoch) for step in steps_of(diagnosis.model)[:MOST_FINDINGS]],
     }
+
+
+def _step(step: LocalisationStep, epoch: Stamp) -> dict[str, Any]:
+    """Return a step of a localiser as a mark."""
+    parent, child = step.edge
+    at = since(epoch, step.stamp)
+    message = f"{child} in {parent} steps {step.moved * 1e3:.0f} mm, {degrees(step.turned):.1f}°"
+    return {"id": "step", "severity": "note", "message": message, "since": at, "until": at}

@@ -1,0 +1,68 @@
+"""Steps of a localiser are listed with their size, and motion is not."""
+
+import math
+
+import numpy as np
+import pytest
+
+from tests.doctor.judged import turned
+from tests.doctor.robots import NO_TURN, Robot, drives, robot
+from tftool.base.errors import LookupException
+from tftool.doctor.localisation_steps import steps_of
+from tftool.doctor.model import Model
+
+
+def localised() -> Robot:
+    """A robot that drives, whose localiser corrects it every two seconds by more."""
+
+    def corrects(t: float) -> tuple[float, ...]:
+        jumps = int(t / 2.0 + 1e-6)
+        # Beside its steps it drifts by 1 mm a second.
+        return (0.02 * jumps + 0.001 * t, 0.0, 0.0, *turned(math.radians(jumps)))
+
+    made = robot()
+    made.moving("map", "odom", 10.0, corrects)
+    return made
+
+
+def test_every_correction_is_a_step_of_its_size_with_the_drift_before_it():
+    steps = steps_of(Model(localised().evidence()))
+    assert [step.edge for step in steps] == [("map", "odom")] * 3
+    for step in steps:
+        assert step.moved == pytest.approx(0.02, abs=1e-6)
+        assert math.degrees(step.turned) == pytest.approx(1.0, abs=1e-6)
+    # From one step to the next, 19 samples of 0.1 mm.
+    assert [step.drift_moved for step in steps[1:]] == pytest.approx([0.0019, 0.0019], abs=1e-6)
+
+
+def test_noise_and_motion_are_no_steps_and_a_jump_among_them_is():
+    noise = np.random.default_rng(1)
+
+    def shakes(t: float) -> tuple[float, ...]:
+        x, y = noise.normal(0.0, 0.004, 2)
+        return (0.8 * t + x + (0.2 if t > 5.0 else 0.0), y, 0.0, *turned(0.5 * t))
+
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", 20.0, shakes)
+    (step,) = steps_of(Model(made.evidence()), "odom", "base_link")
+    assert step.moved == pytest.approx(0.2, abs=0.03)
+    assert steps_of(Model(robot().evidence()), "odom", "laser") == ()
+
+
+def test_a_pair_names_the_edges_and_frames_that_there_are_not_are_refused():
+    model = Model(localised().evidence())
+    assert len(steps_of(model, "map", "base_link")) == 3
+    assert steps_of(model, "odom", "base_link") == ()
+    with pytest.raises(LookupException, match="No transform names 'cup'"):
+        steps_of(model, "map", "cup")
+    split = robot()
+    split.moving("table", "plate", pose=drives)
+    with pytest.raises(LookupException, match="Nothing joins"):
+        steps_of(Model(split.evidence()), "odom", "plate")
+
+
+def test_few_samples_have_no_steps():
+    made = Robot()
+    for tick in range(5):
+        made.sent("map", "odom", tick * 0.1, (float(tick % 2), 0.0, 0.0, *NO_TURN))
+    assert steps_of(Model(made.evidence())) == ()

@@ -1,0 +1,64 @@
+"""Steps of a localiser or of odometry: for a terminal, for a program."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tftool.base.escaping import visible
+from tftool.base.stamps import as_seconds
+from tftool.doctor.localisation_steps import LocalisationStep
+from tftool.doctor.model import Model
+from tftool.doctor.wording import span
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+SCHEMA = "tftool.steps/1"
+
+
+def render(model: Model, steps: Sequence[LocalisationStep]) -> "RenderableType":
+    """A table of steps: when, in which edge, how far, and the drift since the one before."""
+    from rich.table import Table
+    from rich.text import Text
+
+    if not steps:
+        return Text(visible(f"{model.evidence.name}: no steps"))
+    table = Table(box=None, pad_edge=False, title_justify="left", title_style="bold")
+    table.title = visible(f"{model.evidence.name}: {len(steps):,} steps")
+    for name in ("at", "edge", "within", "step", "", "drift before it", ""):
+        table.add_column(name, justify="left" if name == "edge" else "right", no_wrap=True)
+    for step in steps:
+        parent, child = step.edge
+        table.add_row(
+            f"{as_seconds(step.stamp - model.epoch):.3f} s",
+            visible(f"{child} in {parent}"),
+            span(step.within),
+            *_both(step.moved, step.turned),
+            *_both(step.drift_moved, step.drift_turned),
+        )
+    return table
+
+
+def _both(metres: float, radians: float) -> tuple[str, str]:
+    return f"{metres * 1e3:.1f} mm", f"{np.degrees(radians):.2f}°"
+
+
+def as_object(model: Model, steps: Sequence[LocalisationStep]) -> dict[str, Any]:
+    """The steps as JSON has them: whole nanoseconds, metres and radians."""
+    return {
+        "schema": SCHEMA,
+        "source": model.evidence.name,
+        "steps": [
+            {
+                "parent": step.edge[0],
+                "child": step.edge[1],
+                "stamp": step.stamp,
+                "within": step.within,
+                "moved": step.moved,
+                "turned": step.turned,
+                "drift": {"moved": step.drift_moved, "turned": step.drift_turned},
+            }
+            for step in steps
+        ],
+    }
