@@ -288,7 +288,7 @@ def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
 def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Stamp) -> Reason:
     trace = known.trace
     why = [
-        f"{link.name} begins at {moment(first)}, {span(first - trace.moment)} after the question"
+        f"{link.name} begins {span(first - trace.moment)} after the question, at {moment(first)}"
     ]
     if track.median_latency < 0:
         why.append(
@@ -302,7 +302,7 @@ def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Sta
     return Reason(
         Cause.BEFORE_START,
         tuple(why),
-        (Remedy("skip", f"skip messages before {moment(first)}{lost}"),),
+        (Remedy("skip", f"ask for {moment(first)} or later{lost}"),),
         ("a timeout, a larger cache: older data will not come",),
     )
 
@@ -450,6 +450,7 @@ class Explanation:
         useless: What people try and does not help, in sentences.
         failed: Of a session that was listened to, for which share of that time the same
             question would have been refused; None elsewhere.
+        in_whole: Whether it answers with all that was ever recorded, as `echo` asks it.
     """
 
     target: str
@@ -471,6 +472,7 @@ class Explanation:
     remedies: tuple[Remedy, ...] = ()
     useless: tuple[str, ...] = ()
     failed: float | None = None
+    in_whole: bool = False
 
     @property
     def check(self) -> str | None:
@@ -497,10 +499,7 @@ def traced(model: Model, question: Question) -> Explanation:
     way = None if named is not None else trace.way()
     trace.settle(way or ())
     links = tuple(trace.link(track) for track in way or ())
-    refusing = next(
-        (number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS),
-        None,
-    )
+    refusing = _refusing(trace, way or (), links)
     begin, end = trace.answerable(way) if way is not None else (None, None)
     known = TraceResult(trace, way, links, refusing, begin, end, available=not exception)
     if named is not None:
@@ -512,6 +511,7 @@ def traced(model: Model, question: Question) -> Explanation:
     else:
         told = refusing_link(known)
     misleading = _misleading(links, quoted)
+    stamps = [track.sorted_stamps for track in way or () if not track.static]
     return Explanation(
         target=question.target,
         source=question.source,
@@ -531,7 +531,21 @@ def traced(model: Model, question: Question) -> Explanation:
         why=(*told.why, *misleading),
         remedies=told.remedies,
         useless=told.useless,
+        in_whole=way is not None
+        and all(len(one) > 0 and one[0] <= trace.moment <= one[-1] for one in stamps),
     )
+
+
+def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
+    """The number of the link that refuses: of several, one that no wait can help."""
+    refusing = [
+        number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS
+    ]
+    for number in refusing:
+        stamps = way[number].sorted_stamps
+        if not way[number].static and len(stamps) > 1 and trace.moment < stamps[0]:
+            return number
+    return refusing[0] if refusing else None
 
 
 MOMENTS = 1000

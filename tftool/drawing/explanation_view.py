@@ -68,15 +68,24 @@ def _headline(found: Explanation) -> "Text":
     line = Text(visible(f"{found.source} in {found.target} {when}: "))
     if found.available:
         return line.append("answers", "green")
-    line.append("refused", "bold red")
+    line.append("refused", "bold red").append(_later(found))
+    if found.failed is not None:
+        return line
+    # A listener hears no more than had come by then; `echo` looks in the whole recording.
+    line.append("; asked as a robot would have at that moment")
+    return line.append(", and echo, which knows all of it, answers" if found.in_whole else "")
+
+
+def _later(found: Explanation) -> str:
+    """Whether it would answer later, or would have before."""
     if found.answerable_from is None:
-        return line.append(", and would be at any later time")
+        return ", and would be at any later time"
     late = found.answerable_from - found.asked
     if late > 0:
-        return line.append(f", would answer {span(late)} later")
+        return f", would answer {span(late)} later"
     if found.answerable_until is not None and found.answerable_until <= found.asked:
-        return line.append(f", would have answered until {_exactly(found.answerable_until)}")
-    return line
+        return f", would have answered until {_exactly(found.answerable_until)}"
+    return ""
 
 
 class _Links:
@@ -187,6 +196,7 @@ def as_object(found: Explanation) -> dict[str, Any]:
         "stamp": found.stamp,
         "asked": found.asked,
         "available": found.available,
+        "available_in_whole": found.in_whole,
         "exception": found.exception or None,
         "text": found.text or None,
         "links": [
