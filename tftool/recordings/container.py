@@ -6,11 +6,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final, NamedTuple, Protocol
 
+import numpy as np
+import numpy.typing as npt
+
 from tftool.base.errors import InputError
 from tftool.base.stamps import Stamp
+from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.contract import Progress
+from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import LARGEST
 from tftool.recordings.pieces import Piece
 
@@ -51,6 +55,89 @@ class Taken(NamedTuple):
     sequence: int
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class MessageTable:
+    """Messages of a chunk as columns, in their order.
+
+    Attributes:
+        data: The bytes that their payloads are in.
+        channels: The number of each one's channel, shape (n,).
+        log_times: When each was received, nanoseconds, shape (n,).
+        publish_times: When each was sent, shape (n,).
+        sequences: Its number at its publisher, shape (n,).
+        starts: Where its payload begins, shape (n,).
+        lengths: Bytes of the payload, shape (n,).
+    """
+
+    data: Bytes
+    channels: Stamps
+    log_times: Stamps
+    publish_times: Stamps
+    sequences: Stamps
+    starts: Stamps
+    lengths: Stamps
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+    @property
+    def owners(self) -> list[int]:
+        """The channels that have messages in it, in the order of their first ones."""
+        channels, firsts = np.unique(self.channels, return_index=True)
+        found: list[int] = channels[np.argsort(firsts)].tolist()
+        return found
+
+    def payload(self, number: int) -> bytes:
+        """The bytes of one message."""
+        start = int(self.starts[number])
+        return self.data[start : start + int(self.lengths[number])].tobytes()
+
+    def message(self, number: int) -> Taken:
+        """One message."""
+        return Taken(
+            int(self.channels[number]),
+            int(self.log_times[number]),
+            self.payload(number),
+            int(self.publish_times[number]),
+            int(self.sequences[number]),
+        )
+
+    def chosen(self, which: Stamps) -> "MessageTable":
+        """Some of them."""
+        columns = (self.channels, self.log_times, self.publish_times, self.sequences)
+        rest = (self.starts, self.lengths)
+        return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
+
+    def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
+        """Copy their payloads, each behind a head of its own.
+
+        Args:
+            heads: One item for each message.
+
+        Returns:
+            The bytes, and where each head begins, shape (n,).
+        """
+        size = heads.dtype.itemsize
+        ends = np.cumsum(self.lengths + size)
+        places: Stamps = ends - self.lengths - size
+        found = np.empty(int(ends[-1]), dtype=np.uint8)
+        _items(found, size)[places] = heads.view(f"V{size}")
+        order = np.argsort(self.lengths, kind="stable")
+        cuts = np.flatnonzero(np.diff(self.lengths[order])) + 1
+        for which in np.split(order, cuts):
+            length = int(self.lengths[which[0]])
+            if length:
+                # As single items: numpy then copies a payload in one go.
+                rows = _items(self.data, length)[self.starts[which]]
+                _items(found, length)[places[which] + size] = rows
+        return found, places
+
+
+def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
+    """Every run of so many bytes, wherever it begins, as one item."""
+    return np.ndarray((len(data) - size + 1,), f"V{size}", buffer=data.data, strides=(1,))
+
+
 class Block(Protocol):
     """Some messages that are together in a file: a chunk, rows, messages outside of chunks."""
 
@@ -72,6 +159,9 @@ class Block(Protocol):
 
     def sound(self) -> bool:
         """Whether its content is as written, as far as it carries proof of that."""
+
+    def table(self) -> MessageTable | None:
+        """Its messages as columns; None where it must be taken apart message by message."""
 
     def messages(self) -> list[Taken]:
         """Its messages, in their order; those up to the damage, where there is any."""

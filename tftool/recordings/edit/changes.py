@@ -20,8 +20,7 @@ from tftool.messages.schema import PRIMITIVES, full_name
 from tftool.messages.splice import TransformRow, TransformRows
 from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import MessageTable
-from tftool.recordings.container import Taken
+from tftool.recordings.container import MessageTable, Taken
 from tftool.recordings.container_reader import (
     LAYOUTS,
     TRANSFORM_TYPES,

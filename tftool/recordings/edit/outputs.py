@@ -15,9 +15,9 @@ from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.schema import full_name
 from tftool.messages.transform_rows import walk
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
-from tftool.recordings.chunked import Chunk, ChunkedReader, MessageTable
+from tftool.recordings.chunked import Chunk, ChunkedReader
 from tftool.recordings.compression import best_compression, compressor
-from tftool.recordings.container import Block, Reader, Taken
+from tftool.recordings.container import Block, MessageTable, Reader, Taken
 from tftool.recordings.container_reader import LAYOUTS
 from tftool.recordings.contract import Stamps
 from tftool.recordings.edit.changes import carries_transforms

@@ -18,8 +18,8 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk, ChunkedReader, MessageTable
-from tftool.recordings.container import Block, Reader
+from tftool.recordings.chunked import Chunk, ChunkedReader
+from tftool.recordings.container import Block, MessageTable, Reader
 from tftool.recordings.containers import PACKED_SUFFIX, container_named, container_of
 from tftool.recordings.contract import Progress
 from tftool.recordings.edit.changes import Edits
@@ -187,18 +187,22 @@ class _Job:
         """Plan of an edit that is not made."""
         self._heads.collect()
         done = 0
-        for source, tape in enumerate(self._tapes):
+        for tape in self._tapes:
             for block in tape.blocks():
-                if not self._untouched(block, tape):
-                    for message in block.messages():
-                        after = self._changer.changed(message, tape.channels[message.channel])
-                        self.report.messages += after is not None
-                else:
+                table = self._table(block, tape)
+                if table is not None:
+                    after = self._changer.changed_table(table, tape.channels)
+                    self.report.messages += len(after)
+                    self.report.copied += after is table and isinstance(block, Chunk)
+                elif self._untouched(block, tape):
                     self.report.messages += sum((block.counts or {}).values())
                     self.report.copied += 1
+                else:
+                    for message in block.messages():
+                        changed = self._changer.changed(message, tape.channels[message.channel])
+                        self.report.messages += changed is not None
             done += tape.size
             self._tell(done)
-            del source
         self._sum_up()
         return self.report
 
@@ -360,7 +364,7 @@ class _Job:
 
     def _table(self, block: Block, tape: Reader) -> MessageTable | None:
         """A chunk's messages as columns, if they are looked at and stay in one file."""
-        if not isinstance(block, Chunk) or self._edits.split_every:
+        if self._edits.split_every:
             return None
         if tape.container == self._container and self._stays_unseen(block, tape):
             return None
@@ -471,7 +475,7 @@ class _Job:
                     channel = tape.channels[number]
                     counts[channel.topic, channel.type] += count
                 continue
-            table = block.table() if isinstance(block, Chunk) else None
+            table = block.table()
             if table is not None:
                 for number, count in Counter(table.channels.tolist()).items():
                     channel = tape.channels[number]

@@ -16,7 +16,7 @@ from tftool.base.errors import TftoolError
 from tftool.base.stamps import NANOSECONDS
 from tftool.messages.layouts import CDR, Layout
 from tftool.messages.transform_rows import Bytes, Place, Template, row_span, rows_of, walk
-from tftool.recordings.chunked import MessageTable
+from tftool.recordings.container import MessageTable
 from tftool.recordings.contract import Stamps
 
 _MOST_KINDS = 16

@@ -570,6 +570,9 @@ class Loose:
         """Whether they are as written; there is no proof of that."""
         return True
 
+    def table(self) -> None:
+        """Give no columns: they are read one by one."""
+
     def messages(self) -> list[Taken]:
         """Read them."""
         reader, found = self._reader, self.found

@@ -16,9 +16,9 @@ import numpy as np
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import Chunk, MessageTable
+from tftool.recordings.chunked import Chunk
 from tftool.recordings.compression import compressor
-from tftool.recordings.container import CopiedAttachment
+from tftool.recordings.container import CopiedAttachment, MessageTable
 from tftool.recordings.containers import MCAP_MAGIC
 from tftool.recordings.mcap.format import (
     ATTACHMENT_INDEX,

@@ -16,7 +16,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.messages.native_scan import SCAN
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.container import MOST_STREAMS, Extras, Taken
+from tftool.recordings.container import MOST_STREAMS, Extras, MessageTable, Taken
 from tftool.recordings.containers import ZSTD_MAGIC
 from tftool.recordings.contract import Progress
 from tftool.recordings.decompression import LARGEST, unpack_beginning
@@ -306,6 +306,17 @@ class Rows:
     def sound(self) -> bool:
         """Whether they are as written; there is no proof of that."""
         return True
+
+    def table(self) -> MessageTable | None:
+        """Its messages as columns; None where each is unpacked by itself."""
+        batch = self._batch
+        if self._unpacks:
+            return None
+        channels, moments = batch.senders.astype(np.int64), batch.log_times
+        none = np.zeros(len(batch), dtype=np.int64)
+        return MessageTable(
+            batch.buffer, channels, moments, moments, none, batch.starts, batch.lengths
+        )
 
     def messages(self) -> list[Taken]:
         """Its messages."""
