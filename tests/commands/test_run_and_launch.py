@@ -464,7 +464,7 @@ def test_a_wrong_command_line_is_refused_before_a_world_is_hosted(capsys, words,
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--for", "1"], "'--for' after FILE goes to the node; tftool's own options stand before"),
+        (["--domain", "1"], "'--domain' after FILE goes to the node; tftool's own options stand"),
         (["--listen=tcp/[::]:0"], "'--listen' after FILE goes to the node; tftool's own"),
         (["-p", "a:=b"], "'-p a:=b' goes to the node as it is; ROS 2's arguments stand after"),
         (["--rate", "5", "--ros-args", "-p", "a:=b"], ""),

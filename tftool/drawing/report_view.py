@@ -71,6 +71,8 @@ def summary(reports: Sequence[Report]) -> str:
     held = sum(judgement.ok for judgement in judgements)
     scenarios = count(len(reports), "scenario")
     whole = f"{held} of {count(len(judgements), 'expectation')} held"
+    if not judgements:
+        whole = "nothing was judged"
     if bad:
         names = ", ".join(visible(report.name) for report in bad)
         return f"{scenarios}, {len(bad)} failed ({names}): {whole}"

@@ -101,7 +101,8 @@ class RollingRecording:
         if self._limits.splits and not self._is_folder:
             raise UsageError(
                 "--max-size and --max-duration write several files, into a folder: name one, "
-                f"without '{path.suffix}' (-o {path.with_suffix('')})."
+                f"without '{path.suffix}' (-o {path.with_suffix('')}). To stop after so long: "
+                "--for SECONDS."
             )
         self.messages = self.transforms = 0
         self.files: list[str] = []

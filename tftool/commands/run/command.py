@@ -3,6 +3,7 @@
 import itertools
 import shlex
 from collections.abc import Collection, Sequence
+from pathlib import Path
 
 from typer.models import Context
 
@@ -47,7 +48,7 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
     """
     told = []
     before = ""
-    for word in itertools.takewhile(lambda word: word != "--ros-args", words):
+    for word in _own_words(words):
         option = word.partition("=")[0]
         if option.startswith("--") and option in own:
             told.append(
@@ -63,6 +64,24 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
     return told
 
 
+def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
+    """Refuse --simulated and --for after FILE, unless the program's own text has such a word.
+
+    Raises:
+        UsageError: If one is there: the run would last for ever, on real time, without a word.
+    """
+    file = Path(target)
+    given = [word for word in ("--simulated", "--for") if word in _own_words(words)]
+    if not given or not file.is_file():
+        return
+    text = file.read_text(encoding="utf-8", errors="replace")
+    if not any(f"{quote}{word}{quote}" in text for word in given for quote in "'\""):
+        raise UsageError(
+            f"put {' and '.join(given)} before FILE: words after it go to the program. "
+            "'tftool run FILE -- WORDS' gives it any."
+        )
+
+
 def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
     """The session a node runs in; `alone` brings all there is to see."""
     if alone:
@@ -75,8 +94,8 @@ def _opened(connection: Connection, place: str | None, *, alone: bool, simulated
 
 
 def _own_words(words: Sequence[str]) -> list[str]:
-    """The words before `--ros-args`: options of ROS mean nothing to a command of tftool."""
-    return list(itertools.takewhile(lambda word: word != "--ros-args", words))
+    """Return the words before `--ros-args` or `--`: the others are the program's alone."""
+    return list(itertools.takewhile(lambda word: word not in ("--ros-args", "--"), words))
 
 
 def _run_command(connection: Connection, context: Context, words: list[str]) -> int:
@@ -114,6 +133,7 @@ def run(
         refuse_long_simulation(run_for)
     words = list(rest or [])
     own = {name for option in context.command.params for name in option.opts if name[0] == "-"}
+    _refuse_misplaced(target, words)
     for word in misplaced(words, own):
         notice(word)
     workspace = workspace_here(verbose=verbose)

@@ -147,7 +147,10 @@ def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ())
     where = f"below {workspace.start} or in the src it belongs to"
     skipped = "".join(f"\n{one}" for one in workspace.skipped)
     without = workspace.folder_without_mark(name)
-    if without is not None:
+    inside = [one for one, package in workspace.packages.items() if package.path.name == name]
+    if inside:
+        hint = f"the folder '{name}' holds package '{inside[0]}': name that"
+    elif without is not None:
         hint = f"'{without}' has no package.xml, setup.py, setup.cfg or pyproject.toml: add one"
     elif not known:
         hint = "there is none at all"

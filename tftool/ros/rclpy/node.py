@@ -1,11 +1,13 @@
 """rclpy's Node."""
 
 import copy
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.messages.classes import Message
 from tftool.ros.host import names, program
+from tftool.ros.host.fibers import CodeLine, user_line
 from tftool.ros.rclpy import parameter_events
 from tftool.ros.rclpy.context import Context, context_of
 from tftool.ros.rclpy.entities import GuardCondition, NodeEntity, RequiredHandle
@@ -230,7 +232,9 @@ class Node(NodeGraph, NodeParameters):
         autostart: bool = True,
     ) -> Timer:
         """Have `callback` called on a grid, first one period from now; None makes a mere timer."""
-        if callback is not None:
+        if callback is None:
+            self._warn_of_missing_callback(user_line(sys._getframe(1)))
+        else:
             _require_callable(callback)
         period = period_of(timer_period_sec)
         if period < 0:
@@ -238,6 +242,14 @@ class Node(NodeGraph, NodeParameters):
         group = callback_group or self._default_callback_group
         goes_by = clock or self._clock
         return self.__keep(lambda: Timer(self._tftool, callback, period, group, goes_by, autostart))
+
+    def _warn_of_missing_callback(self, place: CodeLine | None) -> None:
+        # rclpy takes None too, for a timer that is only waited for; a student's calls nothing.
+        if place is not None:
+            self.get_logger().warning(
+                f"this timer has no callback and calls nothing; write self.callback, not "
+                f"self.callback(): {place}"
+            )
 
     def create_client(
         self,

@@ -70,10 +70,17 @@ class BufferCore:
     def _hint_that_nothing_arrived(self) -> None:
         """Say once, where a node looks up before it is spun, why nothing can be there."""
         owner = self._program
-        if self._has_hinted or not owner.listens or any(one.was_served for one in owner.nodes):
+        if self._has_hinted or (owner.listens and any(one.was_served for one in owner.nodes)):
             return
-        if not self._ask(self._frames.frames):
-            self._has_hinted = True
+        if self._ask(self._frames.frames):
+            return
+        self._has_hinted = True
+        if not owner.listens:
+            owner.warn(
+                "a lookup was refused because nothing fills this buffer: keep a "
+                "TransformListener(buffer, node) beside it"
+            )
+        else:
             owner.warn(
                 "a lookup was refused because nothing has arrived yet: the node is not spun so "
                 "far. Look up in a timer's callback, or give the lookup a timeout"
@@ -83,6 +90,7 @@ class BufferCore:
         reason = self._ask(lambda: asked.why_not(self._frames))
         if reason:
             self._program.looked_in_vain()
+            self._hint_that_nothing_arrived()
         return int(not reason), reason
 
     def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
