@@ -1,4 +1,4 @@
-"""How fast transforms cross from one process to another, over a real session, and over DDS.
+"""How fast transforms cross from one process to another, over a real session, DDS and Foxglove.
 
 The far end is a process of its own: `python -m tests.benchmarks.link READERS-WORD ...`
 is how this file starts it.
@@ -15,6 +15,8 @@ import threading
 import time
 from pathlib import Path
 
+import foxglove
+
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
@@ -22,6 +24,7 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.transforms import decode_columns, decode_transforms, encode_transforms
 from tftool.world.clock import WallClock, run
 from tftool.world.link.dds.reach import DdsReach
+from tftool.world.link.foxglove.reach import FoxgloveReach
 from tftool.world.link.graph import Role
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
@@ -48,6 +51,8 @@ DDS_DOMAIN = 87
 
 
 def options(name, middleware):
+    if middleware.startswith("ws://"):
+        return Options(name, 0, FoxgloveReach(middleware), read_only=True)
     return Options(name, DDS_DOMAIN, DdsReach()) if middleware == "dds" else Options(name)
 
 
@@ -124,6 +129,38 @@ def measure(*, size, count, period, readers=1, middleware="zenoh"):
                 return [json.loads(process.stdout.read().partition("\n")[2]) for process in far]
 
             return run(world.clock, work())
+
+
+def measure_foxglove(*, size, count, period):
+    """Send likewise from foxglove-sdk's server; give what the one reader found."""
+    subscribed = threading.Event()
+
+    class Listener(foxglove.websocket.ServerListener):
+        def on_subscribe(self, client, channel):
+            subscribed.set()
+
+    server = foxglove.start_server(host="127.0.0.1", port=0, server_listener=Listener())
+    schema = foxglove.Schema(name="tf2_msgs/msg/TFMessage", encoding="ros2msg", data=b"")
+    tf = foxglove.Channel("/tf", message_encoding="cdr", schema=schema)
+    clock = WallClock()
+
+    async def work():
+        due = clock.now()
+        for _ in range(count):
+            stamp = time.time_ns()
+            tf.log(encode_transforms([sample_of(stamp, number) for number in range(size)]))
+            due += period
+            await clock.sleep_until(due)
+
+    reader = [sys.executable, "-m", "tests.benchmarks.link", str(count)]
+    far = subprocess.Popen(
+        [*reader, f"ws://127.0.0.1:{server.port}"], stdout=subprocess.PIPE, text=True
+    )
+    subscribed.wait()
+    run(clock, work())
+    found = json.loads(far.communicate()[0].partition("\n")[2])
+    server.stop()
+    return found
 
 
 def paths(size=20_000):
@@ -243,6 +280,12 @@ def report() -> str:
     lines.append(
         f"  over DDS, 833 Hz x 100: {rush['received']} of 2500 arrived, {pace:,.0f} transforms/s "
         "(wanted: all, 50,000)"
+    )
+    robot = measure_foxglove(size=100, count=int(100 * STEADY), period=seconds(0.01))
+    lines.append(
+        f"  over Foxglove, 100 Hz x 100: median {robot['median_ms']:.3f} ms, "
+        f"{robot['received']} of {int(100 * STEADY)} arrived; "
+        f"{robot['median_ms'] / same['median_ms']:.1f} times zenoh's"
     )
     at_once, one_by_one = paths()
     lines.append(

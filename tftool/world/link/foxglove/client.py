@@ -16,10 +16,8 @@ from typing import Any, Final, NamedTuple
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import (
     ConnectionClosed,
-    InvalidHandshake,
     InvalidMessage,
     InvalidStatus,
-    InvalidURI,
     NegotiationError,
 )
 from websockets.typing import Subprotocol
@@ -45,6 +43,8 @@ PATIENCE: Final = 5.0
 
 TIMEOUT: Final = 10.0
 """Seconds for a connection to open; a server that does not answer a ping is as slow at most."""
+
+_NOT_FOXGLOVE: Final = "it speaks WebSocket, but not Foxglove's protocol"
 
 _WAITING: Final = 4
 """Frames that wait unread in `websockets`; then the server has to wait."""
@@ -206,7 +206,9 @@ class FoxgloveClient:
                     f"The connection to {self._place} has ended ({reason}); what it sent stays as "
                     f"it was. Trying again ({lost})."
                 )
-                self._replace(ServerState())
+            with self._lock:
+                self._state = ServerState()
+            self._tell_change()
             failures = 0 if self._loop.time() - began > STEADY else failures + 1
             pause = self._pauses[min(failures, len(self._pauses)) - 1 if failures else 0]
             # `asyncio.sleep` could not be woken.
@@ -229,14 +231,15 @@ class FoxgloveClient:
                 proxy=None,
             ) as connection:
                 if connection.subprotocol is None:
-                    return "it speaks WebSocket, but not Foxglove's protocol"
+                    return _NOT_FOXGLOVE
                 self._connection = connection
                 await self._read(connection)
         except ProtocolError as error:
             return f"it sent {error}"
         except ConnectionClosed as error:
             return _of_closed(error)
-        except (InvalidHandshake, InvalidURI, OSError, TimeoutError, ValueError) as error:
+        except Exception as error:
+            # Whatever a stranger brings about: a thread that ends here would end without a word.
             return _of_failure(error)
         finally:
             self._connection = None
@@ -288,11 +291,6 @@ class FoxgloveClient:
             self._subscribe()
         if operation and operation != "status":
             self._tell_change()
-
-    def _replace(self, state: ServerState) -> None:
-        with self._lock:
-            self._state = state
-        self._tell_change()
 
     def _tell_change(self) -> None:
         """Have the change taken in; many that come at once are taken in together."""
@@ -392,7 +390,7 @@ def _of_failure(error: Exception) -> str:
     if isinstance(error, InvalidStatus):
         return f"it answers with HTTP {error.response.status_code}"
     if isinstance(error, NegotiationError):
-        return "it speaks WebSocket, but not Foxglove's protocol"
+        return _NOT_FOXGLOVE
     if isinstance(error, InvalidMessage):
         return "what answers there is no web server"
     if isinstance(error, OSError):

@@ -26,8 +26,8 @@ from tftool.world.link.seam import (
 
 CLOCK: Final = ("clock", "rosgraph_msgs/msg/Clock")
 
-MOST_DEFINED: Final = 1_000
-"""Types that are learnt from a server's definitions."""
+MOST_LEARNT: Final = 1_000_000
+"""Characters of the definitions from which types are learnt: to read them takes a second."""
 
 _TIME_GID: Final = b"time"
 
@@ -56,7 +56,8 @@ class FoxgloveMiddleware:
         self._ears: dict[tuple[str, str], list[Callable[[Arrived], object]]] = {}
         self._conversions: dict[FoxgloveChannel, Callable[[bytes], bytes] | None] = {}
         self._gids: dict[FoxgloveChannel, bytes] = {}
-        self._defined: set[str] = set()
+        self._learnt: set[str] = set()
+        self._learnt_size = 0
         self._entities: dict[str, GraphEntity] = {}
         self._inbox = Inbox()
         receiver = ClientReceiver(self._changed, self._arrived, self._time, self._warn)
@@ -173,8 +174,6 @@ class FoxgloveMiddleware:
     def _conversion(self, channel: FoxgloveChannel) -> Callable[[bytes], bytes] | None:
         """Return what makes CDR of a channel's payloads; None where nothing does."""
         if channel not in self._conversions:
-            if len(self._conversions) > MOST_DEFINED:
-                self._conversions.clear()
             self._conversions[channel] = None
             try:
                 self._conversions[channel] = conversion(channel)
@@ -193,7 +192,9 @@ class FoxgloveMiddleware:
         with self._client.state() as state:
             self._learn_types(state)
             found = self._shown(state)
+            there = set(state.channels.values())
             ignored = state.ignored
+        self._conversions = {one: to for one, to in self._conversions.items() if one in there}
         if ignored:
             self._warn(
                 f"{self._place} offers more than {len(state.channels)} channels: further ones "
@@ -213,9 +214,11 @@ class FoxgloveMiddleware:
     def _learn_types(self, state: ServerState) -> None:
         """Learn types that only the server knows, so that they are recorded and listed."""
         for channel in state.channels.values():
-            if channel.type in self._defined or len(self._defined) >= MOST_DEFINED:
+            size = len(channel.definition) + len(channel.type)
+            if channel.type in self._learnt or self._learnt_size + size > MOST_LEARNT:
                 continue
-            self._defined.add(channel.type)
+            self._learnt.add(channel.type)
+            self._learnt_size += size
             try:
                 define(channel)
             except InputError as error:

@@ -31,6 +31,9 @@ MOST_NODES: Final = 10_000
 MOST_DEFINITIONS: Final = 32 * 1024 * 1024
 """Characters of all definitions of types that are remembered."""
 
+MOST_WARNINGS: Final = 10
+"""Sentences of a server for its client that are passed on from one connection."""
+
 _LONGEST_NAME: Final = 300
 _DATA: Final = struct.Struct("<BIQ")
 _TIME: Final = struct.Struct("<BQ")
@@ -88,6 +91,7 @@ class ServerState:
     warnings: list[str] = field(default_factory=list)
     ignored: int = 0
     _definitions: int = 0
+    _warned: int = 0
 
     def take(self, text: str) -> str:
         """Take in one message in JSON; return its operation, "" for one that is of no interest.
@@ -118,7 +122,8 @@ class ServerState:
         self.capabilities = frozenset(_text(one) for one in message.get("capabilities") or ())
 
     def _take_status(self, message: dict[str, Any]) -> None:
-        if int(message["level"]) >= 1 and len(self.warnings) < 10:
+        if int(message["level"]) >= 1 and self._warned < MOST_WARNINGS:
+            self._warned += 1
             self.warnings.append(_text(message["message"]))
 
     def _take_channels(self, message: dict[str, Any]) -> None:
