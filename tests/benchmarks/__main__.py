@@ -5,6 +5,7 @@ import platform
 
 from tests.benchmarks import (
     batch,
+    calibrate,
     demo,
     doctor,
     export,
@@ -33,6 +34,7 @@ REPORTS = {
     "wire": wire.report,
     "doctor": doctor.report,
     "export": export.report,
+    "calibrate": calibrate.report,
 }
 """What is measured; add yours."""
 

@@ -9,6 +9,7 @@ import pytest
 import tftool as library
 from tests.frames.motions import errors, world
 from tftool import Transform
+from tftool.scenario import builtin
 
 URDF = """<?xml version="1.0"?>
 <robot name="rover">
@@ -166,7 +167,7 @@ def test_check_names_the_axes_that_the_motion_contradicts(tftool, words, made, t
     assert right.status == 0, right.out
     assert "inside of the interval" in right.out
     assert wrong.status == 1
-    assert re.search(r"camera: yaw differs by -?2\.[789]° ± 0\.\d°", wrong.out)
+    assert re.search(r"camera: yaw differs by -?2\.[789]° ± 0\.\d+°", wrong.out)
     assert told["check"]["outside"] == ["yaw"]
     assert tftool(*words, "--check").status == 2
 
@@ -229,3 +230,22 @@ def test_one_file_needs_two_motions(tftool, words):
 
     assert result.status == 2
     assert "needs two motions" in result.err
+
+
+def test_the_scenario_shows_its_wrong_mount_and_holds_when_that_is_mended(tftool, tmp_path):
+    motions = ["--moving", "odom:base_link", "--moving", "scan_start:scan_laser"]
+    motions += ["--mounted", "laser_link"]
+    script = tmp_path / "mount.sh"
+
+    wrong = tftool("calibrate", "calibrate", *motions, "--check", "-o", script)
+    assert wrong.status == 1
+    found = re.search(r"laser_link: yaw differs by (.+)° ± (.+)°", wrong.out)
+    assert found is not None
+    assert abs(float(found[1]) - 3.0) <= 0.2
+    assert float(found[2]) < 0.3
+    assert "--frame-id base_link --child-frame-id laser_link" in script.read_text()
+
+    text = builtin.path_of("calibrate").read_text()
+    mended = tmp_path / "mended.yaml"
+    mended.write_text(text.replace("published_yaw: 10 deg", "published_yaw: 13 deg"))
+    assert tftool("calibrate", mended, *motions, "--check").status == 0

@@ -56,6 +56,9 @@ def world(
     ppm=0.0,
     scale=1.0,
     upside=False,
+    drift=0.0,
+    pace=1.0,
+    flips=0.0,
 ):
     """Make a body move smoothly, and two chains that measure it.
 
@@ -70,6 +73,9 @@ def world(
         ppm: Drift of A's clock.
         scale: Factor by which A's translations are too long.
         upside: Whether B is given as the inverse.
+        drift: Random walk of A: its share of the way after one metre and one radian.
+        pace: Factor of the speed.
+        flips: Share of B's poses that are turned by half a turn, as those of a tag are.
     """
     dice = np.random.default_rng(seed)
 
@@ -77,7 +83,7 @@ def world(
         total = np.zeros((len(times), 3))
         for axis in range(3):
             for _ in range(6):
-                frequency, phase = dice.uniform(0.05, 0.4), dice.uniform(0.0, 6.28)
+                frequency, phase = pace * dice.uniform(0.05, 0.4), dice.uniform(0.0, 6.28)
                 total[:, axis] += dice.normal() * np.sin(6.2832 * frequency * times + phase)
         return size * total / np.sqrt(3.0)
 
@@ -108,7 +114,7 @@ def world(
     mounted = positions[split:] + turned(rotations[split:], all_rows(shift))
     b_positions = turned(all_rows(back_q), mounted - far)
     b_rotations = product(all_rows(back_q), product(rotations[split:], all_rows(mount_q)))
-    a_positions, a_rotations = scale * positions[:split], rotations[:split]
+    a_positions, a_rotations = scale * positions[:split], rotations[:split].copy()
 
     def noisy(places, turns):
         pushes = dice.normal(size=places.shape) * noise[0]
@@ -118,12 +124,27 @@ def world(
             twists[:, :2] = 0.0
         return places + pushes, product(turns, quaternions(twists))
 
+    if drift:
+        free = np.array([0.0, 0.0, 1.0]) if flat else np.ones(3)
+        angles = np.linalg.norm(np.diff(vectors[:split], axis=0), axis=1, keepdims=True)
+        walk = np.cumsum(
+            dice.normal(size=(len(angles), 3)) * drift * np.sqrt(angles) * free, axis=0
+        )
+        steps = turned(quaternions(walk), np.diff(a_positions, axis=0))
+        sizes = np.sqrt(np.linalg.norm(steps, axis=1, keepdims=True))
+        steps += dice.normal(size=steps.shape) * drift * sizes * (1.0 - free if flat else 1.0)
+        a_positions[1:] = a_positions[0] + np.cumsum(steps, axis=0)
+        a_rotations[1:] = product(quaternions(walk), a_rotations[1:])
     a_positions, a_rotations = noisy(a_positions, a_rotations)
     b_positions, b_rotations = noisy(b_positions, b_rotations)
     bad = dice.random(rows) < outliers
     b_positions[bad] += dice.normal(size=(bad.sum(), 3)) * 0.5
     b_rotations[bad] = product(
         b_rotations[bad], quaternions(dice.normal(size=(bad.sum(), 3)) * 1.5)
+    )
+    flipped = dice.random(rows) < flips
+    b_rotations[flipped] = product(
+        b_rotations[flipped], np.broadcast_to([1.0, 0.0, 0.0, 0.0], (flipped.sum(), 4))
     )
     names = ("world", "camera")
     if upside:

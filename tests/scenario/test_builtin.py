@@ -8,6 +8,7 @@ from tftool.scenario.load import load
 from tftool.scenario.play import run_scenario
 
 EXPECTED = [
+    "calibrate",
     "carrot",
     "long_memory",
     "lost_leader",

@@ -31,7 +31,7 @@ from tftool.world.nodes.broadcasters import (
     StaticBroadcaster,
 )
 from tftool.world.nodes.follower import Follower
-from tftool.world.nodes.mobile_robot import LaserPoint, MapCorrection, RobotOdometry
+from tftool.world.nodes.mobile_robot import LaserPoint, MapCorrection, RobotOdometry, ScanMatcher
 from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic
 from tftool.world.nodes.turtle_teleop import Teleop
@@ -345,6 +345,18 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
                 "period": values.period,
             },
         ),
+        "scan_matcher": NodeKind(
+            ScanMatcher,
+            {
+                "origin": values.frame,
+                "child": values.frame,
+                "mount": _triple(0.0, 0.0, "theta", 0.0),
+                "position": values.distance,
+                "angle": values.quantity(values.ANGLE, least=0.0),
+                "seed": values.whole(0, 2**32 - 1),
+                "period": values.period,
+            },
+        ),
         "laser": NodeKind(
             LaserPoint,
             {
@@ -400,6 +412,8 @@ def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
         parent, child = parameters["frame_id"], parameters["turtle"]
     elif {"parent", "child"} <= parameters.keys():
         parent, child = parameters["parent"], parameters["child"]
+    elif {"origin", "child"} <= parameters.keys():
+        parent, child = parameters["origin"], parameters["child"]
     else:
         return None
     return stripped(parent), stripped(child)

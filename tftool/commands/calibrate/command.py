@@ -68,7 +68,7 @@ def run(
             refuse_existing(path, force=force)
     if output is not None and output.suffix == ".urdf" and urdf is None:
         raise UsageError("-o robot.urdf changes a description: name it with --urdf FILE.")
-    opened = [open_frames(place, no_cache=no_cache) for place in places]
+    opened = [open_frames(place, until=math.inf, no_cache=no_cache) for place in places]
     try:
         chains = _chains(opened, moving or [])
         paths = [_path(*chain) for chain in chains]
@@ -105,7 +105,9 @@ def run(
         for sentence in outside:
             sys.stdout.write(f"{sentence}\n")
         if check and found and not outside:
-            sys.stdout.write("The published mount is inside of the interval.\n")
+            sys.stdout.write(
+                "The published mount is inside of the interval, or within 1 mm and 0.1° of it.\n"
+            )
     if report is not None:
         write_file(report, page(found, *paths))
         notice(visible(f"Wrote {report}."))
@@ -255,8 +257,8 @@ class _Published:
         return cls(mount, name, parent, robot, buffer)
 
 
-LEAST_DIFFERENCE: Final = (0.0005, 0.02)
-"""Metres and degrees by which a mount may differ however small its interval is."""
+LEAST_DIFFERENCE: Final = (0.001, 0.1)
+"""Metres and degrees by which a mount may differ however small its interval is, as for `diff`."""
 
 
 def _compared(
@@ -288,7 +290,7 @@ def _compared(
                 outside.append(name)
                 told.append(
                     f"{published.name}: {name} differs by {value * factor:.1f}{unit} "
-                    f"± {width * factor:.1f}{unit}"
+                    f"± {width * factor:.{1 if width * factor >= 0.1 else 2}f}{unit}"
                 )
     seen = [one for one, width in zip(shift, found.interval95.translation, strict=True) if width]
     return told, {

@@ -57,6 +57,8 @@ def write_mount(
     assert found.mount is not None
     chosen = _joint(published, joint)
     parent, child = found.moving if chosen is None else (chosen.parent, chosen.child)
+    if chosen is None and published.name not in (found.moving[1], found.fixed[1]):
+        child = published.name  # of --mounted: the frame that tf has for it
     pose = found.mount
     if chosen is not None:
         pose = (

@@ -7,6 +7,7 @@ odom.
 """
 
 import math
+import random
 from typing import Any, ClassVar
 
 from tftool.base.errors import TransformException
@@ -187,6 +188,66 @@ class LaserPoint(Node):
             map_from_laser = _pose_of(self._truth) @ base_from_laser
             seen = map_from_laser.inverse().apply(self.landmark)
             self.broadcast(TransformStamped(now, self.laser, self.child, Transform(seen)))
+
+    def _on_truth(self, truth: Any) -> None:
+        self._truth = truth
+
+
+class ScanMatcher(Node):
+    """Broadcast the motion of the laser as its scans show it, in a tree of its own.
+
+    It knows nothing of the published mount: the laser is where it truly is on the robot.
+    """
+
+    phase: ClassVar[Phase] = Phase.BROADCAST
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "scan_matcher",
+        *,
+        origin: str = "scan_start",
+        child: str = "scan_laser",
+        mount: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        position: float = 0.002,
+        angle: float = 0.002,
+        seed: int = 0,
+        period: Duration = seconds(0.04),
+    ) -> None:
+        """Join the world.
+
+        Args:
+            world: Where to live.
+            name: The node's name.
+            origin: The frame of the first scan.
+            child: The laser as the scans show it.
+            mount: x, y and heading of the laser on the robot, in truth.
+            position: Standard deviation of x and of y, metres.
+            angle: Standard deviation of the heading, radians.
+            seed: Of the noise.
+            period: Nanoseconds between two broadcasts.
+        """
+        super().__init__(world, name)
+        self.origin, self.child = origin, child
+        self.mount = transform_from_pose(*mount)
+        self.position, self.angle = position, angle
+        self.period = require_period(period)
+        self._dice = random.Random(seed)
+        self._truth: Any = None
+
+    async def run(self) -> None:
+        """Match scans until the end."""
+        self.subscribe(TRUTH, Pose, self._on_truth)
+        start_from_map: Transform | None = None
+        async for now in self.every(self.period, immediately=True):
+            if self._truth is None:
+                continue
+            map_from_laser = _pose_of(self._truth) @ self.mount
+            start_from_map = start_from_map or map_from_laser.inverse()
+            x, y = (self._dice.gauss(0.0, self.position) for _ in range(2))
+            wrong = transform_from_pose(x, y, self._dice.gauss(0.0, self.angle))
+            seen = start_from_map @ map_from_laser @ wrong
+            self.broadcast(TransformStamped(now, self.origin, self.child, seen))
 
     def _on_truth(self, truth: Any) -> None:
         self._truth = truth
