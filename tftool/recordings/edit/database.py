@@ -8,17 +8,19 @@ front of all others) writes row by row instead, as other containers do.
 import os
 import sqlite3
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing
 from pathlib import Path
 from typing import Final
 from urllib.parse import quote
 
+import numpy as np
+
 from tftool.base.errors import InputError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.container import Taken
-from tftool.recordings.edit.outputs import digest
+from tftool.recordings.container import MessageTable
+from tftool.recordings.edit.outputs import digest_table
 from tftool.recordings.pieces import Piece
 from tftool.recordings.rosbag2.read import Sqlite
 from tftool.recordings.rosbag2.write import translated
@@ -26,7 +28,7 @@ from tftool.recordings.rosbag2.write import translated
 _ROWS: Final = 2048  # read, then written, at a time
 _LOWEST: Final = -(2**63)
 
-Change = Callable[[Taken, Channel], Taken | None]
+Change = Callable[[MessageTable, Mapping[int, Channel]], MessageTable]
 
 
 class Unsound(Exception):
@@ -59,7 +61,8 @@ class EditedDatabase:
         self.start: Stamp = 0
         self.end: Stamp = 0
         self._tape = tape
-        self._wanted: dict[int, int] = {}
+        self._wanted: dict[tuple[str, str], int] = {}
+        self._touched: list[int] = []
         with tape.path.open("rb") as source, path.open("wb+") as out:
             whole = Piece(source.fileno(), 0, os.fstat(source.fileno()).st_size)
             whole.copy_to(out.fileno(), 0)
@@ -69,7 +72,7 @@ class EditedDatabase:
         """Change the messages of some topics, in one transaction.
 
         Args:
-            change: What becomes of a message; None where it is left out.
+            change: Changes messages of the file.
             touched: Numbers of the topics whose messages may change.
 
         Raises:
@@ -78,6 +81,7 @@ class EditedDatabase:
         """
         try:
             # No journal: the file counts for nothing before it is whole and has its name.
+            self._touched = touched
             self._base.execute("pragma journal_mode = off").fetchall()
             self._base.execute("pragma synchronous = off")
             # Dropped bytes must not be found in the file any more.
@@ -99,17 +103,21 @@ class EditedDatabase:
     def _change(self, change: Change, touched: list[int]) -> None:
         changed: list[tuple[int, bytes, int]] = []
         dropped: list[tuple[int]] = []
-        for row, message in self._rows(self._base, touched):
-            after = change(message, self.channels[message.channel])
-            if after is None:
-                dropped.append((row,))
-                continue
-            before = self._wanted.get(message.channel, 0)
-            self._wanted[message.channel] = digest(before, after, self.container)
-            if after is not message:
-                changed.append((after.log_time, after.payload, row))
-            if len(changed) + len(dropped) >= _ROWS:
-                self._put(changed, dropped)
+        for ids, table in self._rows(self._base, touched):
+            after = change(table, self.channels)
+            digest_table(self._wanted, after, self.channels, self.container)
+            # By its place in the part, the place of each message that is still there.
+            left = dict(zip(after.sequences.tolist(), range(len(after)), strict=True))
+            same = np.zeros(len(table), dtype=np.bool_)
+            same[after.sequences] = after.starts == table.starts[after.sequences]
+            for place in np.flatnonzero(~same).tolist():
+                if place in left:
+                    moment = int(table.log_times[place])
+                    changed.append((moment, after.payload(left[place]), ids[place]))
+                else:
+                    dropped.append((ids[place],))
+                if len(changed) + len(dropped) >= _ROWS:
+                    self._put(changed, dropped)
         self._put(changed, dropped)
 
     def _put(self, changed: list[tuple[int, bytes, int]], dropped: list[tuple[int]]) -> None:
@@ -118,8 +126,14 @@ class EditedDatabase:
         changed.clear()
         dropped.clear()
 
-    def _rows(self, base: sqlite3.Connection, numbers: list[int]) -> Iterator[tuple[int, Taken]]:
-        """The messages of some topics, each behind the number of its row."""
+    def _rows(
+        self, base: sqlite3.Connection, numbers: list[int]
+    ) -> Iterator[tuple[list[int], MessageTable]]:
+        """The messages of some topics in parts, each behind the numbers of its rows.
+
+        Raises:
+            Unsound: If a timestamp is no whole number.
+        """
         which = {self._tape.topic_ids[number]: number for number in numbers}
         # Numbers of its own rows, no text of a stranger's.
         asked = (
@@ -129,10 +143,27 @@ class EditedDatabase:
         last = _LOWEST
         # Read in parts, so that no row is changed under a question that is still open.
         while which and (rows := base.execute(asked, (last,)).fetchall()):
-            for row, topic, log_time, payload in rows:
-                data = payload if isinstance(payload, bytes) else b""
-                yield row, Taken(which[topic], log_time, data, log_time, 0)
-            last = rows[-1][0]
+            ids, topics, moments, blobs = zip(*rows, strict=True)
+            if set(map(type, moments)) != {int}:
+                raise Unsound
+            data = [blob if isinstance(blob, bytes) else b"" for blob in blobs]
+            lengths = np.array([len(blob) for blob in data], dtype=np.int64)
+            log_times = np.array(moments, dtype=np.int64)
+            # Rows of messages begin some bytes before them.
+            buffer = np.frombuffer(b"".join((bytes(8), *data)), dtype=np.uint8)
+            yield (
+                list(ids),
+                MessageTable(
+                    buffer,
+                    np.array([which[topic] for topic in topics], dtype=np.int64),
+                    log_times,
+                    log_times,
+                    np.arange(len(rows)),
+                    np.cumsum(lengths) - lengths + 8,
+                    lengths,
+                ),
+            )
+            last = ids[-1]
 
     def _sum_up(self) -> None:
         numbers = {topic: number for number, topic in enumerate(self._tape.topic_ids)}
@@ -150,12 +181,11 @@ class EditedDatabase:
         Raises:
             InputError: If they differ from the intended ones.
         """
-        found: dict[int, int] = {}
+        found: dict[tuple[str, str], int] = {}
         address = f"file:{quote(str(self.path))}?mode=ro&immutable=1"
         with translated(self.path), closing(sqlite3.connect(address, uri=True)) as base:
-            for _, message in self._rows(base, list(self._wanted)):
-                before = found.get(message.channel, 0)
-                found[message.channel] = digest(before, message, self.container)
+            for _, table in self._rows(base, self._touched):
+                digest_table(found, table, self.channels, self.container)
         if found != self._wanted:
             raise InputError(f"'{self.path}' was not written as it should be: its rows differ.")
 

@@ -312,7 +312,7 @@ class _Job:
             done += tape.size
             self._tell(done // 2, 2 * total)
             touched = [n for n, one in tape.channels.items() if self._changer.touches(one)]
-            database.change(self._changer.changed, touched)
+            database.change(self._changer.changed_table, touched)
             database.finish()
             self._tell(done, 2 * total)
 
