@@ -20,7 +20,9 @@ def commands(inputs: dict[str, str], reports: Path) -> list[list[str]]:
     found = []
     if doctor := shlex.split(inputs["DOCTOR"]):
         files = ["--sarif", str(reports / "doctor.sarif"), "--junit", str(reports / "doctor.xml")]
-        found.append(["doctor", *doctor, "--fail-on", inputs["FAIL_ON"] or "warning", *files])
+        accepted = ["--baseline", inputs["BASELINE"]] if inputs["BASELINE"] else []
+        limit = ["--fail-on", inputs["FAIL_ON"] or "warning"]
+        found.append(["doctor", *doctor, *limit, *accepted, *files])
     found += [
         ["diff", *words] for line in inputs["DIFF"].splitlines() if (words := shlex.split(line))
     ]
@@ -60,7 +62,7 @@ def _ticks(text: str) -> list[str]:
 
 def main() -> int:
     """Run what the inputs ask for; return the worst status."""
-    names = ("DOCTOR", "FAIL_ON", "DIFF", "CHECK", "REPORTS")
+    names = ("DOCTOR", "FAIL_ON", "BASELINE", "DIFF", "CHECK", "REPORTS")
     inputs = {name: os.environ.get(f"INPUT_{name}", "") for name in names}
     reports = Path(inputs["REPORTS"] or "tftool-reports")
     try:

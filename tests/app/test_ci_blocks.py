@@ -90,6 +90,18 @@ def test_the_action_passes_where_nothing_is_wrong(act):
     assert act(doctor="lost_leader", fail_on="never").returncode == 0
 
 
+def test_a_finding_of_the_baseline_does_not_fail_and_is_suppressed_in_the_report(act, tmp_path):
+    words = [sys.executable, "-m", "tftool", "doctor", "lost_leader", "--json"]
+    accepted = subprocess.run(words, capture_output=True, check=False).stdout
+    (tmp_path / "accepted.json").write_bytes(accepted)
+
+    assert act(doctor="lost_leader", baseline="accepted.json").returncode == 0
+
+    report = (tmp_path / "tftool-reports" / "doctor.sarif").read_text()
+    (result,) = json.loads(report)["runs"][0]["results"]
+    assert result["suppressions"] == [{"kind": "external", "status": "accepted"}]
+
+
 def test_an_unreadable_recording_has_its_own_status(act):
     assert act(doctor="nowhere.mcap", check="static").returncode == 3
 

@@ -71,6 +71,8 @@ def _result(source: str, finding: Finding) -> dict[str, Any]:
         "message": {"text": _message(finding)},
         "locations": [_location(source, finding)],
         "partialFingerprints": {"tftoolDoctor/v1": finding.fingerprint},
+        # Findings that an accepted report has as well, by --baseline.
+        "suppressions": [{"kind": "external", "status": "accepted"}] if finding.known else [],
         "properties": {
             "confidence": finding.confidence.value,
             "publishers": list(finding.publishers),
