@@ -13,6 +13,7 @@ from tftool.frames.source_options import RobotOptions
 from tftool.opener import named, scenario_named
 from tftool.recordings.find import Kind
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, rules_beside
+from tftool.world.header_listener import HeaderListener
 
 EVERYTHING = Scope()
 """All of a source."""
@@ -60,8 +61,12 @@ def evidence_from(
     if is_recording:
         # How long it lasts is known, and the description that was given is evidence of its own.
         connection, lasting = replace(connection, robot=RobotOptions()), None
-    with open_from(connection, word, lasting, until=WHOLE, tells=False) as frames:
-        return evidence_of_frames(frames, scope)
+    # Of a robot read by its address the headers are heard, too; it writes to no topic.
+    heard = HeaderListener() if connection.reach.only_reads else None
+    watch = None if heard is None else heard.begin
+    with open_from(connection, word, lasting, until=WHOLE, tells=False, watch=watch) as frames:
+        evidence = evidence_of_frames(frames, scope)
+    return evidence if heard is None else replace(evidence, headers=heard.headers())
 
 
 def rules_of(word: str | None) -> DoctorRules:

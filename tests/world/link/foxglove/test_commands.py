@@ -2,11 +2,14 @@
 
 import json
 import re
+import time
 
 import pytest
 
 import tftool as api
 from tests.world.link.foxglove.conftest import foxglove
+from tftool.messages.classes import INTERFACES, build
+from tftool.messages.codec import codec
 
 
 def test_tree_and_echo_of_a_running_server(moving, tftool):
@@ -36,6 +39,23 @@ def test_doctor_explain_and_monitor_judge_what_arrives(moving, tftool):
     assert "laser in base  static" in explained.out
     watched = tftool("monitor", "odom", "laser", moving.address, "--for", "0.5")
     assert "Chain is: laser -> base -> odom" in watched.out
+
+
+def test_doctor_and_explain_read_headers_of_other_topics(moving, tftool):
+    kind = INTERFACES.message("sensor_msgs/LaserScan")
+    scans = moving.topic("/scan", "sensor_msgs/msg/LaserScan")
+    for frame in ("laser", "lidar"):
+        scan = build(kind)
+        scan.header.frame_id = frame
+        scan.header.stamp.sec = int(time.time())  # noqa: TID251
+        moving.keep(scans, codec(kind).encode(scan))
+
+    judged = json.loads(tftool("doctor", moving.address, "--for", "1", "--json").out)
+    (found,) = (one for one in judged["findings"] if one["id"] == "unknown-frame")
+    assert "lidar" in json.dumps(found)
+    words = ("odom", "laser", moving.address, "--message", "/scan", "--for", "1", "--json")
+    asked = int(json.loads(tftool("explain", *words).out)["stamp"])
+    assert asked == scan.header.stamp.sec * 10**9
 
 
 def test_a_recording_of_a_robot_holds_its_topics_and_types(moving, tftool, tmp_path):
