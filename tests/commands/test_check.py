@@ -153,6 +153,47 @@ def test_nodes_that_make_no_tree_are_told_where_they_stand(tftool, scenarios, no
     assert result.err.splitlines()[-1].endswith("^")
 
 
+TWO_PARENTS = """\
+duration: 2 s
+nodes:
+  - turtlesim
+  - static: {parent: world, child: a}
+  - static: {parent: b, child: a}
+expect:
+  - {at: 1 s, turtles: [turtle1]}
+"""
+
+
+def test_a_warning_counts_and_fails_where_that_is_asked(tftool, scenarios):
+    (scenarios / "odd.yaml").write_text(TWO_PARENTS)
+
+    result = tftool("check", "odd.yaml")
+    assert result.status == 0
+    assert "ok, 1 warning" in result.out
+    assert result.out.endswith("1 of 1 expectation held, 1 warning\n")
+
+    strict = tftool("check", "odd.yaml", "--strict")
+    assert strict.status == 1
+    assert "warnings fail (--strict):" in strict.out
+    assert tftool("check", "good.yaml", "--strict").status == 0
+
+
+def test_a_failing_scenario_says_first_what_the_doctor_finds(tftool, scenarios):
+    (scenarios / "odd.yaml").write_text(TWO_PARENTS.replace("turtle1", "turtle2"))
+
+    result = tftool("check", "odd.yaml")
+    assert result.status == 1
+    lines = [line.strip() for line in result.out.splitlines()]
+    assert lines[1].startswith("why: two-parents: a gets its parent by turns from world, b")
+    assert any(line.startswith("line 7:") for line in lines[2:])
+
+    (row,) = json.loads(tftool("check", "odd.yaml", "--json").out)
+    assert row["why"][0].startswith("two-parents: ")
+    assert len(row["warnings"]) == 1
+    assert tftool("check", "odd.yaml", "--record", "kept").status == 1
+    assert (scenarios / "kept" / "odd.mcap").exists()
+
+
 def test_frames_of_one_parent_each_are_not_told(tftool, scenarios):
     nodes = ["fixed_carrot", "fixed_carrot: {name: again}", "broadcaster: {turtle: turtle1}"]
     lines = ["duration: 2 s", "nodes:", "  - turtlesim", *(f"  - {node}" for node in nodes)]

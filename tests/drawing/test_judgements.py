@@ -120,6 +120,8 @@ def test_rows_hold_the_facts_as_they_are():
             "ok": True,
             "lasted": 60.0,
             "failure": "",
+            "warnings": [],
+            "why": [],
             "expectations": [
                 {
                     "expectation": "at 3 s: number of trees is 1",
@@ -137,6 +139,8 @@ def test_rows_hold_the_facts_as_they_are():
             "ok": False,
             "lasted": 0.0,
             "failure": "",
+            "warnings": [],
+            "why": [],
             "expectations": [
                 {
                     "expectation": "at 1 s: frame [red]x[/red]\x00\ud800 exists",

@@ -34,6 +34,8 @@ class Report:
         judgements: One for each thing, in order.
         lasted: Seconds it took, on its own clock.
         failure: Why it could not be looked at to the end; empty when it could.
+        warnings: What is amiss although it plays: sentences.
+        why: What the doctor finds in it where it failed: sentences, the cause first.
     """
 
     name: str
@@ -41,6 +43,8 @@ class Report:
     judgements: tuple[Judgement, ...]
     lasted: float = 0.0
     failure: str = ""
+    warnings: tuple[str, ...] = ()
+    why: tuple[str, ...] = ()
 
     @property
     def ok(self) -> bool:

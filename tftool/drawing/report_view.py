@@ -21,7 +21,11 @@ def render(reports: Sequence[Report]) -> Table:
         table.add_column(overflow="fold")
     for report in reports:
         ok = Text("ok", "green") if report.ok else Text("FAILED", "bold red")
+        if report.ok and report.warnings:
+            ok.append(f", {count(len(report.warnings), 'warning')}", "yellow")
         table.add_row(Text(visible(report.name), "bold"), ok, Text(_told(report)))
+        for number, why in enumerate(report.why):
+            table.add_row("", "", Text(f"{'     ' if number else 'why: '}{visible(why)}"))
         for judgement in report.judgements:
             if not judgement.ok:
                 where = f"line {judgement.line}: " if judgement.line else ""
@@ -56,6 +60,9 @@ def render_all(reports: Sequence[Report]) -> Table:
             ok = Text("ok", "green") if judgement.ok else Text("FAILED", "bold red")
             table.add_row(name, Text(visible(judgement.subject)), Text(_found(judgement)), ok)
             name = Text("")
+        for number, why in enumerate(report.why):
+            table.add_row(name, "" if number else "why", Text(visible(why)), "")
+            name = Text("")
         if report.failure:
             table.add_row(name, "", Text(_lines(report.failure)[0]), Text("FAILED", "bold red"))
         elif not report.judgements:
@@ -73,6 +80,8 @@ def summary(reports: Sequence[Report]) -> str:
     whole = f"{held} of {count(len(judgements), 'expectation')} held"
     if not judgements:
         whole = "nothing was judged"
+    warnings = sum(len(report.warnings) for report in reports)
+    whole += f", {count(warnings, 'warning')}" if warnings else ""
     if bad:
         names = ", ".join(visible(report.name) for report in bad)
         return f"{scenarios}, {len(bad)} failed ({names}): {whole}"
@@ -88,6 +97,8 @@ def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
             "ok": report.ok,
             "lasted": report.lasted,
             "failure": report.failure,
+            "warnings": list(report.warnings),
+            "why": list(report.why),
             "expectations": [
                 {
                     "expectation": judgement.subject,

@@ -47,6 +47,9 @@ def check(
             metavar="FOLDER",
         ),
     ] = None,
+    strict: Annotated[
+        bool, option("A scenario with a warning, as of two parents, fails.", "--strict")
+    ] = False,
     verbose: Annotated[
         bool,
         option(
@@ -59,7 +62,8 @@ def check(
 ) -> None:
     """Play scenarios on simulated time and judge what they expect.
 
-    One line for each, and below it whatever did not hold. The exit status is 0 when
+    One line for each, and below it whatever did not hold, behind "why:" what the doctor
+    finds in the frames that were played. The exit status is 0 when
     everything held, 1 when something did not, 3 when a file could not be read.
     With --run and --launch, nodes written for ROS 2 are judged in the scenario, without ROS.
 

@@ -5,11 +5,11 @@ import json
 import os
 import re
 import sys
-from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 
@@ -17,14 +17,20 @@ from tftool.base.errors import InputError
 from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
 from tftool.base.report import Report
+from tftool.base.stamps import Stamp
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.printer import write, write_file
 from tftool.drawing import report_view as judgements
 from tftool.opener import scenario_named
 from tftool.recordings.find import METADATA
 from tftool.scenario import builtin
+from tftool.scenario.doctor_expectations import heard_in
 from tftool.scenario.play import run_scenario
 from tftool.scenario.scenario import Scenario, Verdict
+from tftool.world.world import World
+
+if TYPE_CHECKING:
+    from tftool.frames.transform_log import TransformLog
 
 SUFFIXES = (".yaml", ".yml")
 """What scenario files in a folder end in."""
@@ -55,11 +61,55 @@ def _judge(
             why = f"No scenario ({', '.join(SUFFIXES)}) is in the folder '{word}'."
         complain("tftool", why)
         return Report(Path(word).stem or word, word, (), failure=why), False
-    for mistake in scenario.not_a_tree if own_nodes else ():
-        notice(visible_lines(str(mistake)))
+    warnings = tuple(str(mistake) for mistake in scenario.not_a_tree) if own_nodes else ()
+    for warning in warnings:
+        notice(visible_lines(warning))
+    heard = _Heard()
     if kept is None:
-        return judge(scenario).report(), True
-    return _recorded(scenario, judge, kept.place(scenario.name)).report(), True
+        verdict = judge(scenario, watch=heard.watching)
+    else:
+        verdict = _recorded(scenario, judge, kept.place(scenario.name), heard)
+    found = () if verdict.ok else heard.findings(scenario)
+    return replace(verdict.report(), warnings=warnings, why=found), True
+
+
+class _Heard:
+    """Transforms of one play, for the doctor to look at if something did not hold."""
+
+    def __init__(self) -> None:
+        self._log: TransformLog | None = None
+        self._span: tuple[Stamp, Callable[[], Stamp]] | None = None
+
+    @contextmanager
+    def watching(self, world: World) -> Iterator[None]:
+        """Listen to a world as long as it lives."""
+        self._log, stops = heard_in(world)
+        self._span = (world.clock.now(), world.clock.now)
+        try:
+            yield
+        finally:
+            for stop in stops:
+                stop()
+
+    def findings(self, scenario: Scenario) -> tuple[str, ...]:
+        """Return what the doctor finds, notes left out: a sentence each, and its first remedy."""
+        # The checks take as long to import as most scenarios to play.
+        from tftool.doctor.evidence import evidence_of_log
+        from tftool.doctor.findings import Severity
+        from tftool.doctor.judge import judge
+        from tftool.doctor.model import Settings
+
+        if self._log is None or self._span is None:
+            return ()
+        begin, now = self._span
+        evidence = evidence_of_log(self._log, scenario.name, "scenario", begin, now())
+        settings = scenario.doctor.settings(Settings(scenario.cache_time))
+        found = judge(evidence, settings, ignore=scenario.doctor.ignore).findings
+        return tuple(
+            f"{one.id}: {one.message}" + (f"; {one.fixes[0].text}" if one.fixes else "")
+            for one in found
+            if one.because_of is None and one.severity is not Severity.NOTE
+        )
 
 
 class _Kept:
@@ -80,7 +130,9 @@ class _Kept:
         return self._folder / f"{free}.mcap"
 
 
-def _recorded(scenario: Scenario, judge: Callable[..., Verdict], kept: Path) -> Verdict:
+def _recorded(
+    scenario: Scenario, judge: Callable[..., Verdict], kept: Path, heard: _Heard
+) -> Verdict:
     """Judge a scenario; its recording stays if something did not hold."""
     try:
         kept.parent.mkdir(parents=True, exist_ok=True)
@@ -94,13 +146,26 @@ def _recorded(scenario: Scenario, judge: Callable[..., Verdict], kept: Path) -> 
 
     # Beside its name until it is judged: one of an earlier run stays where nothing fails.
     played = kept.with_name(f".{kept.name}")
-    verdict = judge(scenario, watch=partial(recorded, path=played, force=True))
+
+    @contextmanager
+    def watching(world: World) -> Iterator[None]:
+        with heard.watching(world), recorded(world, path=played, force=True):
+            yield
+
+    verdict = judge(scenario, watch=watching)
     if verdict.ok:
         played.unlink(missing_ok=True)
     else:
         played.replace(kept)
         notice(f"Recorded: {visible(str(kept))}")
     return verdict
+
+
+def _strictly(report: Report) -> Report:
+    """Return a report that fails by its warnings."""
+    if not report.warnings or not report.ok:
+        return report
+    return replace(report, failure="\n".join(("warnings fail (--strict):", *report.warnings)))
 
 
 def run(
@@ -110,6 +175,7 @@ def run(
     force: bool,
     junit: Path | None,
     recordings: Path | None,
+    strict: bool,
     verbose: bool,
     for_programs: bool,
 ) -> ExitStatus:
@@ -129,6 +195,8 @@ def run(
             for words in scenarios
             for word in _unfolded(words)
         ]
+    if strict:
+        judged = [(_strictly(report), readable) for report, readable in judged]
     reports = [report for report, _ in judged]
     if for_programs:
         sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
