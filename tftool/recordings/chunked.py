@@ -36,7 +36,7 @@ def reason_of(error: Exception) -> str:
     return "a record is cut" if isinstance(error, struct.error) else str(error)
 
 
-class Walked:
+class WalkedMessages:
     """Messages that were found by walking through records, as columns."""
 
     __slots__ = ("channels", "lengths", "log_times", "starts")
@@ -57,7 +57,7 @@ class Walked:
         self.starts.append(start)
         self.lengths.append(length)
 
-    def extend(self, others: "Walked") -> None:
+    def extend(self, others: "WalkedMessages") -> None:
         """Append others."""
         for name in self.__slots__:
             getattr(self, name).extend(getattr(others, name))
@@ -68,7 +68,7 @@ class Walked:
         return min(self.log_times, default=0), max(self.log_times, default=0)
 
 
-class Head(NamedTuple):
+class MessageHead(NamedTuple):
     """Head of a message in some records.
 
     Attributes:
@@ -126,7 +126,7 @@ class Chunk:
     indexes: dict[int, int] = field(default_factory=dict)
     counts: Mapping[int, int] | None = None
     whole: bool = False
-    walked: Walked | None = None
+    walked: WalkedMessages | None = None
     _found: list[Taken] | None = None
     _is_examined: bool = False
 
@@ -171,7 +171,7 @@ class Chunk:
 
 
 class ChunkedReader(File):
-    """One file of chunks; its containers say how records are read. See `Reader`.
+    """One file of chunks; its containers say how records are read. See `ContainerReader`.
 
     Attributes:
         damage: Its damage, as sentences, each once; not more than tell enough.
@@ -281,7 +281,7 @@ class ChunkedReader(File):
 
     # A chunk's messages
 
-    def _heads(self, data: bytes, *, learns: bool) -> Iterator[Head]:
+    def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
         """The messages among some records.
 
         Args:
@@ -390,7 +390,7 @@ class ChunkedReader(File):
             return None
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """What the indexes of a chunk tell of its messages.
+        """Return the facts in the indexes of a chunk about its messages.
 
         Returns:
             For each channel its number, and of each message where the record and the payload
@@ -420,7 +420,7 @@ class ChunkedReader(File):
             learns: Whether to count them, and to learn of channels: those that were found when
                 the file was opened stay as they are.
         """
-        found = chunk.walked = Walked()
+        found = chunk.walked = WalkedMessages()
         try:
             data = bytes(self.unpacked(chunk))
             for channel, log_time, first, last, _, _ in self._heads(data, learns=learns):

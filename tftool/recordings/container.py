@@ -241,7 +241,7 @@ class Container(Protocol):
         """Close the file."""
 
 
-class Reader(Container, Protocol):
+class ContainerReader(Container, Protocol):
     """One file of a recording, which can be read from front to back as well.
 
     Attributes:

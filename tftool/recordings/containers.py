@@ -10,7 +10,7 @@ from tftool.base.errors import UsageError
 
 if TYPE_CHECKING:
     from tftool.recordings.channel import ContainerWriter
-    from tftool.recordings.container import Reader
+    from tftool.recordings.container import ContainerReader
 
 MCAP_MAGIC: Final = b"\x89MCAP0\r\n"
 SQLITE_MAGIC: Final = b"SQLite format 3\x00"
@@ -45,7 +45,7 @@ class ContainerFormat:
     writer_at: tuple[str, str]
     options: tuple[str, ...]
 
-    def open(self, path: Path, *, by_index: bool = True) -> "Reader":
+    def open(self, path: Path, *, by_index: bool = True) -> "ContainerReader":
         """Open a file of it.
 
         Args:
@@ -56,7 +56,7 @@ class ContainerFormat:
             InputError: If it cannot be read.
             OSError: If it cannot be opened.
         """
-        found: Reader = _imported(self.reader_at)(path, by_index=by_index)
+        found: ContainerReader = _imported(self.reader_at)(path, by_index=by_index)
         return found
 
     def create(self, path: Path, **options: Any) -> "ContainerWriter":

@@ -34,7 +34,7 @@ LINES: Final = {
         "found": 'raise TransformException("TODO: look up turtle1 as it was, as `found`")',
     },
 }
-"""What stands in the place of each assignment: a comment, or a line that runs where one must."""
+"""Replacement of each assignment: a comment, or a line that runs where one must."""
 
 
 def with_blanks(node: str, text: str) -> str:

@@ -317,7 +317,7 @@ class Changer:
     def _inside(
         self, kind: MessageKind, rows: Bytes, log_times: Stamps, *, static: bool
     ) -> npt.NDArray[np.bool_]:
-        """Which transforms of messages of a kind a cut keeps, shape (messages, transforms)."""
+        """Tell which transforms of messages of a kind a cut keeps, shape (messages, transforms)."""
         window = self.window
         assert window is not None
         found = []

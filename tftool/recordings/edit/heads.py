@@ -11,7 +11,7 @@ from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.splice import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
-from tftool.recordings.container import Reader, Taken
+from tftool.recordings.container import ContainerReader, Taken
 from tftool.recordings.container_reader import LAYOUTS
 from tftool.recordings.edit.changes import (
     Changer,
@@ -49,7 +49,7 @@ class StaticHeads:
     def __init__(
         self,
         edits: Edits,
-        tapes: Sequence[Reader],
+        tapes: Sequence[ContainerReader],
         changer: Changer,
         start: Stamp,
         *,

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tftool.base.errors import InputError, UsageError
-from tftool.recordings.container import Reader
+from tftool.recordings.container import ContainerReader
 from tftool.recordings.find import Found, Kind, container_in, find, kind_of_file, refusal
 from tftool.recordings.poses.pose_container import open_poses
 from tftool.recordings.rosbag2.folder import files_of_folder, read_metadata, unpack_file
@@ -31,7 +31,7 @@ class EditedInput:
     """
 
     name: str
-    tapes: list[Reader] = field(default_factory=list)
+    tapes: list[ContainerReader] = field(default_factory=list)
     paths: list[Path] = field(default_factory=list)
     is_folder: bool = False
     metadata: Mapping[str, Any] | None = None
@@ -141,7 +141,7 @@ def open_input(name: str) -> EditedInput:
     return opened
 
 
-def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> Reader:
+def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) -> ContainerReader:
     """Open one file.
 
     Raises:

@@ -17,7 +17,7 @@ from tftool.messages.transform_rows import walk
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
 from tftool.recordings.chunked import Chunk, ChunkedReader
 from tftool.recordings.compression import best_compression, compressor
-from tftool.recordings.container import Block, MessageTable, Reader, Taken
+from tftool.recordings.container import Block, ContainerReader, MessageTable, Taken
 from tftool.recordings.container_reader import LAYOUTS
 from tftool.recordings.contract import Stamps
 from tftool.recordings.edit.changes import carries_transforms
@@ -54,7 +54,7 @@ class EditedFile:
         self,
         path: Path,
         container: str,
-        tape: Reader,
+        tape: ContainerReader,
         *,
         ros2: bool,
         packs: bool = False,
@@ -95,7 +95,7 @@ class EditedFile:
         if self._chunks is not None:
             self._chunks.first_free = first_free
 
-    def _opened(self, tape: Reader) -> McapWriter | Rosbag1Writer | SqliteWriter:
+    def _opened(self, tape: ContainerReader) -> McapWriter | Rosbag1Writer | SqliteWriter:
         """Begin the file, as the first one that it is made from is written."""
         style: dict[str, Any] = tape.style if tape.container == self.container else {}
         if self.container == "mcap":
@@ -125,7 +125,7 @@ class EditedFile:
     # Channels
 
     def _conversion(
-        self, source: int, number: int, channel: Channel, tape: Reader
+        self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> Conversion | None:
         """Return the channel as it is written here; None where it cannot be."""
         key = source, number
@@ -137,7 +137,7 @@ class EditedFile:
                 self.left_out.setdefault(channel.topic, str(error).rstrip("."))
         return self._conversions[key]
 
-    def _converted(self, channel: Channel, tape: Reader) -> Conversion:
+    def _converted(self, channel: Channel, tape: ContainerReader) -> Conversion:
         if self.container == "bag":
             return as_ros1(channel)
         if channel.encoding == "ros1":
@@ -154,7 +154,9 @@ class EditedFile:
             channel = _defined(channel)
         return Conversion(channel, bytes)
 
-    def _register(self, source: int, number: int, channel: Channel, tape: Reader) -> int | None:
+    def _register(
+        self, source: int, number: int, channel: Channel, tape: ContainerReader
+    ) -> int | None:
         """The number of a channel here."""
         key = source, number
         found = self._numbers.get(key)
@@ -186,7 +188,7 @@ class EditedFile:
             self.channels[found] = channel
         return found
 
-    def _fits(self, source: int, tape: Reader) -> bool:
+    def _fits(self, source: int, tape: ContainerReader) -> bool:
         """Whether a tape's numbers mean here what they mean there, so that chunks may be copied."""
         found = self._compatible.get(source)
         if found is None:
@@ -196,7 +198,7 @@ class EditedFile:
             self._compatible[source] = found
         return found and self._chunks is not None
 
-    def _agrees(self, tape: Reader) -> bool:
+    def _agrees(self, tape: ContainerReader) -> bool:
         """Whether all numbers of a further tape are free here, or mean the same."""
         if self._chunks is None or self._extra or not isinstance(tape, ChunkedReader):
             return False
@@ -206,7 +208,7 @@ class EditedFile:
 
     # Messages
 
-    def write(self, source: int, message: Taken, channel: Channel, tape: Reader) -> bool:
+    def write(self, source: int, message: Taken, channel: Channel, tape: ContainerReader) -> bool:
         """Append a message of a tape's; whether the container takes it."""
         number = self._register(source, message.channel, channel, tape)
         if number is None:
@@ -217,7 +219,7 @@ class EditedFile:
         self.append(number, message._replace(payload=payload))
         return True
 
-    def write_table(self, source: int, table: MessageTable, tape: Reader) -> bool:
+    def write_table(self, source: int, table: MessageTable, tape: ContainerReader) -> bool:
         """Append messages of a tape's; whether the container takes any of them."""
         numbers = np.full(len(table), -1, dtype=np.int64)
         change = TableChange(table)
@@ -296,7 +298,7 @@ class EditedFile:
         self.start = min(self.start, message.log_time)
         self.end = max(self.end, message.log_time)
 
-    def can_copy(self, source: int, block: Block, tape: Reader) -> bool:
+    def can_copy(self, source: int, block: Block, tape: ContainerReader) -> bool:
         """Whether a block may be copied as it is."""
         if not (block.whole and isinstance(block, Chunk) and self._fits(source, tape)):
             return False
@@ -332,7 +334,7 @@ class EditedFile:
         ):
             self._chunks.end_block(block)
 
-    def finish(self, tapes: Sequence[Reader]) -> None:
+    def finish(self, tapes: Sequence[ContainerReader]) -> None:
         """Write attachments and metadata, and close the file."""
         if isinstance(self.writer, McapWriter):
             for number, tape in enumerate(tapes):

@@ -19,7 +19,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk, ChunkedReader
-from tftool.recordings.container import Block, MessageTable, Reader
+from tftool.recordings.container import Block, ContainerReader, MessageTable
 from tftool.recordings.containers import PACKED_SUFFIX, container_named, container_of
 from tftool.recordings.contract import Progress
 from tftool.recordings.edit.changes import Edits
@@ -146,7 +146,7 @@ class _Job:
         self._path = output
         self._edits = edits
         self._progress = progress
-        self._tapes: list[Reader] = [tape for one in inputs for tape in one.tapes]
+        self._tapes: list[ContainerReader] = [tape for one in inputs for tape in one.tapes]
         self._is_folder = not container
         self._ros2 = container == "db3"
         if edits.split_every and container:
@@ -259,7 +259,7 @@ class _Job:
             whose = [self._tapes[number]] if self._by_tape else self._tapes
             output.finish(whose if self._by_tape or number == self._order[0] else [])
 
-    def _examined_ahead(self, tape: Reader) -> Iterator[Block]:
+    def _examined_ahead(self, tape: ContainerReader) -> Iterator[Block]:
         """A tape's pieces; pieces copied whole are examined while those before are written.
 
         To unpack a chunk and hold its CRC against it takes as long as to copy it, and both
@@ -280,7 +280,7 @@ class _Job:
                     if examined is not None:
                         examined.cancel()
 
-    def _stays_unseen(self, block: Block, tape: Reader) -> bool:
+    def _stays_unseen(self, block: Block, tape: ContainerReader) -> bool:
         """Whether a block stays as it is by what its index tells, if it is sound."""
         return (
             block.whole
@@ -330,7 +330,7 @@ class _Job:
         suffix = container_named(self._container).suffix
         return part / f"{self._path.name}_{number}{suffix}"
 
-    def _write_block(self, source: int, tape: Reader, block: Block, part: Path) -> None:
+    def _write_block(self, source: int, tape: ContainerReader, block: Block, part: Path) -> None:
         table = self._table(block, tape)
         after, done = None, Counter[str]()
         if table is not None:
@@ -362,7 +362,7 @@ class _Job:
         for output in touched:
             output.closed_block(block)
 
-    def _table(self, block: Block, tape: Reader) -> MessageTable | None:
+    def _table(self, block: Block, tape: ContainerReader) -> MessageTable | None:
         """A chunk's messages as columns, if they are looked at and stay in one file."""
         if self._edits.split_every:
             return None
@@ -374,7 +374,7 @@ class _Job:
         """Whether a chunk in which nothing changes may be copied as it is."""
         return not self._edits.links or self._changer.keeps_all(chunk.start, chunk.end)
 
-    def _untouched(self, block: Block, tape: Reader) -> bool:
+    def _untouched(self, block: Block, tape: ContainerReader) -> bool:
         """Whether a block stays as it is, as far as it shows without a look inside, or with one."""
         if not block.whole or not block.counts:
             return False
@@ -389,7 +389,7 @@ class _Job:
             return False
         return block.sound()
 
-    def _keeps_each(self, block: Block, tape: Reader) -> bool:
+    def _keeps_each(self, block: Block, tape: ContainerReader) -> bool:
         """Whether all messages of a block stay as they are."""
         before = Counter(self._changer.counts)
         for message in block.messages():
@@ -462,7 +462,7 @@ class _Job:
             done += size
             self._tell(total + total * done // max(sum(sizes), 1), 2 * total)
 
-    def _compare_one(self, output: EditedFile, tape: Reader) -> None:
+    def _compare_one(self, output: EditedFile, tape: ContainerReader) -> None:
         counts: Counter[tuple[str, str]] = Counter()
         found: dict[tuple[str, str], int] = {}
         for block in tape.blocks():

@@ -19,8 +19,8 @@ from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import (
     Chunk,
     ChunkedReader,
-    Head,
-    Walked,
+    MessageHead,
+    WalkedMessages,
     reason_of,
 )
 from tftool.recordings.columns import Batch, in_order, words_at
@@ -72,7 +72,7 @@ MOST_BYTES_HELD: Final = 1 << 26
 
 
 class Mcap(ChunkedReader):
-    """An MCAP file; see `Reader`."""
+    """An MCAP file; see `ContainerReader`."""
 
     kind = "MCAP"
     container = "mcap"
@@ -104,7 +104,7 @@ class Mcap(ChunkedReader):
         self._used_schemas: set[int] = set()
         self._schema_of: dict[int, int] = {}
         self._by_index = by_index
-        self._loose = Walked()
+        self._loose = WalkedMessages()
         self._index_sizes: dict[int, int] = {}  # of a channel: bytes that one takes, about
         self._ended_at, self._ended = 0, False
         try:
@@ -430,18 +430,18 @@ class Mcap(ChunkedReader):
         whole = Piece(self.fileno(), position, 9 + length)
         self.extras.attachments.append(CopiedAttachment(whole, self.at(body, 16), names, size))
 
-    def _heads(self, data: bytes, *, learns: bool) -> Iterator[Head]:
+    def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
         """The messages among some records; see `ChunkedReader`."""
         for code, first, last in records_in(data):
             if code == MESSAGE:
                 check_length(last - first)
                 channel, sequence, log_time, publish_time = MESSAGE_HEAD.unpack_from(data, first)
-                yield Head(channel, log_time, first + 22, last, publish_time, sequence)
+                yield MessageHead(channel, log_time, first + 22, last, publish_time, sequence)
             elif learns and code in _TELLING:
                 self._describe(code, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """What message indexes tell of a chunk's messages; see `ChunkedReader`."""
+        """Return the facts in the indexes about a chunk's messages; see `ChunkedReader`."""
         for channel, place in chunk.indexes.items():
             pairs = self._pairs(channel, place)
             if len(pairs):
@@ -545,7 +545,7 @@ class Loose:
 
     def __init__(self, reader: Mcap) -> None:
         """Begin with none."""
-        self.found = Walked()
+        self.found = WalkedMessages()
         self._reader = reader
 
     def __len__(self) -> int:

@@ -12,7 +12,7 @@ from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS
 from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
-from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, Head, reason_of
+from tftool.recordings.chunked import FAULTS, Chunk, ChunkedReader, MessageHead, reason_of
 from tftool.recordings.columns import Batch, in_order, words_at
 from tftool.recordings.container import Taken, check_told
 from tftool.recordings.containers import ROS1_MAGIC
@@ -42,7 +42,7 @@ _KEPT = (b"callerid", b"latching", b"md5sum")
 
 
 class Rosbag1(ChunkedReader):
-    """A ROS 1 bag; see `Reader`."""
+    """A ROS 1 bag; see `ContainerReader`."""
 
     kind = "ROS 1 bag"
     container = "bag"
@@ -230,19 +230,19 @@ class Rosbag1(ChunkedReader):
             chunk.start, chunk.end, chunk.counts = info.start, info.end, counts
             chunk.whole = True
 
-    def _heads(self, data: bytes, *, learns: bool) -> Iterator[Head]:
+    def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
         """The messages among some records; see `ChunkedReader`."""
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == MESSAGE:
                 (number,) = U32.unpack(header[b"conn"])
                 log_time = time_of(header[b"time"])
-                yield Head(number, log_time, first, last, log_time)
+                yield MessageHead(number, log_time, first, last, log_time)
             elif learns and code == CONNECTION:
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """What a chunk's index tells of its messages; see `ChunkedReader`."""
+        """Return the facts in a chunk's index about its messages; see `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)

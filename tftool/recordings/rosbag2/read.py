@@ -47,7 +47,7 @@ _FAULTS: Final = (sqlite3.Error, UnicodeDecodeError)
 
 
 class Sqlite:
-    """One `.db3` file; see `Reader`.
+    """One `.db3` file; see `ContainerReader`.
 
     Attributes:
         path: Where it is.
