@@ -29,7 +29,7 @@ _RECORD: Final = 64  # bytes of a transform's
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Batch:
-    """Some messages of a recording, where they lie in a piece of its bytes.
+    """Messages of a recording in a piece of its bytes.
 
     Attributes:
         buffer: The bytes.
@@ -54,7 +54,7 @@ class Batch:
         return self.buffer[start : start + int(self.lengths[number])].tobytes()
 
     def chosen(self, which: "Stamps | slice") -> "Batch":
-        """Some of them."""
+        """Return the messages at some places."""
         return Batch(
             self.buffer,
             self.starts[which],
@@ -251,7 +251,7 @@ class Table:
         self._left_out = 0
         self._freely = _FREELY
         self.refused: Counter[str] = Counter()
-        """How many messages were refused, by the reason."""
+        """Count of refused messages by the reason."""
 
     def note(self, log_times: Stamps, senders: Indexes) -> int:
         """Number messages; the number of the first."""

@@ -103,7 +103,7 @@ class MessageTable:
         )
 
     def chosen(self, which: Stamps) -> "MessageTable":
-        """Some of them."""
+        """Return the messages at some places."""
         columns = (self.channels, self.log_times, self.publish_times, self.sequences)
         rest = (self.starts, self.lengths)
         return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
@@ -139,7 +139,7 @@ def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
 
 
 class Block(Protocol):
-    """Some messages that are together in a file: a chunk, rows, messages outside of chunks."""
+    """Messages that are together in a file: a chunk, rows, messages outside of chunks."""
 
     @property
     def start(self) -> Stamp:
@@ -289,7 +289,7 @@ class File:
         """
         if count < 0 or place < 0 or place + count > self.size:
             raise InputError(
-                f"{count} bytes at byte {place} lie beyond the file's end ({self.size})"
+                f"{count} bytes at byte {place} are beyond the file's end ({self.size})"
             )
         if count > LARGEST:
             raise InputError(

@@ -38,7 +38,7 @@ MOST_UNPACKED: Final = 1 << 26
 CLOCK_TYPE: Final = "rosgraph_msgs/Clock"
 
 LAYOUTS: Final[Mapping[str, Layout]] = {"cdr": CDR, "ros1": ROS1}
-"""Which layout messages have, by a topic's encoding."""
+"""Layout of messages by a topic's encoding."""
 
 _HEAD_BYTES = 16 + LONGEST_NAME
 _COMMENT = re.compile(r"#.*")

@@ -18,7 +18,7 @@ ROS1_MAGIC: Final = b"#ROSBAG V2.0\n"
 ZSTD_MAGIC: Final = b"\x28\xb5\x2f\xfd"
 
 PACKED_SUFFIX: Final = ".zstd"
-"""How the name of a file ends that rosbag2 compressed as a whole."""
+"""Ending of the name of a file that rosbag2 compressed as a whole."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +112,7 @@ CONTAINERS: Final = (
 """Every container; those that a folder of rosbag2's may hold have a storage."""
 
 SUFFIXES: Final = (*(one.suffix for one in CONTAINERS), PACKED_SUFFIX)
-"""How the names of recorded files end."""
+"""Endings of the names of recorded files."""
 
 
 def container_of(path: Path) -> str:

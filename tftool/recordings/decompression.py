@@ -18,7 +18,7 @@ LARGEST: Final = 3 << 27
 its one message once more, which is below 2 GB."""
 
 MOST_GAIN: Final = 1100
-"""How many times larger a piece may become; what we know of stays below."""
+"""Largest ratio of a piece's size to its packed size; known files stay below it."""
 
 _SLACK: Final = 1 << 20
 

@@ -21,10 +21,10 @@ from tftool.recordings.poses.pose_options import options_of, path_behind_prefix
 from tftool.recordings.remote_files import is_url
 
 METADATA = "metadata.yaml"
-"""What rosbag2 calls the description beside its files."""
+"""Name of the description that rosbag2 writes beside its files."""
 
 ACTIVE: Final = ".active"
-"""What the name of a file ends in until its recorder has finished it, as in ROS 1."""
+"""Ending of a file's name until its recorder has finished it, as in ROS 1."""
 
 MOST_FILES = 10_000
 """Files of one folder or glob that are looked at."""
@@ -34,11 +34,11 @@ HEAD: Final = 4096
 
 _MOST_NAMES = 4
 BESIDE = ("-wal", "-shm", "-journal")
-"""How the files end that sqlite has beside a database."""
+"""Endings of the files that sqlite has beside a database."""
 _MCAP_MANGLED = (b"\x89MCAP0\n", b"\x89MCAP0\r\r\n")
 _OLD_BAG = b"#ROSRECORD"
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
-"""What no text has: control characters but for blanks, line ends and the escape of colours."""
+"""Bytes that no text has: control characters but blanks, line ends and the colours' escape."""
 _LFS = b"version https://git-lfs"
 _OTHERS = {
     b"\x1f\x8b": "a gzip archive: unpack it first (gunzip)",

@@ -25,7 +25,7 @@ CHUNK_SIZE: Final = 256 * 1024
 """Bytes of messages in a chunk: a kill loses one that is not full."""
 
 CHUNK_TIME: Final = seconds(1)
-"""How long messages wait in a chunk, at most."""
+"""Longest time that messages wait in a chunk."""
 
 MOST_HELD: Final = 1 << 30
 """Bytes of messages that a ring holds in memory; beyond, the oldest go."""

@@ -32,7 +32,7 @@ from tftool.recordings.contract import Stamps
 from tftool.recordings.edit.tables import Kinds, MessageKind, Result, TableChange
 
 LinkName = tuple[str, str]
-"""Parent and child, each without a leading slash; "*" stands for any name."""
+"""Parent and child, each without a leading slash; "*" means any name."""
 
 _HEADER: Final = "std_msgs/msg/Header"
 
@@ -168,7 +168,7 @@ class Window:
 
 
 Reparenting = Callable[[LinkName, Stamp], Transform | None]
-"""Where a link's parent is in the new parent, at a stamp; None where that is not known."""
+"""Pose of a link's parent in the new parent, at a stamp; None where that is not known."""
 
 
 class Changer:
@@ -473,7 +473,7 @@ def _with_stamp(payload: bytes, encoding: str, stamp: Stamp) -> bytes:
 
 
 class Renamer:
-    """Changes the frame names in messages of one type, wherever a header stands in them."""
+    """Changes the frame names in messages of one type, wherever they hold a header."""
 
     def __init__(self, codec: Codec, edits: Edits) -> None:
         self._codec = codec
@@ -534,7 +534,7 @@ def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
 
 
 def _has_header(interfaces: Interfaces, full: str) -> bool:
-    """Whether a header stands anywhere in a type."""
+    """Whether a type holds a header anywhere."""
     waiting, seen = [full], {full}
     while waiting:
         for one in interfaces.structure(waiting.pop()).fields:

@@ -123,7 +123,7 @@ class StaticHeads:
 
         Args:
             number: Which part of the result it is, from 0.
-            output: The part's file, in which nothing stands yet.
+            output: The part's file, still empty.
             start: The log time of the written messages.
         """
         if not self.wanted:

@@ -261,7 +261,7 @@ def index_entry(summary: bytes, first: int, last: int, size: int) -> IndexEntry:
         start, end, position, length, indexes, indexes_length, method, packed, unpacked
     )
     if found.place + packed > size or position + length > size:
-        raise InputError(f"a chunk at byte {position} lies beyond the file's end")
+        raise InputError(f"a chunk at byte {position} is beyond the file's end")
     return found
 
 

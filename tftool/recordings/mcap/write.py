@@ -249,7 +249,7 @@ class McapWriter:
         if channel not in self._defined:
             self._define(channel)
         if log_time < 0:
-            raise InputError(f"A log time of {log_time} ns lies before 1970: MCAP has none.")
+            raise InputError(f"A log time of {log_time} ns is before 1970: MCAP has none.")
         length = len(payload)
         head = MESSAGE_RECORD.pack(
             MESSAGE,
@@ -403,7 +403,7 @@ class McapWriter:
         self.position = self._file.seek(self.position + piece.length)
 
     def copy_attachment(self, copied: CopiedAttachment) -> None:
-        """Append an attachment as it stands in another file."""
+        """Append an attachment as it is in another file."""
         self.flush()
         place = struct.pack("<QQ", self.position, copied.piece.length)
         self._copy(copied.piece)

@@ -67,7 +67,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
     """A bag's own header, where its index begins, and the index; 0 and b"" if it has none.
 
     Raises:
-        InputError: If the header is missing, or the index lies elsewhere than in the file.
+        InputError: If the header is missing, or the index is not in the file.
         KeyError: If the header lacks a field.
         struct.error: If a field of it is cut.
     """
@@ -139,7 +139,7 @@ def _within(places: Stamps, data: Bytes) -> Stamps:
     """The numbers of four bytes at some places.
 
     Raises:
-        InputError: If one lies outside.
+        InputError: If one is outside.
     """
     if len(data) < 4 or int(places.max()) > len(data) - 4:
         raise InputError("its index points outside of it")

@@ -100,7 +100,7 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
 
 
 def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) -> Container:
-    """Some files as one recording; those that cannot be read are told, unless none can.
+    """Open files as one recording; those that cannot be read are told, unless none can.
 
     Args:
         paths: The files.
@@ -179,7 +179,7 @@ def _is_part(path: Path) -> bool:
     try:
         return kind_of_file(path) in _PARTS
     except PermissionError:
-        return True  # it may be one: that it is left out is told
+        return True  # it may be one, and whoever opens it names it
     except InputError:
         return False
 

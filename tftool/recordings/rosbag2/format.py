@@ -96,7 +96,7 @@ class _Table:
                 yield self._batch(*self._read(pages[begin : begin + _AT_ONCE]), wanted)
 
     def _read(self, pages: Pages) -> tuple[Bytes, Pages]:
-        """Some pages, and where each begins in the bytes read."""
+        """Read pages; return them, and where each begins in the bytes read."""
         first, apart = int(pages.min()), pages - pages.min()
         span = int(apart.max()) + 1
         if span <= _MOST_APART * len(pages):
@@ -118,7 +118,7 @@ class _Table:
         if page[0] == _LEAF:
             yield np.array([root])
             return
-        # Pages that are to be looked into, the next one last, and how deep they lie.
+        # Pages that are to be looked into, the next one last, and their depth.
         waiting, seen = [(root, 0)], 0
         while waiting:
             number, depth = waiting.pop()

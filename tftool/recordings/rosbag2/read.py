@@ -291,7 +291,7 @@ class Sqlite:
 
 
 class Rows:
-    """Some rows; see `Block`."""
+    """Rows of a database; see `Block`."""
 
     whole = False
     counts: Mapping[int, int] | None = None
