@@ -90,7 +90,7 @@ path = buffer.lookup_transforms("world", "car", [10**9])
         "figure": 1,
         "plot(path, what='x')\nplot(path, what='y')": 2,
         "from matplotlib import pyplot\npyplot.figure().subplots();": 1,
-        "figure, axes = pyplot.subplots()\nplot(path, axes);": 1,
+        "figure, axes = pyplot.subplots()\nplot(path, ax=axes);": 1,
     }
     book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(one) for one in cells])
     nbformat.write(book, tmp_path / "plots.ipynb")

@@ -37,7 +37,7 @@ def run_of(path: Path, first: int = 0, count: int = 50, x: float = 0.0) -> Path:
         buffer.set_transform(TransformStamped(stamp, "map", "base", pose), "robot")
     mount = TransformStamped(0, "base", "laser", Transform((x, 0.0, 0.4)))
     buffer.set_transform_static(mount, "description")
-    library.export(buffer, path)
+    library.export(buffer, path=path)
     return path
 
 

@@ -181,7 +181,7 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, "open"})
+    return sorted([*__all__, "__version__", "open"])
 
 
 if "IPython" in sys.modules:

@@ -101,7 +101,7 @@ def test_the_remedy_of_a_timeout_is_that_of_its_refusal_from_the_beginning():
         tftool.diagnose,
         tftool.view,
         lambda given: tftool.explain(given, "map", "base"),
-        lambda given: tftool.export(given, "run.csv", "map", "base"),
+        lambda given: tftool.export(given, "map", "base", path="run.csv"),
     ],
 )
 def test_a_path_where_a_recording_is_wanted_is_told_how_to_open_it(ask):
@@ -109,3 +109,21 @@ def test_a_path_where_a_recording_is_wanted_is_told_how_to_open_it(ask):
         ask("run.mcap")
     with pytest.raises(TypeError, match="a Recording or a Buffer is wanted, not 42"):
         ask(42)
+
+
+def test_a_moment_of_a_few_nanoseconds_is_explained():
+    buffer = tftool.Buffer()
+    for second in (1000, 1001):
+        sample = tftool.TransformStamped(tftool.seconds(second), "a", "b", tftool.Transform())
+        buffer.set_transform(sample)
+
+    with pytest.raises(tftool.ExtrapolationException) as caught:
+        buffer.lookup_transform("a", "b", time=1)
+
+    assert caught.value.__notes__ == [
+        "Moments are whole nanoseconds: 1 is 1 ns, seconds(1) is 1 s."
+    ]
+    assert caught.value.remedy == caught.value.__notes__[0]
+    with pytest.raises(tftool.ExtrapolationException) as caught:
+        buffer.lookup_transform("a", "b", time=tftool.seconds(5))
+    assert not hasattr(caught.value, "__notes__")

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tests.strategies import transforms
 from tftool.base.stamps import seconds
-from tftool.buffer.buffer import Buffer
+from tftool.buffer.buffer import Buffer, adopt_records
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry import rigid
 from tftool.geometry.rigid import Transform
@@ -349,9 +349,9 @@ def test_rows_are_adopted_together_or_not_at_all(place):
     rows[place, 0] = rows[place - 1, 0]
     buffer = Buffer()
 
-    assert not buffer.adopt_records("world", "turtle1", rows)
+    assert not adopt_records(buffer, "world", "turtle1", rows)
     assert buffer.frames() == []
-    assert buffer.adopt_records("world", "turtle1", sound)
+    assert adopt_records(buffer, "world", "turtle1", sound)
     assert len(buffer.samples("turtle1")) == 10_000
 
 

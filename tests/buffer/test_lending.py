@@ -5,7 +5,7 @@ import pytest
 
 from tftool.base.errors import TransformException
 from tftool.base.stamps import seconds
-from tftool.buffer.buffer import NO_LIMIT, Buffer
+from tftool.buffer.buffer import NO_LIMIT, Buffer, lend
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 
@@ -32,7 +32,7 @@ def x_at(buffer, stamp):
 
 def lent(whole, until):
     other = Buffer(NO_LIMIT)
-    assert whole.lend("b", other, seconds(until))
+    assert lend(whole, "b", other, seconds(until))
     return other
 
 
@@ -68,7 +68,7 @@ def test_what_has_two_senders_is_not_lent(whole):
     whole.set_transform(sample(90, 1), "another")
 
     other = Buffer(NO_LIMIT)
-    assert not whole.lend("b", other, seconds(20))
+    assert not lend(whole, "b", other, seconds(20))
     assert other.frames() == []
 
 
@@ -76,5 +76,5 @@ def test_roots_and_statics_are_not_lent(whole):
     whole.set_transform_static(TransformStamped(0, "b", "c", Transform()), "node")
 
     other = Buffer(NO_LIMIT)
-    assert not whole.lend("a", other, seconds(20))
-    assert not whole.lend("c", other, seconds(20))
+    assert not lend(whole, "a", other, seconds(20))
+    assert not lend(whole, "c", other, seconds(20))

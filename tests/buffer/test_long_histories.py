@@ -11,7 +11,7 @@ import pytest
 
 from tests.twins import REASON, Twins, is_native
 from tftool.base.stamps import seconds
-from tftool.buffer.buffer import Buffer
+from tftool.buffer.buffer import Buffer, lend
 from tftool.buffer.history import RECORD, WORDS, History
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -71,7 +71,7 @@ def test_what_was_handed_out_before_stays_as_it_was():
     buffer = filled(Buffer(10**18))
     buffer.lookup_transform("a", "b", NEWEST // 2)
     other = Buffer(10**18)
-    assert buffer.lend("b", other, NEWEST)
+    assert lend(buffer, "b", other, NEWEST)
     held = buffer.samples("b")
     x = held.poses[:, 0].copy()
 

@@ -13,9 +13,9 @@ from tftool.geometry.conversions import quaternion_from_rpy
 @pytest.fixture
 def runs(tmp_path):
     """Two recordings: in the second the laser was moved by 12.5 mm."""
-    library.export(frames(), tmp_path / "a.mcap")
+    library.export(frames(), path=tmp_path / "a.mcap")
     moved = Transform((0.1, 0.2, 0.3125), quaternion_from_rpy(0.1, 0.2, 0.3))
-    library.export(frames(laser=moved), tmp_path / "b.mcap")
+    library.export(frames(laser=moved), path=tmp_path / "b.mcap")
     return tmp_path / "a.mcap", tmp_path / "b.mcap"
 
 
@@ -68,8 +68,8 @@ def test_markdown_is_a_table_in_which_no_name_acts(tftool, tmp_path):
     buffer = frames()
     evil = TransformStamped(0, "base", "<img src=x>|`\x1b[31m", Transform())
     buffer.set_transform_static(evil)
-    library.export(buffer, tmp_path / "a.mcap")
-    library.export(frames(), tmp_path / "b.mcap")
+    library.export(buffer, path=tmp_path / "a.mcap")
+    library.export(frames(), path=tmp_path / "b.mcap")
 
     out = tftool("diff", tmp_path / "a.mcap", tmp_path / "b.mcap", "--markdown").out
 
@@ -79,8 +79,8 @@ def test_markdown_is_a_table_in_which_no_name_acts(tftool, tmp_path):
 
 
 def test_what_moves_tells_its_worst_since_the_start(tftool, tmp_path):
-    library.export(frames(), tmp_path / "a.mcap")
-    library.export(frames(off=0.02), tmp_path / "b.mcap")
+    library.export(frames(), path=tmp_path / "a.mcap")
+    library.export(frames(off=0.02), path=tmp_path / "b.mcap")
 
     out = tftool("diff", tmp_path / "a.mcap", tmp_path / "b.mcap").out
 
@@ -97,8 +97,8 @@ def test_scenarios_are_played_and_compared(tftool, simulated):
 
 
 def test_spans_apart_are_said(tftool, tmp_path):
-    library.export(frames(), tmp_path / "a.mcap")
-    library.export(frames(start=START + 10**13), tmp_path / "b.mcap")
+    library.export(frames(), path=tmp_path / "a.mcap")
+    library.export(frames(start=START + 10**13), path=tmp_path / "b.mcap")
     words = ("diff", tmp_path / "a.mcap", tmp_path / "b.mcap")
 
     assert "--align start" in tftool(*words).err

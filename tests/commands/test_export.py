@@ -48,7 +48,7 @@ def wanted(buffer):
 @pytest.fixture
 def run(buffer, tmp_path):
     """The same as a recording."""
-    library.export(buffer, tmp_path / "run.mcap")
+    library.export(buffer, path=tmp_path / "run.mcap")
     return tmp_path / "run.mcap"
 
 
@@ -109,7 +109,7 @@ def test_the_two_files_of_kitti_come_together_or_not_at_all(
 
     monkeypatch.setattr(os, "rename", full)
     with pytest.raises(InputError, match="cannot be written"):
-        library.export(buffer, tmp_path / "run.kitti", "odom", "camera", force=before)
+        library.export(buffer, "odom", "camera", path=tmp_path / "run.kitti", force=before)
 
     assert {one.name: one.read_text() for one in tmp_path.iterdir()} == names
 
@@ -118,7 +118,7 @@ def test_the_two_files_of_kitti_replace_those_of_before(buffer, wanted, tmp_path
     for name in ("run.kitti", "run_times.txt"):
         (tmp_path / name).write_text("old")
 
-    library.export(buffer, tmp_path / "run.kitti", "odom", "camera", force=True)
+    library.export(buffer, "odom", "camera", path=tmp_path / "run.kitti", force=True)
 
     assert sorted(one.name for one in tmp_path.iterdir()) == ["run.kitti", "run_times.txt"]
     assert len((tmp_path / "run.kitti").read_text().splitlines()) == len(wanted)
@@ -292,7 +292,7 @@ def test_launch_files_are_played_by_launch(tftool, run, tmp_path):
         buffer.set_transform_static(TransformStamped(0, "a", "b", Transform((1.0, 0.0, 0.0))))
         buffer.set_transform_static(TransformStamped(0, "a", "c", Transform((2.0, 0.0, 0.0))))
         path = tmp_path / f"statics.launch.{end}"
-        library.export(buffer, path)
+        library.export(buffer, path=path)
 
         result = tftool("launch", "--simulated", "--for", "1", path)
 
@@ -471,19 +471,34 @@ def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number)
 
 def test_where_there_is_nothing_nothing_is_written(tmp_path):
     with pytest.raises(library.UsageError, match="no frame"):
-        library.export(Buffer(), tmp_path / "a.mcap")
+        library.export(Buffer(), path=tmp_path / "a.mcap")
     moving = Buffer()
     moving.set_transform(TransformStamped(START, "odom", "base", Transform()))
     with pytest.raises(library.UsageError, match="--with-moving adds those that move"):
-        library.export(moving, tmp_path / "a.urdf")
+        library.export(moving, path=tmp_path / "a.urdf")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_in_python_a_file_is_written_in_one_line(buffer, tmp_path):
-    done = library.export(buffer, tmp_path / "a.csv", pairs=[("odom", "base"), ("odom", "camera")])
+    done = library.export(
+        buffer, path=tmp_path / "a.csv", pairs=[("odom", "base"), ("odom", "camera")]
+    )
 
     assert (done.count, done.refused, done.paths) == (400, 0, (tmp_path / "a.csv",))
     with pytest.raises(library.UsageError, match="'word' is no format"):
-        library.export(buffer, tmp_path / "b.csv", "odom", "base", format="word")
+        library.export(buffer, "odom", "base", path=tmp_path / "b.csv", format="word")
     with pytest.raises(library.UsageError, match="two frames"):
-        library.export(buffer, tmp_path / "b.csv", "odom")
+        library.export(buffer, "odom", path=tmp_path / "b.csv")
+
+
+def test_a_call_in_the_old_order_names_the_new_one(buffer, tmp_path):
+    for given, named in (
+        ((buffer, tmp_path / "run.tum", "odom", "base"), {}),
+        ((buffer, tmp_path / "run.mcap"), {}),
+        ((buffer,), {"path": tmp_path / "run.tum", "target_frame": "odom", "source_frame": "base"}),
+    ):
+        with pytest.raises(
+            TypeError, match=r"export\(recording, 'map', 'base_link', path='run.tum'\)"
+        ):
+            library.export(*given, **named)
+    assert not list(tmp_path.iterdir())

@@ -15,7 +15,7 @@ from tftool.app.main import main
 
 @pytest.fixture
 def run(tmp_path):
-    library.export(circling(np.arange(1.0, 21.0, 0.05)), tmp_path / "run.mcap")
+    library.export(circling(np.arange(1.0, 21.0, 0.05)), path=tmp_path / "run.mcap")
     return tmp_path / "run.mcap"
 
 
@@ -42,7 +42,7 @@ def test_a_line_rises_where_the_value_does(tftool, tmp_path):
     for n in range(101):
         pose = Transform((0.1 * n, 0.0, 0.0))
         buffer.set_transform(TransformStamped(SECOND + n * SECOND // 10, "map", "car", pose))
-    library.export(buffer, tmp_path / "ramp.mcap")
+    library.export(buffer, path=tmp_path / "ramp.mcap")
 
     out = tftool("plot", "map", "car", tmp_path / "ramp.mcap", "--only", "x", "--ascii").out
 
@@ -122,7 +122,7 @@ def test_a_picture_names_its_axes_and_what_was_refused(tftool, tmp_path):
     buffer = circling(np.arange(1.0, 3.0, 0.1))
     still = library.TransformStamped(0, "car", r"_$\frac{<b>$", library.Transform())
     buffer.set_transform_static(still)
-    library.export(buffer, tmp_path / "run.mcap")
+    library.export(buffer, path=tmp_path / "run.mcap")
     words = ("plot", "map", r"_$\frac{<b>$", tmp_path / "run.mcap", "--every", "0.1", "--to", "3")
 
     first = tftool(*words, "-o", tmp_path / "a.svg")
@@ -180,13 +180,18 @@ def test_in_python_it_draws_into_axes_of_ones_own():
     path = buffer.lookup_transforms("map", "car", buffer.samples("car").stamps)
     above, below = Figure().subplots(2)
 
-    assert library.plot(path, above, what="yaw") is above
-    assert library.plot([path, path.inverse()], below, xy=True) is below
+    assert library.plot(path, ax=above, what="yaw") is above
+    assert library.plot([path, path.inverse()], ax=below, xy=True) is below
 
+    pair = library.plot(buffer, "map", "car", ax=Figure().subplots(), what="yaw")
+    assert np.array_equal(pair.lines[0].get_ydata(), above.lines[0].get_ydata(), equal_nan=True)
+    for wrong in ((buffer,), (path, "map", "car"), (path, above)):
+        with pytest.raises(TypeError, match="plot\\(recording, 'map', 'base_link'\\)"):
+            library.plot(*wrong)
     assert above.get_ylabel() == "rotation, °"
     assert above.get_xlabel() == "time, s"
     assert np.allclose(above.lines[0].get_ydata()[0], 126.0)
     assert (below.get_xlabel(), below.get_ylabel()) == ("x, m", "y, m")
     with pytest.raises(library.UsageError, match="one panel, and these are 5"):
-        library.plot(path, above, what=["position", "yaw", "distance", "speed", "turn rate"])
+        library.plot(path, ax=above, what=["position", "yaw", "distance", "speed", "turn rate"])
     assert matplotlib

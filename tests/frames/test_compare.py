@@ -152,7 +152,7 @@ def test_a_joint_of_a_description_is_no_difference_to_what_moves(tmp_path):
 def test_files_of_every_kind_are_compared_with_each_other(tmp_path):
     names = ["run.mcap", "statics.launch.py", "statics.sh", "robot.urdf"]
     for name in names:
-        tftool.export(frames(), tmp_path / name)
+        tftool.export(frames(), path=tmp_path / name)
 
     for first in names:
         for second in names:

@@ -173,3 +173,41 @@ def test_the_scalar_path_loads_no_numpy(module):
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
     assert told.stdout.strip() == "[]"
+
+
+@given(transforms)
+def test_a_matrix_gives_its_transform_back(a_from_b):
+    assert same(Transform.from_matrix(a_from_b.matrix()), a_from_b, 1e-6)
+    assert same(Transform.from_matrix(np.array(a_from_b.matrix())), a_from_b, 1e-6)
+
+
+@pytest.mark.parametrize(
+    ("matrix", "said"),
+    [
+        (np.eye(3), "4 numbers, not 3"),
+        (np.eye(4)[:3], "not of 3 rows"),
+        ([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 2, 3, 1]], "transpose it"),
+        (np.diag([2.0, 2.0, 2.0, 1.0]), "no rotation"),
+        (np.diag([1.0, 1.0, -1.0, 1.0]), "mirrors"),
+        (np.full((4, 4), np.nan), "no rotation"),
+        (7, "4×4 numbers"),
+    ],
+)
+def test_a_matrix_that_is_no_transform_is_refused(matrix, said):
+    with pytest.raises(ValueError, match=said):
+        Transform.from_matrix(matrix)
+
+
+def test_a_quaternion_chains_inverts_and_shows_its_angles():
+    quarter = Quaternion.from_rpy(0.0, 0.0, math.pi / 2)
+
+    assert quarter == pytest.approx((0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5)))
+    assert (quarter @ quarter).rpy() == pytest.approx((0.0, 0.0, math.pi))
+    assert quarter.inverse().rpy() == pytest.approx((0.0, 0.0, -math.pi / 2))
+    assert Quaternion(0.0, 0.0, 2.0, 2.0) @ quarter.inverse() == pytest.approx((0, 0, 0, 1))
+    with pytest.raises(TypeError, match="unsupported operand"):
+        quarter @ (1.0, 2.0, 3.0)
+
+
+def test_a_vector_has_a_length():
+    assert Vector3(3.0, -4.0, 12.0).norm() == 13.0

@@ -494,3 +494,43 @@ def test_a_static_that_is_refused_publishes_nothing():
     assert not node.broadcast_static(transform("world"))
 
     assert world.tf_static.count == 0
+
+
+def test_a_world_runs_for_a_while_from_now_on():
+    world = World(SimClock())
+    ticker = Ticker(world)
+
+    world.run(seconds(0.3))
+    world.run(seconds(0.2))
+
+    assert world.clock.elapsed() == seconds(0.5)
+    assert len(ticker.ticks) == 5
+    with pytest.raises(ValueError, match="negative duration"):
+        world.run(-1)
+    with pytest.raises(TypeError, match="whole nanoseconds"):
+        world.run(0.5)
+
+
+def test_an_end_in_the_past_is_refused():
+    world = World(SimClock())
+    Ticker(world)
+
+    with pytest.raises(ValueError, match=r"990 s in the past.*world\.run\(seconds\(10\)\)"):
+        run(world.clock, live(world, until=seconds(10)))
+
+
+def test_a_node_that_would_do_nothing_is_refused_as_it_joins():
+    class Misspelt(Node):
+        async def runn(self):
+            pass
+
+    class Blocking(Node):
+        def run(self):
+            pass
+
+    world = World(SimClock())
+    with pytest.raises(TypeError, match="Misspelt has no 'async def run"):
+        Misspelt(world, "a")
+    with pytest.raises(TypeError, match=r"Blocking.run must be written 'async def run"):
+        Blocking(world, "b")
+    assert not world.nodes

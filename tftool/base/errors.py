@@ -13,7 +13,7 @@ from itertools import islice
 from typing import Any
 
 from tftool.base.near_names import near_names
-from tftool.base.stamps import Duration, Stamp, as_seconds
+from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 
 class TftoolError(Exception):
@@ -342,6 +342,10 @@ class TimeoutException(TransformException):
         return "" if self.refusal is None else self.refusal.remedy
 
 
+_FEW_NANOSECONDS = 100_000
+"""Moments below this were meant in seconds."""
+
+
 class ExtrapolationException(TransformException):
     """The moment asked for lies outside what a link of the chain remembers.
 
@@ -365,6 +369,18 @@ class ExtrapolationException(TransformException):
         self.requested = requested
         self.available = available
         self.frame = frame
+        if hint := self._hint():
+            # A traceback shows notes; the text itself stays tf2's.
+            self.add_note(hint)
+
+    def _hint(self) -> str:
+        """Return what a moment of a few nanoseconds means; "" for any other."""
+        if not 0 < self.requested < _FEW_NANOSECONDS or self.missed < NANOSECONDS // 1000:
+            return ""
+        asked = self.requested
+        return (
+            f"Moments are whole nanoseconds: {asked} is {asked} ns, seconds({asked}) is {asked} s."
+        )
 
     @property
     def missed(self) -> Duration:
@@ -382,7 +398,7 @@ class BackwardExtrapolationException(ExtrapolationException):
     @property
     def remedy(self) -> str:
         """By how much, and what helps."""
-        return (
+        return self._hint() or (
             f"That is {self._by()} before the oldest sample of '{self.frame}': ask for a later "
             "moment, or for time 0 (the latest), or give the buffer a longer cache_time."
         )
@@ -409,7 +425,7 @@ class NoDataForExtrapolationException(ExtrapolationException):
         if self.available == 0:
             return f"Nothing is remembered of '{self.frame}': wait until it is sent."
         side = "after" if self.requested > self.available else "before"
-        return (
+        return self._hint() or (
             f"That is {self._by()} {side} the only sample of '{self.frame}': ask for time 0 "
             "(the latest), or wait for more."
         )

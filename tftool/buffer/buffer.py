@@ -342,7 +342,7 @@ class Buffer(Door):
         """
         import numpy as np
 
-        if self.adopt_records(parent, child, records, authority):
+        if adopt_records(self, parent, child, records, authority):
             return None
         numbers = records.view(np.float64)
         return self.set_transforms(
@@ -377,42 +377,6 @@ class Buffer(Door):
                 link.keep_last(most)
                 cut.append(Shortened(frame.name, frame.authority or "", size, len(link)))
         return cut
-
-    def adopt_records(
-        self,
-        parent: str,
-        child: str,
-        records: "npt.NDArray[np.int64]",
-        authority: str = "",
-        kept: int = 0,
-    ) -> bool:
-        """As `set_records`, if nothing speaks against them: each is newer than the one before.
-
-        Args:
-            parent: See there.
-            child: Likewise.
-            records: Likewise.
-            authority: Likewise.
-            kept: How many of them, from the first on, are known to be such, finite, and with
-                unit quaternions of tf2's sign.
-
-        Returns:
-            Whether they were taken, all of them. Nothing was done if not.
-
-        Raises:
-            TypeError: As there.
-        """
-        from tftool.buffer.batch import insert
-
-        known = len(self._tree.frames)
-        if self._listening or not insert.adopt(
-            self._tree, self.max_frames, (parent, child, authority), records, kept
-        ):
-            return False
-        self._solver.drop_paths()
-        named = [frame.name for frame in self._tree.frames[known:]]
-        self._tell((), False, authority, (tree.stripped(child), *named))
-        return True
 
     def clear(self) -> None:
         """Forget all that moves; names, statics and pending requests stay."""
@@ -774,36 +738,6 @@ class Buffer(Door):
         number = self._solver.number(child, "child", "samples", child, child)
         return columns.samples(self._tree, self._tree.frames[number])
 
-    def lend(self, child: str, other: "Buffer", until: Stamp) -> bool:
-        """Have another buffer know what moves of one frame's link up to a stamp, uncopied.
-
-        Args:
-            child: The frame.
-            other: A buffer that does not know the link yet.
-            until: The last stamp it is to know.
-
-        Returns:
-            Whether that could be; if not, nothing was done, and `samples` copies them.
-        """
-        from tftool.buffer.history import History
-
-        frame = self._tree.frames[self._tree.numbers[child]]
-        link = frame.link
-        if not isinstance(link, History) or link.parent < 0 or frame.authority is None:
-            return False
-        if not link or link.oldest_stamp > until:
-            return True
-        if link.origins is not None or link.start:
-            return False
-        parent = self._tree.frames[link.parent].name
-        there, history, _ = other._tree.hang(child, parent, False)
-        assert isinstance(history, History)
-        origin = other._tree.origin(parent, frame.authority)
-        link.lend(history, origin, until)
-        other._tree.note(there, parent, frame.authority, origin)
-        other._solver.drop_paths()
-        return True
-
     def frames(self) -> list[str]:
         """Every name that ever came up, in that order; of one sample the child first."""
         return [frame.name for frame in self._tree.frames]
@@ -899,3 +833,73 @@ def _parts(transform: TransformStamped) -> tuple[Stamp, str, str, Transform]:
 def _stamped(target: str, source: str, stamp: Stamp, sample: Sample) -> TransformStamped:
     x, y, z, qx, qy, qz, qw = sample
     return TransformStamped(stamp, target, source, rigid.transform((x, y, z), (qx, qy, qz, qw)))
+
+
+def adopt_records(
+    buffer: Buffer,
+    parent: str,
+    child: str,
+    records: "npt.NDArray[np.int64]",
+    authority: str = "",
+    kept: int = 0,
+) -> bool:
+    """Set records as `Buffer.set_records` does, if each is newer than the one before.
+
+    Args:
+        buffer: The buffer that takes them.
+        parent: See there.
+        child: Likewise.
+        records: Likewise.
+        authority: Likewise.
+        kept: Count of them, from the first on, that are known to be such, finite, and with
+            unit quaternions of tf2's sign.
+
+    Returns:
+        Whether they were taken, all of them. Nothing was done if not.
+
+    Raises:
+        TypeError: As there.
+    """
+    from tftool.buffer.batch import insert
+
+    known = len(buffer._tree.frames)
+    if buffer._listening or not insert.adopt(
+        buffer._tree, buffer.max_frames, (parent, child, authority), records, kept
+    ):
+        return False
+    buffer._solver.drop_paths()
+    named = [frame.name for frame in buffer._tree.frames[known:]]
+    buffer._tell((), False, authority, (tree.stripped(child), *named))
+    return True
+
+
+def lend(buffer: Buffer, child: str, other: Buffer, until: Stamp) -> bool:
+    """Have another buffer know what moves of one frame's link up to a stamp, uncopied.
+
+    Args:
+        buffer: The lender.
+        child: The frame.
+        other: A buffer that does not know the link yet.
+        until: The last stamp it is to know.
+
+    Returns:
+        Whether that could be; if not, nothing was done, and `samples` copies them.
+    """
+    from tftool.buffer.history import History
+
+    frame = buffer._tree.frames[buffer._tree.numbers[child]]
+    link = frame.link
+    if not isinstance(link, History) or link.parent < 0 or frame.authority is None:
+        return False
+    if not link or link.oldest_stamp > until:
+        return True
+    if link.origins is not None or link.start:
+        return False
+    parent = buffer._tree.frames[link.parent].name
+    there, history, _ = other._tree.hang(child, parent, False)
+    assert isinstance(history, History)
+    origin = other._tree.origin(parent, frame.authority)
+    link.lend(history, origin, until)
+    other._tree.note(there, parent, frame.authority, origin)
+    other._solver.drop_paths()
+    return True

@@ -13,7 +13,8 @@ from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.stamps import Stamp
 from tftool.buffer.batch.transform_array import TransformArray
-from tftool.frames.pair_samples import Trajectory, trajectory_of
+from tftool.frames.export.export import Framed, buffer_of
+from tftool.frames.pair_samples import Trajectory, sample, trajectory_of
 from tftool.frames.pair_series import (
     QUANTITIES,
     PlotPanel,
@@ -78,9 +79,11 @@ _INKS: Final = {
 
 
 def plot(
-    path: TransformArray | Trajectory | Sequence[TransformArray | Trajectory],
-    ax: "Axes | None" = None,
+    frames: "Framed | TransformArray | Trajectory | Sequence[TransformArray | Trajectory]",
+    target: str | None = None,
+    source: str | None = None,
     *,
+    ax: "Axes | None" = None,
     what: str | Sequence[str] = (),
     xy: bool = False,
     start: Stamp | None = None,
@@ -88,12 +91,15 @@ def plot(
 ) -> "Figure | Axes":
     """Draw one pair of frames over time, or several, into a figure of matplotlib.
 
+        tftool.plot(recording, "map", "base_link").savefig("path.svg")
         path = recording.buffer.lookup_transforms("map", "base_link", stamps, missing="nan")
-        tftool.plot(path).savefig("path.svg")
         tftool.plot(path, ax=axes, what="yaw")
 
     Args:
-        path: Poses, or several of them.
+        frames: What was opened, a recording, a buffer or a robot, whose pair is asked for at
+            the stamps of the fastest link between the two; or poses, or several of them.
+        target: What the poses of a pair are expressed in.
+        source: Whose poses they are.
         ax: Where to draw one panel; a new figure with all of them if None.
         what: "position", "rotation", "distance", "speed", "turn rate", or a single one such
             as "x" or "yaw"; of a new figure all if empty, of `ax` the position.
@@ -105,10 +111,11 @@ def plot(
         The new figure, or `ax`.
 
     Raises:
+        TransformException: If a frame of the pair is unknown, or it is joined at no moment.
+        TypeError: If a pair is named of poses, or none of frames.
         UsageError: If there is nothing to draw, or the extra `plot` is not installed.
     """
-    given = [path] if isinstance(path, TransformArray | Trajectory) else list(path)
-    found = [one if isinstance(one, Trajectory) else trajectory_of(one) for one in given]
+    found = _trajectories(frames, target, source)
     if not any(one.path.valid.any() for one in found):
         raise UsageError("There is no pose to draw.")
     words = [what] if isinstance(what, str) else list(what)
@@ -129,6 +136,26 @@ def plot(
     _draw_panel(ax, drawn[0], shades(found, begin), dark)
     ax.set_xlabel("time, s")
     return ax
+
+
+def _trajectories(
+    frames: "Framed | TransformArray | Trajectory | Sequence[TransformArray | Trajectory]",
+    target: str | None,
+    source: str | None,
+) -> list[Trajectory]:
+    """Look up a pair of frames, or take poses as they are."""
+    if isinstance(frames, TransformArray | Trajectory | Sequence):
+        if target is not None or source is not None:
+            raise TypeError(
+                "poses are of one pair already: plot(path), plot(path, ax=axes); frames take "
+                "one: plot(recording, 'map', 'base_link')"
+            )
+        given = [frames] if isinstance(frames, TransformArray | Trajectory) else frames
+        return [one if isinstance(one, Trajectory) else trajectory_of(one) for one in given]
+    buffer = buffer_of(frames)
+    if target is None or source is None:
+        raise TypeError("name the pair of frames: plot(recording, 'map', 'base_link')")
+    return [sample(buffer, target, source)]
 
 
 def write(

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from tftool.base.stamps import Stamp
-from tftool.buffer.buffer import Buffer
+from tftool.buffer.buffer import Buffer, lend
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 
@@ -16,7 +16,7 @@ def up_to(whole: Buffer, moment: Stamp) -> Buffer:
     found = Buffer(whole.cache_time, max_frames=max(1, len(frames)))
     for frame in frames:
         # A recording of gigabytes need not be copied for one moment.
-        if whole.lend(frame, found, moment):
+        if lend(whole, frame, found, moment):
             continue
         samples = whole.samples(frame)
         count = (

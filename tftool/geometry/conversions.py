@@ -23,41 +23,23 @@ AXES = tuple(
 )
 """Every order of Euler angles: "s" for static (fixed) or "r" for rotating axes, then the axes."""
 
-# Nearer than this to the pole, roll and yaw turn about one axis and only their sum is told.
-_POLE = 1.0 - 1e-12
-
 # A sum of parts of a unit quaternion this small is rounding; `batch` has the same.
 NOISE = 1e-13
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """The rotation that turns about fixed x, then y, then z; radians, sign as computed."""
-    sr, cr = math.sin(0.5 * roll), math.cos(0.5 * roll)
-    sp, cp = math.sin(0.5 * pitch), math.cos(0.5 * pitch)
-    sy, cy = math.sin(0.5 * yaw), math.cos(0.5 * yaw)
-    return Quaternion(
-        sr * cp * cy - cr * sp * sy,
-        cr * sp * cy + sr * cp * sy,
-        cr * cp * sy - sr * sp * cy,
-        cr * cp * cy + sr * sp * sy,
-    )
+    """Make the rotation about fixed x, then y, then z; radians, sign as computed."""
+    return Quaternion(*quaternions.from_rpy(roll, pitch, yaw))
 
 
 def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """Roll, pitch, yaw in radians, pitch within a quarter turn.
+    """Return roll, pitch, yaw in radians, pitch within a quarter turn.
 
     At the poles (pitch of a quarter turn) yaw is 0 and roll holds the whole of the turn the
     two share, so that the angles always mean the same rotation as the quaternion. NaN
     for a zero quaternion.
     """
-    m = matrix_from_quaternion(quaternion)
-    m20 = m[2][0]
-    if m20 <= -_POLE:
-        return math.atan2(m[0][1], m[0][2]), 0.5 * math.pi, 0.0
-    if m20 >= _POLE:
-        return math.atan2(-m[0][1], -m[0][2]), -0.5 * math.pi, 0.0
-    # asin of +0 is negated to -0, as tf2 prints it.
-    return math.atan2(m[2][1], m[2][2]), -math.asin(m20), math.atan2(m[1][0], m[0][0])
+    return quaternions.rpy(_quad(quaternion))
 
 
 def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
@@ -92,7 +74,7 @@ def _wrapped(angle: float) -> float:
 def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
     """The other roll, pitch, yaw of the same rotation: pitch beyond a quarter turn."""
     m = matrix_from_quaternion(quaternion)
-    if not abs(m[2][0]) < _POLE:
+    if not abs(m[2][0]) < quaternions.POLE:
         return rpy_from_quaternion(quaternion)
     return (
         math.atan2(-m[2][1], -m[2][2]),

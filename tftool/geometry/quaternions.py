@@ -18,6 +18,9 @@ Quad: TypeAlias = tuple[float, float, float, float]
 Matrix3: TypeAlias = tuple[Triple, Triple, Triple]
 """A 3×3 matrix, row by row."""
 
+POLE = 1.0 - 1e-12
+"""From this sine of the pitch on, roll and yaw turn about one axis: only their sum is known."""
+
 IDENTITY: Quad = (0.0, 0.0, 0.0, 1.0)
 
 NAN_QUAD: Quad = (math.nan, math.nan, math.nan, math.nan)
@@ -140,3 +143,28 @@ def matrix(quaternion: Quad) -> Matrix3:
         (2.0 * (xy + wz), 1.0 - 2.0 * (xx + zz), 2.0 * (yz - wx)),
         (2.0 * (xz - wy), 2.0 * (yz + wx), 1.0 - 2.0 * (xx + yy)),
     )
+
+
+def from_rpy(roll: float, pitch: float, yaw: float) -> Quad:
+    """Turn about fixed x, then y, then z; radians, sign as computed."""
+    sr, cr = math.sin(0.5 * roll), math.cos(0.5 * roll)
+    sp, cp = math.sin(0.5 * pitch), math.cos(0.5 * pitch)
+    sy, cy = math.sin(0.5 * yaw), math.cos(0.5 * yaw)
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def rpy(quaternion: Quad) -> Triple:
+    """Return roll, pitch and yaw in radians; see `conversions.rpy_from_quaternion`."""
+    m = matrix(quaternion)
+    m20 = m[2][0]
+    if m20 <= -POLE:
+        return math.atan2(m[0][1], m[0][2]), 0.5 * math.pi, 0.0
+    if m20 >= POLE:
+        return math.atan2(-m[0][1], -m[0][2]), -0.5 * math.pi, 0.0
+    # asin of +0 is negated to -0, as tf2 prints it.
+    return math.atan2(m[2][1], m[2][2]), -math.asin(m20), math.atan2(m[1][0], m[0][0])

@@ -5,6 +5,7 @@ A transform `a_from_b` is the pose of b in a, and moves points given in b into a
 """
 
 import math
+import operator
 from collections.abc import Iterable
 from typing import NamedTuple, NoReturn, TypeAlias, TypeVar
 
@@ -74,10 +75,14 @@ class Vector3(NamedTuple):
         return Vector3(self.x / divisor, self.y / divisor, self.z / divisor)
 
     def cross(self, other: "Vector3") -> "Vector3":
-        """The cross product."""
+        """Return the cross product."""
         ax, ay, az = self
         bx, by, bz = other
         return Vector3(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+
+    def norm(self) -> float:
+        """Return the length."""
+        return math.hypot(*self)
 
 
 def _three(numbers: tuple[object, ...]) -> tuple[float, float, float]:
@@ -95,6 +100,25 @@ class Quaternion(NamedTuple):
     y: float
     z: float
     w: float
+
+    @classmethod
+    def from_rpy(cls, roll: float, pitch: float, yaw: float) -> "Quaternion":
+        """Make the rotation about fixed x, then y, then z; radians."""
+        return cls(*quaternions.from_rpy(roll, pitch, yaw))
+
+    def rpy(self) -> quaternions.Triple:
+        """Return roll, pitch and yaw in radians, as `rpy_from_quaternion` does."""
+        return quaternions.rpy(self)
+
+    def __matmul__(self, other: "Quaternion") -> "Quaternion":
+        """Chain: `a_from_b @ b_from_c` is `a_from_c`; of length one."""
+        if not isinstance(other, Quaternion):
+            return NotImplemented
+        return Quaternion(*quaternions.multiply(quaternions.unit(self), quaternions.unit(other)))
+
+    def inverse(self) -> "Quaternion":
+        """Return the rotation the other way round: `b_from_a` of `a_from_b`; of length one."""
+        return Quaternion(*quaternions.conjugate(quaternions.unit(self)))
 
 
 # Named tuples, made in half the time a frozen dataclass takes; a lookup makes four.
@@ -136,8 +160,36 @@ class Transform(_Parts):
         )
 
     @classmethod
+    def from_matrix(cls, matrix: Iterable[Iterable[float]]) -> "Transform":
+        """Build a transform from a homogeneous 4×4 matrix, as `matrix` gives it.
+
+        Args:
+            matrix: Row by row, a numpy array or lists: the rotation at the upper left, the
+                translation in the last column.
+
+        Raises:
+            ValueError: If it is not 4×4, its last row is not 0 0 0 1, or its upper left is no
+                proper rotation (within 1e-6).
+        """
+        # Only this constructor needs it, and it makes the quaternions that are defined here.
+        from tftool.geometry.conversions import quaternion_from_matrix
+
+        try:
+            rows = [_floats(row, 4, "row of a 4×4 matrix") for row in matrix]
+        except TypeError as error:
+            raise ValueError(f"a transform's matrix is 4×4 numbers, not {matrix!r}") from error
+        if len(rows) != 4:
+            raise ValueError(f"a transform's matrix is 4×4, not of {len(rows)} rows")
+        if max(map(abs, map(operator.sub, rows[3], (0.0, 0.0, 0.0, 1.0)))) > 1e-6:
+            raise ValueError(
+                f"the last row of a transform's matrix is (0, 0, 0, 1), not {rows[3]}: "
+                "transpose it if its translation is in the last row"
+            )
+        return cls([row[3] for row in rows[:3]], quaternion_from_matrix(rows))
+
+    @classmethod
     def identity(cls) -> "Transform":
-        """The transform that moves nothing."""
+        """Return the transform that moves nothing."""
         return IDENTITY
 
     def __matmul__(self, other: "Transform") -> "Transform":
@@ -145,7 +197,7 @@ class Transform(_Parts):
         return compose(self, other)
 
     def inverse(self) -> "Transform":
-        """The transform the other way round: `b_from_a` of `a_from_b`."""
+        """Return the transform the other way round: `b_from_a` of `a_from_b`."""
         return invert(self)
 
     def apply(self, point: Iterable[float]) -> Vector3:

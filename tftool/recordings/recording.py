@@ -13,7 +13,7 @@ import numpy.typing as npt
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.near_names import near_names
 from tftool.base.stamps import SIMULATED_BELOW, Stamp
-from tftool.buffer.buffer import NO_LIMIT, Buffer
+from tftool.buffer.buffer import NO_LIMIT, Buffer, adopt_records
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -443,7 +443,7 @@ def _set_moving(
     records, stamps = edge.records, edge.stamps
     # Where the first one has no stamp 0 and each is newer, none has: they need not be looked at.
     later = len(edge) and stamps[0] > 0
-    if later and buffer.adopt_records(edge.parent, edge.child, records, authority, edge.kept):
+    if later and adopt_records(buffer, edge.parent, edge.child, records, authority, edge.kept):
         return
     if not stamps.all():
         text = f"'{edge.child}' moves, but has stamp 0: left out, as tf2 takes 0 for the latest"

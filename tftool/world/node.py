@@ -1,6 +1,7 @@
 """A node: one coroutine, `run`, in a world, waiting only through the world's clock."""
 
 import asyncio
+import inspect
 from collections.abc import AsyncIterator, Callable, Coroutine
 from typing import Any, ClassVar, TypeVar
 
@@ -36,13 +37,25 @@ class Node(Resident):
     """
 
     phase: ClassVar[Phase] = Phase.CONSUME
+    _is_passive: ClassVar[bool] = False
 
     def __init__(self, world: World, name: str) -> None:
         """Join `world` as `name`.
 
         Raises:
             TftoolError: If a node of that name is there.
+            TypeError: If its class has no coroutine `run`. A plain `Node` needs none: code
+                outside publishes and subscribes under its name.
         """
+        kind = type(self)
+        if kind is not Node and not self._is_passive:
+            if kind.run is Node.run:
+                raise TypeError(
+                    f"{kind.__name__} has no 'async def run(self)', so it would do nothing: "
+                    "a node that only listens writes 'pass' in it"
+                )
+            if not inspect.iscoroutinefunction(kind.run):
+                raise TypeError(f"{kind.__name__}.run must be written 'async def run(self)'")
         self.world = world
         self.name = name
         self.rank = 0

@@ -2,19 +2,21 @@
 
 import asyncio
 from collections.abc import Callable, Coroutine
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.base.errors import NodeFailed, TftoolError, line_of
-from tftool.base.stamps import Stamp
-from tftool.world.clock import Clock, Phase
+from tftool.base.stamps import Stamp, as_seconds
+from tftool.world.clock import Clock, Phase, SimClock
 from tftool.world.registry import Resident, Supervision
 from tftool.world.stopper import PATIENCE, Overdue, abandon, line_of_task, node_task_name
-from tftool.world.world import World
+
+if TYPE_CHECKING:
+    from tftool.world.world import World
 
 T = TypeVar("T")
 
 
-async def live(world: World, *, until: Stamp | None = None) -> None:
+async def live(world: "World", *, until: Stamp | None = None) -> None:
     """Let a world's nodes run until an end is reached.
 
     The end is `until` (everything due in that instant still happens), `world.stop()`,
@@ -28,9 +30,18 @@ async def live(world: World, *, until: Stamp | None = None) -> None:
     Raises:
         NodeFailed: If a node raised; the first one is named, its error is the cause.
         BrokenPipeError: If the reader of a listener's output has gone.
+        ValueError: If `until` has passed: it is a stamp, not a duration.
     """
+    clock = world.clock
+    # Real time may pass a moment between its choice and this call; that is no mistake.
+    earliest = clock.now() if isinstance(clock, SimClock) else clock.epoch
+    if until is not None and until < earliest:
+        raise ValueError(
+            f"until={until} is {as_seconds(earliest - until):g} s in the past: it is a stamp, such "
+            "as world.clock.now() + seconds(10); world.run(seconds(10)) takes a duration"
+        )
     supervisor = _Supervisor(world.clock, until is not None)
-    world.supervise(supervisor)
+    world._supervisor = supervisor
     if until is not None:
         world.clock.limit(until)
     end = None if until is None else world.clock.timer(until, Phase.END)
@@ -47,7 +58,7 @@ async def live(world: World, *, until: Stamp | None = None) -> None:
         world.failure = supervisor.failure
         # A node that starts something on its way out, or fails there, is supervised as well.
         await supervisor.cancel()
-        world.supervise(None)
+        world._supervisor = None
         world.clock.limit(None)
         world.failure = supervisor.failure
         # Asked last: a node may also fail on its way out, of a run that was cancelled, too.

@@ -9,12 +9,12 @@ from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 from tftool.base.errors import LinkError, NodeFailed, TftoolError
 from tftool.base.listeners import Listeners, listener_text
-from tftool.base.stamps import CACHE_TIME, Duration, Stamp
+from tftool.base.stamps import CACHE_TIME, Duration, Stamp, whole
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import interface_name, is_part
 from tftool.world import transform_wait as waiting
-from tftool.world.clock import Clock
+from tftool.world.clock import Clock, run
 from tftool.world.endpoints import (
     PUBLISHER,
     SUBSCRIPTION,
@@ -27,6 +27,7 @@ from tftool.world.endpoints import (
 from tftool.world.log import Log, Repeats
 from tftool.world.memory_limit import MemoryBound, allowed
 from tftool.world.registry import NamedOffers, Offer, Resident, Supervision
+from tftool.world.supervisor import live
 from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic
 
 T = TypeVar("T")
@@ -581,6 +582,27 @@ class World:
                 return node
         raise TftoolError(f"no node is named '{name}'")
 
+    def run(self, duration: Duration | None = None) -> None:
+        """Let the nodes run for a while from now on, outside any event loop.
+
+        `world.run(seconds(10))` is `run(clock, live(world, until=clock.now() + seconds(10)))`.
+
+        Args:
+            duration: Nanoseconds of the world's clock; until `stop`, or the return of the last
+                node, if None.
+
+        Raises:
+            NodeFailed: If a node raised; see `live`.
+            TypeError: If the duration is not a whole number.
+            ValueError: If it is negative.
+        """
+        until = None
+        if duration is not None:
+            if whole(duration) < 0:
+                raise ValueError(f"a world cannot run for a negative duration: {duration} ns")
+            until = self.clock.now() + whole(duration)
+        run(self.clock, live(self, until=until))
+
     def stop(self) -> None:
         """End the run: `live` returns as soon as the current step is over."""
         if self._supervisor is not None:
@@ -623,10 +645,6 @@ class World:
                     self.log.error(owner or "world", text)
             finally:
                 self._is_reporting = False
-
-    def supervise(self, supervision: Supervision | None) -> None:
-        """Name who starts and stops nodes from now on (the supervisor's own call)."""
-        self._supervisor = supervision
 
     def _log_buffer(self, level: str, text: str) -> None:
         # A node whose samples are refused usually sends them at a high rate, and one that sends

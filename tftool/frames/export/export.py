@@ -1,10 +1,11 @@
 """Export of frames to files of other tools: the format a name asks for, and its content."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, ParamSpec, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -60,12 +61,31 @@ def buffer_of(frames: Framed) -> Buffer:
     return held if isinstance(held, Buffer) else held()
 
 
+P = ParamSpec("P")
+
+
+def _named_path(function: "Callable[P, Exported]") -> "Callable[P, Exported]":
+    """Answer a call in another order of arguments by the right one."""
+
+    @wraps(function)
+    def checked(*given: P.args, **named: P.kwargs) -> Exported:
+        if "path" not in named or len(given) > 3 or {"target_frame", "source_frame"} & named.keys():
+            raise TypeError(
+                "export takes frames, target, source, and the path by its name: "
+                "export(recording, 'map', 'base_link', path='run.tum')"
+            )
+        return function(*given, **named)
+
+    return checked
+
+
+@_named_path
 def export(
     frames: Framed,
-    path: "str | os.PathLike[str]",
-    target_frame: str | None = None,
-    source_frame: str | None = None,
+    target: str | None = None,
+    source: str | None = None,
     *,
+    path: "str | os.PathLike[str]",
     pairs: Sequence[tuple[str, str]] = (),
     format: str | None = None,
     start: Stamp | None = None,
@@ -83,18 +103,18 @@ def export(
 ) -> Exported:
     """Write where one frame is in another over time, or the links between frames.
 
-        tftool.export(recording, "run.tum", "map", "base_link")
-        tftool.export(recording, "robot.urdf")
+        tftool.export(recording, "map", "base_link", path="run.tum")
+        tftool.export(recording, path="robot.urdf")
 
     The file is whole, or not there. Moments at which a lookup refuses are left out, and told
     in the result.
 
     Args:
         frames: Opened frames, a recording, a buffer, or a robot description.
+        target: What poses are expressed in; None to write links.
+        source: Whose poses they are.
         path: Where to; its end says what: .tum .kitti .csv .npz .parquet of pairs,
             .urdf .launch.py .launch.xml .launch.yaml .sh .mcap of links.
-        target_frame: What poses are expressed in; None to write links.
-        source_frame: Whose poses they are.
         pairs: Several of (target, source), in CSV, npz and Parquet.
         format: What to write whatever the name ends in: "euroc", or another of `Format`.
         start: Leave out everything before, nanoseconds.
@@ -113,16 +133,16 @@ def export(
     Raises:
         InputError: If it cannot be written.
         TransformException: If a frame is unknown, or a pair is joined at no moment.
-        TypeError: If there are no frames to write.
+        TypeError: If there are no frames to write, or `path` is not named.
         UsageError: If the options contradict each other, or an extra is missing.
     """
     place = Path(path)
     form = _named(format) if format is not None else format_of(place)
     asked = list(pairs)
-    if (target_frame is None) != (source_frame is None):
+    if (target is None) != (source is None):
         raise UsageError("A pair is two frames: name the target and the source.")
-    if target_frame is not None and source_frame is not None:
-        asked.insert(0, (target_frame, source_frame))
+    if target is not None and source is not None:
+        asked.insert(0, (target, source))
     refuse_input(frames, place)
     moments = Moments(start, end, period, None if stamps is None else _stamps(stamps))
     style = Style(decimals, rpy, foxglove, with_moving, root, time)

@@ -44,6 +44,8 @@ _living: "set[Program]" = set()
 class ProgramNode(Node):
     """A node that a program made: a name, and whatever it subscribes to and serves."""
 
+    _is_passive: ClassVar[bool] = True
+
     def __init__(self, program: "Program", name: str) -> None:
         self.program = program
         super().__init__(program.world, name)
