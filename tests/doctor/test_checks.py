@@ -109,6 +109,7 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
     conflict = found(made, "publisher-conflict")
     assert conflict.facts["apart"] == pytest.approx(0.04)
     assert conflict.confidence is Confidence.LIKELY
+    assert conflict.evidence[0].startswith("A and B: 10 stamps carry two values")
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])
@@ -194,7 +195,17 @@ def test_what_could_move_and_rests_is_no_constant():
     ]
     # Above all that moves.
     lowest = long_drive("dock", parent="hall")
-    for made in (wheels, named, states, together, lowest):
+    # Beside the fixed joints of a robot description, one of which is mounted on it.
+    arm = long_drive("arm")
+    arm.static("base_link", "imu")
+    arm.static("arm", "gripper")
+    place = arm.records["base_link", "imu", True][0][2]
+    arm.records["arm", "gripper", True] = [(seconds(START), stands(0.0), place)]
+    # Long before the end.
+    brief = robot(odometry=False, scans=False)
+    brief.moving("odom", "base_link", hz=10, end=61.0)
+    brief.moving("base_link", "gps_link", hz=10, pose=stands, end=50.0)
+    for made in (wheels, named, states, together, lowest, arm, brief):
         assert "static-on-tf" not in ids(made, notes=True)
 
 
@@ -362,7 +373,9 @@ def test_a_jump_of_odometry_and_none_of_a_localiser():
     spins.moving(
         "odom", "base_link", pose=lambda t: (0.5 * t, 0.0, 0.0, *turned(2.0 if t > 5 else 0.0))
     )
-    assert found(spins, "teleport").facts["turn"] == pytest.approx(2.0)
+    finding = found(spins, "teleport")
+    assert finding.facts["turn"] == pytest.approx(2.0)
+    assert "jumps 115° within 20 ms" in finding.message
 
     localised = robot()
     localised.moving("map", "odom", hz=20, pose=jumps)

@@ -192,6 +192,26 @@ def test_dating_ahead_by_a_period_or_of_a_constant_is_by_design():
     assert found(made, "future-stamp").edges == (("base_link", "neck"),)
 
 
+def test_a_slow_simulation_without_a_clock_is_not_late():
+    """A simulation that takes three seconds for one of its own: nothing is known of its clock."""
+    made = robot(start=12.0, log_from=START)
+    made.messages = [(seconds(START) + 3 * (log - seconds(START)), n) for log, n in made.messages]
+    made.heard = {
+        topic: (kind, [(s, seconds(START) + 3 * (log - seconds(START)), f) for s, log, f in rows])
+        for topic, (kind, rows) in made.heard.items()
+    }
+    assert ids(made, notes=True) == []
+
+
+def test_two_sensors_of_one_clock_are_one_finding():
+    made = robot()
+    for topic in ("/imu", "/magnet"):
+        made.hears(topic, "laser", 50.0, "sensor_msgs/Imu", latency=-0.4)
+    (finding,) = (one for one in made.judged().findings if one.id == "clock-offset")
+    assert finding.topics == ("/imu", "/magnet")
+    assert finding.message == "/imu, /magnet are 400 ms off the other clocks"
+
+
 def test_a_scan_that_arrives_one_scan_later_is_on_time():
     made = robot(scans=False)
     made.hears("/scan", "laser", 6.5, latency=0.152)

@@ -122,6 +122,21 @@ def test_odometry_that_comes_too_late_for_the_laser():
     assert any("no rate is enough" in fix.text for fix in finding.fixes)
 
 
+def test_a_rate_that_a_link_has_already_is_no_cure():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=10, latency=0.0)
+    made.hears("/scan", "laser", hz=5, begin=0.01, latency=0.001)
+    finding = found(made, "sensor-outruns-tf")
+    assert not any("Hz" in fix.text for fix in finding.fixes)
+    assert "arrives before the transforms" in finding.message
+    slow = robot(odometry=False, scans=False)
+    slow.moving("odom", "base_link", hz=1, latency=-0.02)
+    slow.hears("/scan", "laser", hz=5, begin=0.01, latency=0.001)
+    finding = found(slow, "sensor-outruns-tf")
+    assert any("publish base_link in odom at" in fix.text for fix in finding.fixes)
+    assert "20 ms before its stamp" in finding.evidence[0]
+
+
 def test_a_healthy_laser_may_wait_a_little():
     made = robot()
     made.hears("/imu", "laser", hz=100, kind="sensor_msgs/Imu", latency=0.002)

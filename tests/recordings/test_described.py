@@ -140,6 +140,19 @@ def test_a_broken_description_inside_is_told_and_nothing_is_lost(recorded):
         assert any("'/robot_description' cannot be read" in text for text in recording.oddities)
 
 
+def test_a_placeholder_and_a_broken_one_do_not_hide_the_description_after_them(recorded):
+    placeholder = Sent(START, "/robot_description", text='<robot name=""><link name=""/></robot>')
+    broken = Sent(START + 1, "/robot_description", text="<robot>")
+    later = Sent(START + 2, "/robot_description", text=TEXT)
+    with recorded([placeholder, broken, later]) as recording:
+        assert recording.robot is not None
+        assert "boom" in recording.robot.links
+    with recorded([placeholder, Sent(START + 9, "/tf", ((START, "a", "b", HOOK),))]) as recording:
+        assert recording.robot is None
+        assert not any("robot_description" in text for text in recording.oddities)
+        assert "urdf-invalid" not in [one.id for one in tftool.diagnose(recording)]
+
+
 def test_a_description_can_be_given_from_outside(recorded, tmp_path):
     path = tmp_path / "crane.urdf"
     path.write_text(TEXT)

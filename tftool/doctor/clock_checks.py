@@ -15,6 +15,9 @@ from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.CLOCKS)
 
+_ONE_CLOCK = seconds(0.05)
+"""Within what two offsets are those of one clock."""
+
 CONSTANTS_AHEAD = seconds(1)
 """How far ahead ROS 1 may date what never moves; its robot_state_publisher does so by 0.5 s."""
 
@@ -346,7 +349,7 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 )
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
     """A sensor's messages come from the future: two clocks."""
-    found = False
+    alike: dict[int, list[Heard]] = defaultdict(list)
     for heard in model.heard:
         if len(heard.stamps) < 3 or not heard.is_spatial:
             continue
@@ -359,23 +362,27 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
         # In a shifted recording a clock that is right is off all others.
         is_off = model.shift is not None and 2 * abs(ahead) > abs(model.shift.by)
         if ahead > allowed or is_off:
-            found = True
-            yield Hit(
-                topics=(heard.topic,),
-                frames=(heard.frame,),
-                since=int(heard.logs[0]),
-                count=len(heard.stamps),
-                facts={
-                    "topic": heard.topic,
-                    "ahead": ahead,
-                    "groups": _offsets(model),
-                    "found": f"is {span(abs(ahead))} off the other clocks",
-                    "so": "each lookup at its stamps asks for what is not there"
-                    + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
-                },
-                alone=True,
-            )
-    if not found:
+            same = next((one for one in alike if abs(one - ahead) < _ONE_CLOCK), ahead)
+            alike[same].append(heard)
+    for ahead, heards in alike.items():
+        topics = tuple(dict.fromkeys(heard.topic for heard in heards))
+        yield Hit(
+            topics=topics,
+            frames=tuple(dict.fromkeys(heard.frame for heard in heards)),
+            since=min(int(heard.logs[0]) for heard in heards),
+            count=sum(len(heard.stamps) for heard in heards),
+            facts={
+                "topic": several(topics),
+                "ahead": ahead,
+                "groups": _offsets(model),
+                "found": f"{'is' if len(topics) == 1 else 'are'} {span(abs(ahead))} off the other "
+                "clocks",
+                "so": "each lookup at these stamps asks for what is not there"
+                + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
+            },
+            alone=True,
+        )
+    if not alike:
         yield from _groups_apart(model, limits)
 
 
@@ -522,7 +529,13 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     detail="{edge}: {count} of {of} samples repeat a stamp",
     consequence="ROS 1 prints TF_REPEATED_DATA for each; ROS 2 ignores equal ones and lets the "
     "later of different ones win",
-    fixes=(Fix("send a transform only when its stamp is newer than the last one's"),),
+    fixes=(
+        Fix("send a transform only when its stamp is newer than the last one's"),
+        Fix(
+            "where two nodes send it (a simulator's wheels and robot_state_publisher), switch one "
+            "off: `ros2 topic info /tf --verbose` lists them"
+        ),
+    ),
     causes=(
         "a filter publishes faster than its data",
         "the same pose is sent once per sensor",
@@ -664,7 +677,8 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
     rule="more than {samples:g} samples, and a share above {share:g}, are older than one before",
     headline="{where} {concerned:comes|come} out of order",
     detail="{edge}: {count} of {of} samples",
-    consequence="harmless to tf2; hints at threads, or at a second publisher",
+    consequence="harmless to tf2; hints at threads, a second publisher, a lossy network, or a "
+    "message filter that released many scans at once",
     limits={"samples": 2, "share": 0.01},
     because_of=(
         ("anything", "time-jump-back"),

@@ -13,7 +13,7 @@ from tftool.doctor.check import checks_of, threads
 from tftool.doctor.findings import STOPPED_AFTER, STOPPED_PERIODS, Area, Fix, Hit, Severity
 from tftool.doctor.model import WARM_UP, Limits, Model
 from tftool.doctor.stamp_stream import NEVER, Heard, Track, last_part, rate
-from tftool.doctor.wording import several
+from tftool.doctor.wording import arrival, several
 from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.COVERAGE)
@@ -448,8 +448,8 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     "messages or more",
     headline="{topic} arrives before the transforms it needs",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
-    "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, every "
-    "{period:span}, {latency:span} after its stamp",
+    "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
+    "{period:span}, {arrives}",
     consequence='"extrapolation into the future", or a message filter that drops messages because '
     "its queue is full",
     causes=(
@@ -522,6 +522,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
                 "link": link.name,
                 "period": link.period,
                 "latency": link.median_latency,
+                "arrives": arrival(link.median_latency),
                 "path": [list(track.edge) for track in waits.links],
             },
             fixes=_cures(heard, waits, limits["seconds"]),
@@ -536,6 +537,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
         return ()
     p95 = math.ceil(waits.serves(95) / 1e6)
     later = waits.link.median_latency - heard.median_latency
+    often = least_rate(waits.link.name, waits.link.period, later, wait)
     depth = max(1, math.ceil(worst / NANOSECONDS * rate(heard)))
     ahead = Fix(
         f"or date {waits.link.name} {math.ceil(worst / 1e6)} ms further ahead (transform_tolerance)"
@@ -545,9 +547,9 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
             f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms serves all that are ever "
             f"served ({p95} ms serve 95 %)"
         ),
-        Fix(least_rate(later, wait)),
+        *((Fix(f"or {often}") if later < wait * NANOSECONDS else Fix(often),) if often else ()),
         *((ahead,) if waits.link.is_localisation else ()),
-        Fix(f"let the queue of the message filter hold {depth} messages"),
+        Fix(f"let the queue of the message filter hold {depth} message{'s' * (depth > 1)}"),
     )
 
 
@@ -556,8 +558,15 @@ def rounded_up(nanoseconds: int) -> int:
     return math.ceil(nanoseconds / 10_000_000) * 10_000_000
 
 
-def least_rate(later: int, wait: float) -> str:
-    """What rate lets a link keep up, where it arrives `later` nanoseconds after the sensor's."""
+def least_rate(link: str, period: int, later: int, wait: float) -> str:
+    """Say what rate lets a link keep up; nothing where it comes that often already.
+
+    Args:
+        link: The link that holds up a lookup.
+        period: How often it comes, nanoseconds; 0 where that is not known.
+        later: How much longer after its stamp it arrives than the message, nanoseconds.
+        wait: How long the consumer waits, seconds.
+    """
     left = wait - later / NANOSECONDS
     told = f"a {wait * 1e3:g} ms wait"
     if left <= 0:
@@ -565,7 +574,11 @@ def least_rate(later: int, wait: float) -> str:
             f"no rate is enough for {told}: each transform arrives {later / 1e6:.0f} ms later "
             "after its stamp than the message"
         )
-    return f"or publish it at {math.ceil(10 / left) / 10:g} Hz or more, enough for {told}"
+    needed = math.ceil(10 / left) / 10
+    # A few percent more often change nothing.
+    if 0 < needed * period < 1.2 * NANOSECONDS:
+        return ""
+    return f"publish {link} at {needed:g} Hz or more, enough for {told}"
 
 
 @check(

@@ -117,11 +117,13 @@ def _recorded_description(source: Source) -> Described:
     for topic in description_topics(source.topics):
         namespace = topic.name.rpartition("/")[0]
         try:
-            return Described(read_description(source, topic), namespace=namespace)
+            robot = read_description(source, topic)
         except DescriptionError as error:
             return Described(mistakes=_mistakes(error), namespace=namespace)
         except InputError as error:
             return Described(mistakes=(str(error),), namespace=namespace)
+        if robot is not None:
+            return Described(robot, namespace=namespace)
     return Described()
 
 

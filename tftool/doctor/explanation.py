@@ -367,12 +367,12 @@ def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     elif cause is Cause.LATE:
         later = link.latency - (heard.median_latency if heard is not None else 0)
         left = USUAL_WAIT - later / NANOSECONDS
-        # A link at a sufficient rate need not come more often.
-        if not 0 < link.period <= left * NANOSECONDS:
+        often = least_rate(link.name, link.period, later, USUAL_WAIT)
+        if often:
             remedies.append(
                 Remedy(
                     "rate",
-                    least_rate(later, USUAL_WAIT),
+                    f"or {often}" if left > 0 else often,
                     least=None if left <= 0 else round(left * NANOSECONDS),
                     possible=left > 0,
                 )

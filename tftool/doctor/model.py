@@ -24,6 +24,9 @@ Limits = Mapping[str, float]
 """The thresholds of one check, by name."""
 
 
+_DRIFT = seconds(0.5)
+"""How far a simulation without `/clock` falls behind the wall clock before its rate counts."""
+
 LAP = seconds(1)
 """How far a stream's stamps step back where a lap begins, and within which time all do."""
 
@@ -307,7 +310,8 @@ class Model:
             return stamp if self.shift is None else stamp + self.shift.by
         if len(read):
             return int(through_clock(np.array([stamp]), received, read)[0])
-        return stamp + self._offset
+        read, received = self._clock
+        return int(through_clock(np.array([stamp]), received, read)[0])
 
     def _streams(self) -> list[Stream]:
         """Return the streams that may step back: neither statics nor single samples."""
@@ -357,7 +361,6 @@ class Model:
         streams: list[Stream] = [*self.tracks, *self.nameless, *self.heard]
         simulated = [one for one in streams if one.families[0]]
         read, received = self.evidence.clock
-        self._offset = 0
         for stream in streams:
             stream.arrivals = stream.logs
         if self.evidence.timed:
@@ -365,7 +368,7 @@ class Model:
         if not simulated or self.evidence.end < SIMULATED_BELOW:
             return  # log times are on the clock of the stamps already
         if not len(read):
-            self._offset = self._freshest()
+            read, received = self._clock
             self.reference = (
                 "stamps are a simulation's and there is no /clock: the freshest stream counts "
                 "as not late at all, and only differences are true"
@@ -374,7 +377,7 @@ class Model:
             logs = stream.logs
             if not stream.families[0]:
                 continue
-            on_clock = through_clock(logs, read, received) if len(read) else logs - self._offset
+            on_clock = through_clock(logs, read, received)
             is_sim = stream.stamps < SIMULATED_BELOW
             stream.arrivals = np.where(is_sim, on_clock, stream.arrivals)
 
@@ -404,15 +407,32 @@ class Model:
             is_wall = stream.stamps >= SIMULATED_BELOW
             stream.arrivals = np.where(is_wall, stream.logs - by, stream.logs)
 
-    def _freshest(self) -> int:
-        offsets = []
+    @cached_property
+    def _clock(self) -> tuple[Stamps, Stamps]:
+        """Readings of a simulation's clock and their log times; without `/clock`, of the streams."""
+        kept: list[tuple[Stamps, Stamps]] = []
+        offset, steady = 0, True
         for stream in self._streams():
             if isinstance(stream, Track) and stream.is_localisation:
                 continue
             mask = (stream.stamps < SIMULATED_BELOW) & (stream.stamps != 0)
-            if mask.any():
-                offsets.append(int(np.median(stream.logs[mask] - stream.stamps[mask])))
-        return min(offsets, default=0)
+            if not mask.any():
+                continue
+            stamps, logs = stream.stamps[mask], stream.logs[mask]
+            delays = logs - stamps
+            least = int(np.median(delays))
+            if not kept or least < offset:
+                offset = least
+                early, late = np.median(delays[: len(delays) // 2 + 1]), np.median(delays[-9:])
+                steady = abs(late - early) < _DRIFT
+            near = abs(delays - least) < WILD
+            kept.append((stamps[near], logs[near]))
+        if steady or not any(len(stamps) for stamps, _ in kept):
+            return np.array([0], np.int64), np.array([offset], np.int64)
+        # It does not run at the rate of the wall clock: it is at least where the newest stamp is.
+        stamps, logs = (np.concatenate(columns) for columns in zip(*kept, strict=True))
+        order = np.argsort(logs, kind="stable")
+        return np.maximum.accumulate(stamps[order]), logs[order]
 
 
 def _is_nameless(track: Track) -> bool:

@@ -1,7 +1,7 @@
 """Checks of who publishes what: two opinions of one frame, statics that move."""
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -14,6 +14,7 @@ from tftool.doctor.missing_joins import quoted
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.motion_errors import RADIAN, motion_errors
 from tftool.doctor.stamp_stream import JOINT_STATES, Places, Track, family, last_part, rate
+from tftool.doctor.wording import span
 from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid_arrays import Floats, unit
 
@@ -97,8 +98,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     "{changes:g} times or more, and motion at constant velocity explains all of them together "
     "{worse:g} times worse than each track alone",
     headline="{edge} is published by {first} and {second} with different values{seen}",
-    detail="{first} and {second}: {rates[0]:.3g} and {rates[1]:.3g} Hz, latencies "
-    "{latencies[0]:span} and {latencies[1]:span}, {apart:m} and {turned:deg} apart (median), "
+    detail="{first} and {second}: {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
     consequence="{child} jumps to and fro in {parent}, and everything below it",
     causes=(
@@ -201,7 +201,8 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     if np.count_nonzero(differ) < max(limits["samples"], 1):
         return None
     owned = (mine[differ], theirs[differ])
-    return _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
+    hit = _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
+    return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
 
 
 def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
@@ -307,8 +308,8 @@ def _conflict(
     rates, late = [], []
     for places in (owned[0], np.unique(owned[1])):
         stamps = track.stamps[places]
-        span = int(stamps[-1] - stamps[0])
-        rates.append((len(stamps) - 1) * NANOSECONDS / span if span else 0.0)
+        lasts = int(stamps[-1] - stamps[0])
+        rates.append((len(stamps) - 1) * NANOSECONDS / lasts if lasts else 0.0)
         late.append(int(np.median(track.latency[places])))
     known = confidence is Confidence.CERTAIN
     apart, turned = track.apart(*owned), track.turned(*owned)
@@ -329,6 +330,8 @@ def _conflict(
             "second": names[1],
             "rates": rates,
             "latencies": late,
+            "told": f"{rates[0]:.3g} and {rates[1]:.3g} Hz, latencies {span(late[0])} and "
+            f"{span(late[1])}",
             "apart": float(np.median(apart)),
             "turned": float(np.median(turned)),
             "worst": float(np.max(apart)),
@@ -475,10 +478,10 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
 @check(
     "static-on-tf",
     Severity.NOTE,
-    rule="{samples:g} samples or more on a dynamic topic are all equal, in a recording of "
-    "{seconds:g} s or more in which what carries them moves; not where joint states, the robot "
-    "description, odometry, another edge of the same messages or a moving frame of like name "
-    "say that it could move",
+    rule="{samples:g} samples or more on a dynamic topic, over {seconds:g} s or more, are all "
+    "equal while what carries them moves; not where joint states, the robot description, "
+    "odometry, another edge of the same messages, a moving frame of like name, or a mount on it "
+    "among the robot's fixed joints say that it could move",
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
     consequence="if it is a mount, lookups through it wait for its next sample, up to its period, "
@@ -500,13 +503,16 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     """A constant on /tf that could be static."""
     moving = [track for track in model.dynamic if track.moves]
-    if not moving or model.end - model.start < limits["seconds"] * NANOSECONDS:
+    if not moving:
         return
     carried = _by_child(model.dynamic)
     families = {family(track.child) for track in moving}
-    shared = np.unique(np.concatenate([track.messages for track in moving]))
+    may_move = [*moving, *_joints_by_statics(model)]
+    shared = np.unique(np.concatenate([track.messages for track in may_move]))
     for track in model.dynamic:
         if track.is_localisation or track.moves or len(track.by_stamp) < max(limits["samples"], 1):
+            continue
+        if track.sorted_stamps[-1] - track.sorted_stamps[0] < limits["seconds"] * NANOSECONDS:
             continue
         if track.child in carried or family(track.child) in families:
             continue  # it changes its parent, or its like moves
@@ -544,6 +550,20 @@ def _could_move(model: Model, track: Track) -> bool:
         for headers in model.evidence.headers.values()
         if headers.type == JOINT_STATES
     )
+
+
+def _joints_by_statics(model: Model) -> list[Track]:
+    """The dynamic edges that carry a mount of the message in which all fixed joints are sent.
+
+    robot_state_publisher sends all fixed joints in one message, and on /tf what can move.
+    """
+    counts = Counter(number for one in model.statics for number in one.messages.tolist())
+    carriers = {
+        one.parent
+        for one in model.statics
+        if any(counts[number] > 1 for number in one.messages.tolist())
+    }
+    return [track for track in model.dynamic if track.child in carriers]
 
 
 @check(

@@ -231,8 +231,11 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
 )
 def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     """A transform or a message without a frame name."""
+    kinds = {topic.name: last_part(topic.type) for topic in model.evidence.topics}
     for track in model.nameless:
         if not track.parent or not track.child:
+            # A single TransformStamped is a message like others: tf2 does not listen to it.
+            is_tf = any(kinds.get(topic) != "TransformStamped" for topic in track.topics)
             which = "parent" if not track.parent else "child"
             yield Hit(
                 edges=(track.edge,),
@@ -240,7 +243,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
                 publishers=track.nodes,
                 since=int(track.logs[0]),
                 count=len(track.stamps),
-                severity=Severity.ERROR,
+                severity=Severity.ERROR if is_tf else Severity.WARNING,
                 facts={
                     "what": f"a transform on {', '.join(track.topics)}",
                     "detail": f"its {which} is empty; the other is {track.parent or track.child!r}",

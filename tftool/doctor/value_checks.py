@@ -125,7 +125,7 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="a step above {metres:g} m faster than {speed:g} m/s (or above {radians:g} rad "
     "faster than {turning:g} rad/s) and than {times:g} times the 95 % speed, in a "
     "share of {share:g} of the steps or {few:g} of them; of {samples:g} samples or more",
-    headline="{where} {concerned:jumps|jump} {jump:m} within {within:span}",
+    headline="{where} {concerned:jumps|jump} {far} within {within:span}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}; usual {usual:.2g} m/s",
     consequence="what is placed before and after does not fit{also}",
     fixes=(
@@ -192,6 +192,9 @@ def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
                 "edge": track.name,
                 "jump": float(apart[worst]),
                 "turn": float(turned[worst]),
+                "far": metres(float(apart[worst]))
+                if moved[worst]
+                else f"{np.degrees(turned[worst]):.3g}°",
                 "within": int(gaps[worst] * NANOSECONDS),
                 "at": int(track.stamps[others[worst]]),
                 "usual": float(np.median(apart / gaps)),

@@ -18,6 +18,8 @@ def span(nanoseconds: float) -> str:
     size = abs(seconds)
     if size >= 3.16e7:
         return f"{seconds / 31_556_952:.3g} years"
+    if size >= 864_000:
+        return f"{seconds / 86_400:.3g} days"
     if size >= 7200:
         return f"{seconds / 3600:.3g} hours"
     if size >= 120:
@@ -29,6 +31,13 @@ def span(nanoseconds: float) -> str:
     if size >= 1e-4:
         return f"{seconds * 1e3:.3g} ms"
     return f"{seconds * 1e6:.3g} µs" if nanoseconds else "0 ms"
+
+
+def arrival(latency: float) -> str:
+    """Write how long after its stamp a thing arrives, or before: "20 ms after its stamp"."""
+    if abs(latency) < 1e5:
+        return "as soon as it is stamped"
+    return f"{span(abs(latency))} {'after' if latency > 0 else 'before'} its stamp"
 
 
 def moment(stamp: int) -> str:

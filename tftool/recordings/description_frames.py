@@ -4,9 +4,10 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from itertools import islice
 from typing import Final
 
-from tftool.base.errors import InputError
+from tftool.base.errors import DescriptionError, InputError
 from tftool.buffer.buffer import Buffer
 from tftool.messages.classes import INTERFACES
 from tftool.messages.codec import Codec
@@ -19,6 +20,8 @@ from tftool.robots.urdf import LARGEST, parse_description
 
 STRING: Final = "std_msgs/String"
 DESCRIPTION: Final = "robot_description"
+_PLACEHOLDER: Final = re.compile(r'<robot name=""><link name=""\s*/></robot>')
+_MOST_DESCRIPTIONS: Final = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,20 +53,34 @@ def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
     ]
 
 
-def read_description(source: Source, topic: RecordedTopic) -> Robot:
-    """The description on a topic, the first one if there are several.
+def read_description(source: Source, topic: RecordedTopic) -> Robot | None:
+    """The description on a topic: the first without mistakes, if there are several.
+
+    Returns:
+        The robot; None where there are placeholders alone, as a simulator's driver sends for robots
+        that it knows itself.
 
     Raises:
         InputError: If it is no text.
-        DescriptionError: If it has mistakes.
+        DescriptionError: If all have mistakes; those of the first.
     """
-    # It is latched and comes first: the rest of a long recording need not be read for it.
-    message = next(iter(source.messages([topic.name])), None)
-    if message is None or len(message.payload) > LARGEST:
-        raise InputError(f"'{topic.name}' holds no description that can be read")
     kind = INTERFACES.message("std_msgs/msg/String")
-    text = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR).decode(message.payload).data
-    return Robot(parse_description(text, f"{source.name}:{topic.name}"))
+    codec = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR)
+    first: DescriptionError | None = None
+    # It is latched and comes first: the rest of a long recording need not be read for it.
+    for message in islice(source.messages([topic.name]), _MOST_DESCRIPTIONS):
+        if len(message.payload) > LARGEST:
+            raise InputError(f"'{topic.name}' holds no description that can be read")
+        text = codec.decode(message.payload).data
+        if _PLACEHOLDER.fullmatch(text.strip()):
+            continue
+        try:
+            return Robot(parse_description(text, f"{source.name}:{topic.name}"))
+        except DescriptionError as error:
+            first = first or error
+    if first is not None:
+        raise first
+    return None
 
 
 def prefix_of(robot: Robot, frames: Collection[str]) -> str:
