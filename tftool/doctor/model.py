@@ -409,7 +409,7 @@ class Model:
 
     @cached_property
     def _clock(self) -> tuple[Stamps, Stamps]:
-        """Readings of a simulation's clock and their log times, guessed where there is no `/clock`."""
+        """Readings of a simulation's clock and their log times; guessed without `/clock`."""
         kept: list[tuple[Stamps, Stamps]] = []
         offset, steady = 0, True
         for stream in self._streams():
