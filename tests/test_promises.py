@@ -10,6 +10,7 @@ from typing import get_args
 import pytest
 
 import tftool
+from tests import typed_program
 from tftool.opener import open_frames
 
 # What whoever builds on tftool may rely on. Adding a name is a promise, taking one away breaks it.
@@ -97,6 +98,24 @@ def test_open_is_reached_by_its_full_name_and_leaves_pythons_own_to_others():
     assert names.get("open", open) is open
 
 
+@pytest.mark.parametrize("name", [*PROMISED, "open"])
+def test_every_promised_name_is_in_the_help_and_on_its_page(name):
+    page = Path(tftool.__file__).parents[1] / "docs" / "reference" / "python.md"
+
+    assert re.search(rf"^    {name} +\S", tftool.__doc__, re.MULTILINE)
+    assert f"tftool.{name}" in page.read_text(encoding="utf-8")
+
+
+def test_a_users_typed_program_runs(tmp_path):
+    """The project's type check holds it to mypy --strict."""
+    found = typed_program.main(tmp_path)
+
+    assert found["farthest"] == pytest.approx(2.0)
+    assert found["count"] == 40
+    assert found["refused"] == 1.0
+    assert found["error"] == pytest.approx(0.0, abs=1e-12)
+
+
 def test_another_name_is_refused_as_python_does():
     with pytest.raises(AttributeError, match="no attribute 'Bufer'"):
         _ = tftool.Bufer
@@ -108,7 +127,8 @@ def test_type_checkers_find_every_promised_name(name):
     known = set()
     for statement in ast.parse(Path(tftool.__file__).read_text(encoding="utf-8")).body:
         if isinstance(statement, ast.If) and ast.unparse(statement.test) == "TYPE_CHECKING":
-            known |= {alias.name for one in statement.body for alias in one.names}
+            imported = [one for one in statement.body if isinstance(one, ast.ImportFrom)]
+            known |= {alias.name for one in imported for alias in one.names}
 
     assert name in known
 

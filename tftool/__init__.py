@@ -1,4 +1,82 @@
-"""TF2 without ROS: coordinate frames over time, and the turtles to learn them with."""
+"""TF2 without ROS: coordinate frames over time, and the turtles to learn them with.
+
+Frames:
+
+    open                            frames of a recording, description, scenario or running session
+    Frames                          what it returns: a buffer, its span and its origin
+    Buffer                          tf2's buffer: transforms by their stamps, and lookups
+    TransformStamped                a transform with its stamp and the names of its frames
+    Transform                       rotation and translation: apply, inverse, @, from_matrix
+    Quaternion                      a rotation: from_rpy, rpy, inverse, @
+    Vector3                         three numbers: norm, dot, cross
+    TransformArray                  many transforms of one pair, as numpy arrays
+    Snapshot                        the tree of frames at a moment
+    FrameInfo                       one frame of it
+
+Stamps and rotations:
+
+    seconds                         nanoseconds of so many seconds
+    as_seconds                      seconds of so many nanoseconds
+    LATEST                          the stamp that asks for the latest common time
+    quaternion_from_rpy             a rotation from roll, pitch and yaw
+    rpy_from_quaternion             roll, pitch and yaw of a rotation
+
+Recordings and robots:
+
+    open_recording                  read an MCAP, rosbag2, ROS 1 bag or pose file
+    Recording                       its frames, streams and span
+    write_recording                 write one
+    RecordingWriter                 the value that writes it
+    load_urdf                       read a URDF or xacro
+    Robot                           its links and joints
+    JointStates                     the values of its joints over time
+    export                          write a pair of frames, or links, to files of other tools
+    Exported                        the files that it wrote
+    plot                            draw a pair of frames over time, or poses
+    view                            show frames in 3-D in the browser
+    PageView                        the page, to show and to save
+
+Questions:
+
+    diagnose                        findings of the doctor
+    Finding                         one of them: causes, evidence, remedies
+    explain                         say why a lookup fails, link by link
+    Explanation                     the answer
+    diff                            differences between two sources of frames
+    Differences                     the links that differ, and by how much
+    calibrate                       the mount and the clock offset from two motions of one body
+    Calibration                     the mount with its intervals
+    clock_offset                    the offset between the clocks of two motions
+    ClockOffset                     the offset with its interval
+    CalibrationRefused              raised where the motion does not tell
+
+Nodes and clocks:
+
+    World                           nodes around one buffer and one clock
+    Node                            a coroutine that publishes, listens and asks
+    SimClock                        simulated time, as fast as the processor
+    WallClock                       the time of the machine
+    Clock                           the base of both
+    Phase                           the order of timers due in one instant
+    live                            let the nodes of a world run, inside an event loop
+    run                             run a coroutine on a clock
+
+Errors:
+
+    TftoolError                     the base of all of ours
+    TransformException              tf2's, the base of the next seven
+    LookupException                 a frame is unknown
+    ConnectivityException           two frames are in different trees
+    ExtrapolationException          a moment is outside the samples
+    BackwardExtrapolationException  it is before the first
+    ForwardExtrapolationException   it is after the last
+    NoDataForExtrapolationException there is one sample only
+    InvalidArgumentException        a question or a sample is malformed
+    TimeoutException                a transform did not come in time
+    InputError                      a file or text cannot be read
+    UsageError                      arguments contradict each other
+    NodeFailed                      a node raised; its error is the cause
+"""
 
 import sys
 
@@ -43,7 +121,7 @@ if TYPE_CHECKING:
     from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
     from tftool.geometry.rigid import Quaternion, Transform, Vector3
     from tftool.notebook import PageView, view
-    from tftool.opener import open_frames as open  # noqa: F401
+    from tftool.opener import open_frames
     from tftool.recordings.recording import Recording, open_recording
     from tftool.recordings.recording_writer import RecordingWriter, write_recording
     from tftool.robots.joint_states import JointStates
@@ -52,6 +130,9 @@ if TYPE_CHECKING:
     from tftool.world.node import Node
     from tftool.world.supervisor import live
     from tftool.world.world import World
+
+    # Only an assignment is public to type checkers under another name.
+    open = open_frames
 
 __version__ = "0.1.0"
 

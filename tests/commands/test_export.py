@@ -2,6 +2,7 @@
 
 import csv
 import errno
+import json
 import os
 import signal
 import subprocess
@@ -81,6 +82,15 @@ def test_a_recording_becomes_tum(tftool, run, wanted, tmp_path):
     assert np.abs(rows[:, 1:4] - wanted.translations).max() < 1e-9
     assert same_turns(rows[:, 4:], wanted.rotations, 1e-8)
     assert (np.einsum("ij,ij->i", rows[1:, 4:], rows[:-1, 4:]) > 0.9).all()
+
+
+def test_json_counts_poses_and_refusals(tftool, run, tmp_path):
+    result = tftool("export", "odom", "camera", run, "-o", tmp_path / "run.tum", "--json")
+
+    told = json.loads(result.out)
+    assert told["files"] == [str(tmp_path / "run.tum")]
+    assert (told["format"], told["count"], told["pairs"][0]["refused"]) == ("tum", 200, 0)
+    assert result.err == ""
 
 
 def test_kitti_is_a_matrix_a_row_and_its_stamps_are_beside_it(tftool, run, wanted, tmp_path):

@@ -1,5 +1,6 @@
 """`tftool new`: packages and scenarios to begin with, which hold what they promise."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -188,3 +189,13 @@ def test_words_that_make_no_package_are_refused(tftool, place, words, said):
     assert result.status == 2
     assert said in result.err
     assert list(place.iterdir()) == []
+
+
+def test_json_lists_the_files_and_the_next_commands(tftool, place):
+    result = tftool("new", "my_frames", "--json")
+
+    told = json.loads(result.out)
+    assert set(told["files"]) == files(place / "my_frames")
+    assert "tftool launch my_frames/launch/follower.launch.py" in [
+        one["command"] for one in told["next"]
+    ]

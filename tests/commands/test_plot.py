@@ -1,5 +1,6 @@
 """`tftool plot`: in the terminal, live, and as a picture."""
 
+import json
 import re
 import sys
 import xml.etree.ElementTree as ET
@@ -71,6 +72,18 @@ def test_the_path_from_above_is_round(tftool, run):
     assert "car in map begins at 1.618" in out
     # A cell is twice as high as wide.
     assert 0.9 < across / (2 * len(inked)) < 1.1
+
+
+def test_json_holds_the_values_of_each_curve(tftool, run):
+    result = tftool("plot", "map", "car", run, "--only", "distance", "--json")
+
+    (panel,) = json.loads(result.out)["panels"]
+    (curve,) = panel["curves"]
+    assert (panel["unit"], curve["target"], curve["source"]) == ("m", "map", "car")
+    assert curve["times_s"][:2] == pytest.approx([0.0, 0.05])
+    # It circles the origin at two metres, half a metre above it.
+    assert curve["values"] == pytest.approx([np.hypot(2.0, 0.5)] * len(curve["times_s"]))
+    assert tftool("plot", "map", "car", run, "--json", "--xy").status == 2
 
 
 def test_several_pairs_share_a_panel(tftool, run):

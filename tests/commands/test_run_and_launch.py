@@ -1,5 +1,6 @@
 """`tftool run` and `tftool launch`, as people type them, in the tutorial's workspace."""
 
+import json
 import os
 import re
 import shlex
@@ -599,3 +600,12 @@ def test_a_path_that_is_right_from_another_folder_of_the_workspace_is_told(
 
     assert main(words) == 3
     assert f"No such file or directory; did you mean '{near}'?" in "".join(capfd.readouterr())
+
+
+def test_ros2s_answers_are_json_on_request(capsys):
+    assert main(["ros2", "--json", "interface", "show", "geometry_msgs/msg/Vector3"]) == 0
+    assert json.loads(capsys.readouterr().out) == ["float64 x", "float64 y", "float64 z"]
+    assert main(["ros2", "--json", "--in", "turtles", "topic", "info", "/turtle1/pose"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["Type"] == "turtlesim/msg/Pose"
+    assert told["Publisher count"] == 1

@@ -24,7 +24,7 @@ def diff(
     rate_percent: float | None = None,
     align_starts: bool = False,
 ) -> Differences:
-    """Say what differs between two sets of frames, link by link; see `compare`.
+    """Say what differs between two sets of frames, link by link; see `compare`::
 
         for one in tftool.diff("monday.mcap", "robot.urdf").changed:
             print(one.child, *one.changes)
@@ -32,7 +32,7 @@ def diff(
     Args:
         a: Frames, or the path of a file of them.
         b: What they are compared with.
-        mm: How far a frame may lie from where it lay, millimetres.
+        mm: Largest distance that a frame may have moved, millimetres.
         deg: How much it may be turned, degrees.
         rate_percent: How much a rate may differ; None where rates do not count.
         align_starts: Whether moments count from each one's own start.

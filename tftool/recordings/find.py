@@ -16,7 +16,7 @@ from typing import Final
 
 from tftool.base.errors import InputError
 from tftool.base.named_files import open_regular
-from tftool.recordings.containers import CONTAINERS, ZSTD_MAGIC, ContainerFormat
+from tftool.recordings.containers import CONTAINERS, SUFFIXES, ZSTD_MAGIC, ContainerFormat
 from tftool.recordings.poses.pose_options import options_of, path_behind_prefix
 from tftool.recordings.remote_files import is_url
 
@@ -290,7 +290,11 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
         return Kind.STATICS
     if not (is_scenario or _is_text(text)):
         raise _nothing(path)
-    return Kind.POSES if not is_scenario and _are_poses(path, head) else Kind.SCENARIO
+    if not is_scenario and _are_poses(path, head):
+        return Kind.POSES
+    if not is_scenario and path.suffix in SUFFIXES:
+        raise InputError(f"'{path}' is text, and not the recording that its name promises.")
+    return Kind.SCENARIO
 
 
 def _are_poses(path: Path, head: bytes) -> bool:

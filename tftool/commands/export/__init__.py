@@ -12,6 +12,7 @@ from tftool.commands.shared.options import (
     Every,
     Force,
     FromOption,
+    Json,
     Pairs,
     Rate,
     RunFor,
@@ -87,6 +88,7 @@ def export(
         ),
     ] = False,
     force: Force = False,
+    as_json: Json = False,
 ) -> None:
     """Write a pair over time, or links, to files of other tools.
 

@@ -1,5 +1,7 @@
 """Write the frames of FROM to files of other tools."""
 
+import json
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -47,6 +49,7 @@ def run(
     with_moving: bool,
     foxglove: bool,
     force: bool,
+    as_json: bool,
 ) -> ExitStatus:
     """Run `tftool export`; the parameters are its options."""
     when = MomentOptions(first, last, every, rate, stamps_of)
@@ -73,7 +76,10 @@ def run(
                 done = write_links(frames.buffer, output, form, style, force=force, progress=bar)
     finally:
         bar.stop()
-    _tell(done)
+    if as_json:
+        sys.stdout.write(json.dumps(_as_object(done), indent=2) + "\n")
+    else:
+        _tell(done)
     return ExitStatus.DONE
 
 
@@ -112,6 +118,27 @@ def _refuse_misfits(
     refuse_several_choices(*when.choices)
     if any(one is not None for one in when.choices) and not form.is_trajectory:
         raise UsageError(f"{form} holds links, which are written once: leave out the moments.")
+
+
+def _as_object(done: Exported) -> dict[str, object]:
+    """Return the written files and the omitted moments for programs."""
+    return {
+        "schema": "tftool.export/1",
+        "files": [str(path) for path in done.paths],
+        "format": str(done.format),
+        "count": done.count,
+        "pairs": [
+            {
+                "target": one.target,
+                "source": one.source,
+                "moments": one.moments,
+                "poses": len(one.path) - one.refused,
+                "refused": one.refused,
+                "reason": one.refusals[0].reason.strip() if one.refusals else None,
+            }
+            for one in done.trajectories
+        ],
+    }
 
 
 def _tell(done: Exported) -> None:

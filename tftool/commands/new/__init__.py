@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from tftool.commands.shared.declaration import declare
-from tftool.commands.shared.options import option
+from tftool.commands.shared.options import Json, option
 
 EXAMPLES = {
     "static": ("static_frame",),
@@ -39,6 +39,7 @@ def new(
     scenario: Annotated[
         bool, option("Make a scenario of that name, and nothing else.", "--scenario")
     ] = False,
+    as_json: Json = False,
 ) -> None:
     """Make a package of nodes to begin with (ros2 pkg create).
 

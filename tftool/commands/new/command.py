@@ -1,14 +1,16 @@
 """`tftool new`: a workspace package to begin with, or a scenario."""
 
+import json
 import keyword
 import os
 import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 
+from tftool.base.counts import count
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.new import EXAMPLES
@@ -118,7 +120,7 @@ def _write(path: Path, files: dict[str, str]) -> None:
         raise InputError(f"'{path}' cannot be made: {error.strerror}.") from None
 
 
-def _make_scenario(path: Path) -> None:
+def _make_scenario(path: Path, *, as_json: bool) -> None:
     path = path if path.suffix in (".yaml", ".yml") else path.with_name(f"{path.name}.yaml")
     _refuse_existing(path)
     try:
@@ -126,26 +128,41 @@ def _make_scenario(path: Path) -> None:
     except OSError as error:
         raise InputError(f"'{path}' cannot be made: {error.strerror}.") from None
     _tell(
-        f"Made {path}.",
+        path,
+        "",
+        (),
         (f"tftool check {path}", "judge it"),
         (f"tftool demo {path}", "see it"),
+        as_json=as_json,
     )
 
 
-def _say_what_next(path: Path, example: str, count: int, *, exercise: bool) -> None:
+def _say_what_next(
+    path: Path, example: str, files: Collection[str], *, exercise: bool, as_json: bool
+) -> None:
     launch = path / "launch" / f"{example}.launch.py"
-    todo = " Write the lines marked TODO." if exercise else ""
     _tell(
-        f"Made {path}: {count} files.{todo}",
+        path,
+        " Write the lines marked TODO." if exercise else "",
+        files,
         (f"tftool launch {launch}", "run it; 'tftool demo --join' shows it"),
         (f"pytest --ros-free {path}", "test it, after 'pip install pytest'"),
         (f"tftool check {path / 'scenarios' / f'{example}.yaml'} --launch {launch}", "judge it"),
+        as_json=as_json,
     )
 
 
-def _tell(made: str, *lines: tuple[str, str]) -> None:
+def _tell(
+    path: Path, todo: str, files: Collection[str], *lines: tuple[str, str], as_json: bool
+) -> None:
     """List the new files and the next commands, each with its purpose."""
-    sys.stdout.write(f"{made}\n")
+    if as_json:
+        following = [{"command": line, "purpose": purpose} for line, purpose in lines]
+        told = {"schema": "tftool.new/1", "made": str(path), "files": sorted(files)}
+        sys.stdout.write(json.dumps({**told, "next": following}, indent=2) + "\n")
+        return
+    counted = f": {count(len(files), 'file')}" if files else ""
+    sys.stdout.write(f"Made {path}{counted}.{todo}\n")
     for line, purpose in lines:
         sys.stdout.write(f"  {line}\n      {purpose}\n")
 
@@ -156,6 +173,7 @@ def run(
     exercise: bool,
     node_name: str,
     scenario: bool,
+    as_json: bool,
 ) -> ExitStatus:
     """Run `tftool new`; the parameters are its options."""
     refuse(
@@ -163,7 +181,7 @@ def run(
         (exercise and node_name, "--exercise is about a step: leave out --node-name."),
     )
     if scenario:
-        _make_scenario(Path(name))
+        _make_scenario(Path(name), as_json=as_json)
         return ExitStatus.DONE
     path = Path(name)
     _check_name(path.name)
@@ -174,12 +192,10 @@ def run(
         _check_node(node_name)
         files = _files_of_node(path.name, node_name)
         _write(path, files)
-        _tell(
-            f"Made {path}: {len(files)} files.",
-            (f"tftool run {path / path.name / node_name}.py", "run the node"),
-        )
+        run_it = f"tftool run {path / path.name / node_name}.py", "run the node"
+        _tell(path, "", files, run_it, as_json=as_json)
         return ExitStatus.DONE
     files = _files(path.name, example, exercise=exercise)
     _write(path, files)
-    _say_what_next(path, example, len(files), exercise=exercise)
+    _say_what_next(path, example, files, exercise=exercise, as_json=as_json)
     return ExitStatus.DONE

@@ -13,6 +13,7 @@ from tftool.commands.shared.options import (
     Every,
     Force,
     FromOption,
+    Json,
     Light,
     Pairs,
     Rate,
@@ -65,6 +66,7 @@ def plot(
     light: Light = False,
     dark: Annotated[bool, option("With -o: on a dark ground.", "--dark", panel=OUTPUT)] = False,
     force: Force = False,
+    as_json: Json = False,
 ) -> None:
     """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.
 

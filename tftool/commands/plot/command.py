@@ -1,5 +1,7 @@
 """Plot pairs of frames: of a file as a whole, of a session live."""
 
+import json
+import math
 import sys
 from pathlib import Path
 
@@ -21,6 +23,7 @@ from tftool.drawing import figure
 from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.moment import At
 from tftool.frames.pair_samples import Trajectory, sample
+from tftool.frames.pair_series import panels, shades
 from tftool.recordings.target import refuse_existing
 
 
@@ -43,6 +46,7 @@ def run(
     light: bool,
     dark: bool,
     force: bool,
+    as_json: bool,
 ) -> ExitStatus:
     """Run `tftool plot`; the parameters are its options."""
     asked, place = pairs_and_place(words or [], pairs or [])
@@ -50,9 +54,11 @@ def run(
         raise UsageError("Name what to plot: tftool plot TARGET SOURCE [FROM].")
     style = PlotStyle.of(only or [], from_above, ascii_only, light, dark)
     when = MomentOptions(first, last, every, rate, stamps_of)
-    is_live = output is None and place is None and sys.stdout.isatty()
+    is_live = output is None and place is None and sys.stdout.isatty() and not as_json
     refuse(
         (output is None and (dark or force), "--dark and --force go with -o FILE."),
+        (as_json and output is not None, "--json prints the values, and -o draws: leave one out."),
+        (as_json and from_above, "--json prints values over time: leave out --xy."),
         (
             is_live and when != MomentOptions(),
             "A live plot shows the last --window of time: leave out the other moments, or name a "
@@ -72,9 +78,42 @@ def run(
     start = frames.start or min(int(one.path.stamps[0]) for one in found)
     if output is not None and form is not None:
         _write(found, output, form, start, style, force=force)
+    elif as_json:
+        sys.stdout.write(json.dumps(_as_object(found, start, style), allow_nan=False) + "\n")
     else:
         _print(found, start, style)
     return ExitStatus.DONE
+
+
+def _as_object(found: list[Trajectory], start: Stamp, style: PlotStyle) -> dict[str, object]:
+    """Return the curves for programs; null where a curve is broken."""
+    return {
+        "schema": "tftool.plot/1",
+        "start_ns": start,
+        "panels": [
+            {
+                "title": panel.title,
+                "unit": panel.unit,
+                "curves": [
+                    {
+                        "label": curve.label,
+                        "target": found[curve.place].target,
+                        "source": found[curve.place].source,
+                        "times_s": curve.times.tolist(),
+                        "values": [
+                            one if math.isfinite(one) else None for one in curve.values.tolist()
+                        ],
+                    }
+                    for curve in panel.curves
+                ],
+            }
+            for panel in panels(found, start, style.quantities)
+        ],
+        "refused": [
+            {"first_s": one.first, "last_s": one.last, "reason": one.reason.strip()}
+            for one in shades(found, start)
+        ],
+    }
 
 
 def _form_of(output: Path, force: bool) -> str:

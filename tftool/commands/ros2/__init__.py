@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.commands.shared.declaration import declare
-from tftool.commands.shared.options import RunFor, option
+from tftool.commands.shared.options import Json, RunFor, option
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
@@ -25,6 +25,7 @@ def ros2(
         str | None, option("World to host: a scenario's name or file.", "--in", metavar="SCENARIO")
     ] = None,
     run_for: RunFor = None,
+    as_json: Json = False,
 ) -> None:
     """Ask a session in the words of ROS 2's command line, without ROS.
 

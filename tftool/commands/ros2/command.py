@@ -1,8 +1,11 @@
 """`tftool ros2`: the words of ROS 2's own command line, over our sessions."""
 
+import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import typer
+import yaml
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.commands.shared.connection import Connection
@@ -29,11 +32,42 @@ _ELSEWHERE = {
 """Words of ROS 2's command line that are commands of their own."""
 
 
+class _JsonLines:
+    """Print of what `ros2` writes: a line of JSON for each of its YAML documents."""
+
+    def __init__(self, words: Sequence[str]) -> None:
+        self._lines: list[str] = []
+        # These never end by themselves, and print lines that are not YAML.
+        self._is_endless = words[1:2] in (["hz"], ["bw"], ["delay"])
+
+    def __call__(self, line: str) -> None:
+        """Take one line; three dashes end a document."""
+        if line != "---":
+            self._lines.append(line)
+        if line == "---" or self._is_endless:
+            self.finish()
+
+    def finish(self) -> None:
+        """Print the document that is not ended yet."""
+        if not self._lines:
+            return
+        try:
+            found = yaml.safe_load("\n".join(self._lines))
+        except yaml.YAMLError:
+            found = None
+        # Lists of names are no YAML lists: each line is an element.
+        if not isinstance(found, dict | list | int | float):
+            found = self._lines
+        typer.echo(json.dumps(found, default=str))
+        self._lines = []
+
+
 def run(
     connection: Connection,
     words: list[str],
     place: str | None,
     run_for: int | None,
+    as_json: bool,
 ) -> int:
     """Run `tftool ros2`; the parameters are its options."""
     for length in (2, 1):
@@ -41,9 +75,11 @@ def run(
         if asked in _ELSEWHERE:
             raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here.")
     workspace = Workspace(Path.cwd())
-    body = ros2_command.body(words, workspace, typer.echo)
+    lines = _JsonLines(words)
+    body = ros2_command.body(words, workspace, lines if as_json else typer.echo)
     if words[0] in ("interface", "pkg"):
         body()
+        lines.finish()
         return 0
     session = open_session(connection, place, because=NO_SESSION)
     world = session.world
@@ -56,7 +92,10 @@ def run(
         Program(world, world.free_name("ros2"), user_code.whole(body), argv=words, on_exit=ending)
         await running.until(world, ending.over, run_for)
 
-    session.run(work())
+    try:
+        session.run(work())
+    finally:
+        lines.finish()
     try:
         return ending.judge()
     except NodeFailed as failed:
