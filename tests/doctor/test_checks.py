@@ -401,6 +401,34 @@ def test_pictures_in_a_body_frame_are_a_note():
     assert found(made, "image-not-optical").severity is Severity.NOTE
 
 
+def test_a_picture_in_optical_axes_is_fine_whatever_its_name():
+    made = robot()
+    made.static("base_link", "camera_frame", (0.1, 0.0, 0.2, -0.5, 0.5, -0.5, 0.5))
+    made.hears("/image", "camera_frame", kind="sensor_msgs/Image")
+    assert "image-not-optical" not in ids(made, notes=True)
+
+    body = robot()
+    body.static("base_link", "camera_frame")
+    body.hears("/image", "camera_frame", kind="sensor_msgs/Image")
+    assert found(body, "image-not-optical").confidence is Confidence.CERTAIN
+
+    # A camera whose z looks sideways may be anything.
+    sideways = robot()
+    sideways.static("base_link", "camera_frame", (0.1, 0.0, 0.2, *turned(math.pi / 2, axis=0)))
+    sideways.hears("/image", "camera_frame", kind="sensor_msgs/Image")
+    finding = found(sideways, "image-not-optical")
+    assert finding.confidence is Confidence.POSSIBLE
+    assert finding.fixes[0].text.startswith("look whether")
+
+
+def test_odometry_to_a_link_below_the_root_of_the_mounts_is_one_finding_with_its_cure():
+    made = robot(scans=False)
+    made.static("base_footprint", "base_link", at=-1.0)
+    assert ids(made) == ["static-and-dynamic"]
+    fix = found(made, "static-and-dynamic").fixes[0]
+    assert fix.text.startswith("let base_link in odom end at base_footprint")
+
+
 def test_mounts_that_look_mistyped_are_notes():
     made = robot()
     made.static("base_link", "camera", (1200.0, 0.0, 0.0, *NO_TURN))

@@ -61,6 +61,14 @@ def test_two_publishers_of_two_clocks_by_turns_have_no_wild_stamps():
     assert "wild-stamp" not in ids(made, notes=True)
 
 
+def test_a_log_line_of_another_time_is_no_wild_stamp():
+    made = robot()
+    made.hears("/rosout", "", 10.0, "rosgraph_msgs/Log")
+    kind, rows = made.heard["/rosout"]
+    made.heard["/rosout"] = (kind, [(rows[0][0] - seconds(7200), *rows[0][1:]), *rows[1:]])
+    assert ids(made) == []
+
+
 def test_messages_of_a_sensor_have_wild_stamps_too():
     made = robot()
     made.static("base_link", "laser")
@@ -218,4 +226,10 @@ def test_a_scan_that_arrives_one_scan_later_is_on_time():
     assert "clock-offset" not in ids(made, notes=True)
     late = robot(scans=False)
     late.hears("/scan", "laser", 20.0, latency=0.252)
-    assert "a delay in its driver, or another clock" in found(late, "clock-offset").message
+    finding = found(late, "clock-offset")
+    assert "a delay in its driver, or another clock" in finding.message
+    assert not any("synchronise" in fix.text for fix in finding.fixes)
+    # A simulation has one clock.
+    simulated = robot(start=12.0, scans=False)
+    simulated.hears("/scan", "laser", 20.0, latency=0.252)
+    assert "clock-offset" not in ids(simulated, notes=True)

@@ -25,6 +25,14 @@ def test_a_slash_in_a_header_has_its_own_check():
     assert found(made, "slash-twins").topics == ("/scan",)
 
 
+def test_no_cure_names_a_frame_with_a_slash():
+    made = robot()
+    made.hears("/camera/info", "/camera_frame", kind="sensor_msgs/CameraInfo")
+    fixes = found(made, "unknown-frame").fixes
+    assert fixes[0].text.startswith('set frame_id to "camera_frame"')
+    assert not any("/camera_frame" in fix.text + fix.command for fix in fixes)
+
+
 def test_slashes_in_transforms_are_a_note_and_two_of_them_an_error():
     made = robot()
     made.slashed["odom", "base_link", False] = 7

@@ -15,6 +15,20 @@ from tftool.recordings.contract import Stamps
 
 check = checks_of(Area.CLOCKS)
 
+_SYNCHRONISE = (
+    Fix(
+        "synchronise the clocks: chrony with one computer as server, PTP for lidars, or "
+        "the driver's timestamp mode"
+    ),
+    Fix("not a larger timeout: a constant offset eats it for ever"),
+)
+_COMPARE = (
+    Fix(
+        "compare the clocks of the two computers (chronyc tracking); where they agree, or it is "
+        "one computer, the delay is the node's own work: wait for it"
+    ),
+)
+
 _ONE_CLOCK = seconds(0.05)
 """Within what two offsets are those of one clock."""
 
@@ -46,9 +60,7 @@ CONSTANTS_AHEAD = seconds(1)
 )
 def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
     """Part of the stamps count from the simulation's start, part from 1970."""
-    # What has no place, as diagnostics, is looked up nowhere; joints become transforms.
-    placed = [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
-    streams: list[Track | Heard] = [*model.dynamic, *placed]
+    streams: list[Track | Heard] = [*model.dynamic, *_placed(model)]
     simulated = [one for one in streams if one.families[0]]
     wall = [one for one in streams if one.families[1]]
     if not simulated or not wall:
@@ -80,6 +92,14 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
         },
         alone=True,
     )
+
+
+def _placed(model: Model) -> list[Heard]:
+    """Messages that have a place, and joint states, which become transforms.
+
+    What has none, as diagnostics and logs, is looked up nowhere.
+    """
+    return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
 
 
 def _stamps(group: "list[Track | Heard]", family: int) -> int:
@@ -224,7 +244,7 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
 )
 def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Single stamps far from those before and after."""
-    streams: list[Track | Heard] = [*model.dynamic, *model.heard]
+    streams: list[Track | Heard] = [*model.dynamic, *_placed(model)]
     for one in streams:
         places = np.flatnonzero(one.wild)
         if not len(places):
@@ -323,13 +343,6 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{topic} {found}",
     detail="{groups}",
     consequence="{so}",
-    fixes=(
-        Fix(
-            "synchronise the clocks: chrony with one computer as server, PTP for lidars, or "
-            "the driver's timestamp mode"
-        ),
-        Fix("not a larger timeout: a constant offset eats it for ever"),
-    ),
     causes=(
         "robot base and single-board computer",
         "robot and desk computer",
@@ -380,6 +393,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
                 "so": "each lookup at these stamps asks for what is not there"
                 + (" yet, by the same amount for ever" if ahead > 0 else " any more"),
             },
+            fixes=_SYNCHRONISE,
             alone=True,
         )
     if not alike:
@@ -392,8 +406,8 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
     streams: list[Track | Heard] = [t for t in model.dynamic if not t.is_localisation]
     streams += [heard for heard in model.heard if heard.is_spatial]
     for one in streams:
-        if len(one.stamps) < limits["samples"]:
-            continue
+        if len(one.stamps) < limits["samples"] or one.families[0]:
+            continue  # all of a simulation has one clock
         least, high = int(one.latency.min()), float(np.percentile(one.latency, 95))
         # Dating ahead is a choice; a scan stamped with its start arrives one scan later.
         if least < -limits["spread"] * NANOSECONDS or _is_one_period(one):
@@ -420,6 +434,7 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
                 "others, steadily: a delay in its driver, or another clock",
                 "so": "a delay is waited for; a clock that is off stays off",
             },
+            fixes=_COMPARE,
             alone=True,
         )
 

@@ -119,7 +119,9 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
         fixes.append(
             Fix("in Gazebo, give the sensor the name in tf: <gz_frame_id>NAME</gz_frame_id>")
         )
-    join = proposed_frame(model, name, kinds)
+    join = proposed_frame(model, name.removeprefix("/"), kinds)
+    if name.startswith("/"):
+        fixes.insert(0, Fix(f'set frame_id to "{name[1:]}": no frame of tf2 begins with a slash'))
     if join is not None:
         # Evidence for the frame itself comes before a name that is near.
         return (join.fix, *fixes) if join.why else (*fixes, join.fix)

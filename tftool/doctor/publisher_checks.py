@@ -384,8 +384,28 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "turns": len(turns),
                 "history": int(np.diff(bounds).max()) if len(bounds) > 1 else 0,
             },
+            fixes=_ends_at_the_root(model, moving[child], statics),
             alone=True,
         )
+
+
+def _ends_at_the_root(
+    model: Model, moving: Sequence[Track], statics: Sequence[Track]
+) -> tuple[Fix, ...]:
+    """Propose the root of the mounts as the moving one's child, where the two have two parents."""
+    if {track.parent for track in moving} & {track.parent for track in statics}:
+        return ()
+    # The latest parent of the frame may be either; what the mount hangs from is above it.
+    parent = statics[-1].parent
+    above = [track.parent for track in model.above(parent)]
+    root = above[-1] if above else parent
+    if {track.parent for track in moving} & {parent, *above}:
+        return ()
+    text = (
+        f"let {moving[0].name} end at {root}, the root of the mounts, instead of "
+        f"{moving[0].child} (base_frame, robot_base_frame), or leave {parent} out of the mounts"
+    )
+    return (Fix(text),)
 
 
 @check(

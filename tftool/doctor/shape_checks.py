@@ -119,7 +119,7 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
         "kinglintianxia/autolabor_pro1#2",
     ),
     because_of=(
-        ("child", "publisher-conflict two-parents"),
+        ("child", "publisher-conflict two-parents static-and-dynamic"),
         ("anything", "static-missing"),
         ("frame", "slash-twins namespace-twins case-twins typo-twins"),
         ("anything", "namespaced-topic"),

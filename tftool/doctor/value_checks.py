@@ -7,11 +7,11 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.doctor.check import REP103, REP105, checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.missing_joins import base_of
+from tftool.doctor.missing_joins import BASES, base_of
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import ZERO_QUATERNION, Track, last_part
 from tftool.doctor.wording import metres
-from tftool.geometry.quaternions import angle_between
+from tftool.geometry.quaternions import IDENTITY, Triple, angle_between, multiply, rotate
 from tftool.geometry.rigid_arrays import angles_between, unit
 
 check = checks_of(Area.VALUES)
@@ -271,30 +271,62 @@ def _stem(name: str) -> str | None:
 @check(
     "image-not-optical",
     Severity.NOTE,
-    rule='a picture\'s frame has no "optical" in its name',
+    rule='a picture\'s frame has no "optical" in its name, and not the axes of an optical frame '
+    "(z forward, y down)",
     headline="{where} {concerned:is|are} not in an optical frame",
-    detail="{topic} is in {frame}",
+    detail="{topic} is in {frame}{axes}",
     consequence="what projects its pixels looks along the wrong axis",
-    fixes=(
-        Fix('add a fixed joint with rpy="-1.5708 0 -1.5708", and name its frame in the driver'),
-    ),
     causes=("the driver has one frame for body and picture",),
     links=(
         REP103,
         *threads("usnistgov/ARIAC#345"),
     ),
     needs=("headers",),
+    because_of=(("frame", "unknown-frame"),),
 )
 def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
     """Images stamped in a body frame."""
     for heard in model.heard:
-        if heard.type in _PICTURES and heard.frame and "optical" not in heard.frame:
-            yield Hit(
-                topics=(heard.topic,),
-                frames=(heard.frame,),
-                count=len(heard.stamps),
-                facts={"topic": heard.topic, "frame": heard.frame},
-            )
+        if heard.type not in _PICTURES or not heard.frame or "optical" in heard.frame:
+            continue
+        axes = _axes_on_robot(model, heard.frame)
+        if axes is not None and axes[0][2] < -_UPRIGHT:
+            continue  # its y looks down: an optical frame by another name
+        is_body = axes is not None and axes[1][2] > _UPRIGHT
+        joint = 'add a fixed joint with rpy="-1.5708 0 -1.5708", and name its frame in the driver'
+        yield Hit(
+            topics=(heard.topic,),
+            frames=(heard.frame,),
+            count=len(heard.stamps),
+            confidence=Confidence.CERTAIN if is_body else Confidence.POSSIBLE,
+            facts={
+                "topic": heard.topic,
+                "frame": heard.frame,
+                "axes": ", whose z looks up as a body's does" if is_body else "",
+            },
+            fixes=(
+                Fix(joint if is_body else f"look whether its z leaves the lens; if not, {joint}"),
+            ),
+        )
+
+
+_UPRIGHT = 0.7
+"""How far up an axis looks that is upright: 45° or less from it."""
+
+
+def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
+    """Return where y and z of a frame look, on the robot that carries it; None if unknown."""
+    if frame not in model.frames:
+        return None
+    turn = IDENTITY
+    for track in model.above(frame):
+        if not len(track.by_stamp):
+            return None
+        x, y, z, w = unit(track.rotations[track.last]).tolist()
+        turn = multiply((x, y, z, w), turn)
+        if last_part(track.parent) in BASES:
+            break
+    return rotate(turn, (0.0, 1.0, 0.0)), rotate(turn, (0.0, 0.0, 1.0))
 
 
 @check(
