@@ -110,6 +110,13 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
     assert conflict.facts["apart"] == pytest.approx(0.04)
     assert conflict.confidence is Confidence.LIKELY
     assert conflict.evidence[0].startswith("A and B: 10 stamps carry two values")
+    assert conflict.severity is Severity.ERROR
+
+    few = robot()
+    for at in (2.0, 5.0):
+        few.sent("odom", "base_link", at, (0.5 * at + 0.04, 0.0, 0.0, *NO_TURN))
+    conflict = found(few, "publisher-conflict")
+    assert (conflict.severity, conflict.confidence) == (Severity.WARNING, Confidence.POSSIBLE)
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])
@@ -319,6 +326,14 @@ def test_two_whole_robots_are_two_trees_by_intention():
     assert ids(made) == []
 
 
+def test_a_frame_in_two_conventions_that_nothing_uses_is_a_note():
+    made = robot()
+    made.static("map", "map_ned")
+    assert found(made, "split-tree").severity is Severity.NOTE
+    made.hears("/marker", "map_ned", kind="geometry_msgs/PoseStamped")
+    assert found(made, "split-tree").severity is Severity.ERROR
+
+
 def test_names_that_are_empty_or_equal():
     made = robot()
     made.sent("odom", "odom", 1.0)
@@ -421,7 +436,7 @@ def test_a_picture_in_optical_axes_is_fine_whatever_its_name():
     assert finding.fixes[0].text.startswith("look whether")
 
 
-def test_odometry_to_a_link_below_the_root_of_the_mounts_is_one_finding_with_its_cure():
+def test_odometry_to_a_link_below_the_root_of_the_mounts_is_one_finding():
     made = robot(scans=False)
     made.static("base_footprint", "base_link", at=-1.0)
     assert ids(made) == ["static-and-dynamic"]

@@ -186,3 +186,17 @@ def test_odometry_of_a_pair_that_tf_does_not_join_is_a_note():
     finding = found(made, "odometry-tf-mismatch")
     assert (finding.severity, finding.edges) == (Severity.NOTE, (("odom", "laser"),))
     assert finding.evidence == ("/odom says laser in odom; in tf laser hangs from base_link",)
+    assert "disagree" not in finding.message
+
+    # Another frame of the base, which hangs from the one in tf.
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_footprint")
+    made.static("base_footprint", "base_link")
+    made.odometry = says(drives, child="base_link")
+    assert "odometry-tf-mismatch" not in ids(made, notes=True)
+
+    # What is not joined at all is one finding.
+    made = robot(odometry=False)
+    made.static("map", "odom")
+    made.odometry = says(drives)
+    assert ids(made, notes=True) == ["split-tree", "latched-overwrite"]

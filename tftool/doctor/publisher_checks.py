@@ -92,7 +92,8 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
     Severity.ERROR,
     rule="two publishers with at least {least:g} samples each overlap in time and are more "
     "than {metres:g} m (or {degrees:g}°) and one step apart; or, where publishers are unknown, "
-    "{samples:g} stamps or more carry two values that far apart, or samples continue (within "
+    "{samples:g} stamps or more carry two values that far apart (a warning from {stamps:g} on), or "
+    "samples continue (within "
     "{reach:g} + {speed:g} m a second, a radian as half a metre) two tracks by turns, each with "
     "at least {samples:g} samples and a share of {share:g}, the owner changing "
     "{changes:g} times or more, and motion at constant velocity explains all of them together "
@@ -120,6 +121,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
         "reach": 0.05,
         "speed": 3.0,
         "samples": 5,
+        "stamps": 2,
         "share": 0.1,
         "changes": 6,
         "worse": 2.0,
@@ -198,10 +200,12 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     differ = (track.apart(mine, theirs) > limits["metres"]) | (
         track.turned(mine, theirs) > np.radians(limits["degrees"])
     )
-    if np.count_nonzero(differ) < max(limits["samples"], 1):
+    count = int(np.count_nonzero(differ))
+    if count < max(limits["stamps"], 1):
         return None
     owned = (mine[differ], theirs[differ])
-    hit = _conflict(track, ("A", "B"), owned, Confidence.LIKELY)
+    sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
+    hit = _conflict(track, ("A", "B"), owned, sure)
     return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
 
 

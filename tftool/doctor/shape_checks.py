@@ -1,7 +1,7 @@
 """Checks of how the frames hang together: circles, several trees, names in the wrong order."""
 
 from collections import defaultdict, deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from tftool.doctor.check import REP105, checks_of, threads
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
@@ -103,7 +103,8 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
     "split-tree",
     Severity.ERROR,
     rule="there is more than one root; an error where messages are in a frame of a lesser "
-    "tree, a note where each tree is a whole robot",
+    "tree, a note where each tree is a whole robot, or where no message is in one that has one "
+    "frame in two conventions (odom, odom_ned)",
     headline="{root} is not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
     consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
@@ -137,7 +138,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         topics = _messages_in(model, tree)
         severity = Severity.ERROR if topics else Severity.WARNING
-        if _is_complete(main) and _is_complete(tree):
+        if (_is_complete(main) and _is_complete(tree)) or _is_convention(tree, topics):
             severity = Severity.NOTE
         join = proposed_join(model, main, tree)
         fix = nothing_says(tree.root) if join is None else join.fix
@@ -168,6 +169,12 @@ def nothing_says(root: str) -> Fix:
         f"nothing in the data says where {root} belongs: look at what should publish it (a driver, "
         "the robot description and its joint states, a localiser)"
     )
+
+
+def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
+    """Whether a tree without messages is one name in several conventions: odom and odom_ned."""
+    others = {f"{tree.root}_{axes}" for axes in ("ned", "enu", "frd", "flu")}
+    return not topics and tree.frames <= {tree.root, *others}
 
 
 def _messages_in(model: Model, tree: Tree) -> dict[str, int]:

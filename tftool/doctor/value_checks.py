@@ -130,7 +130,8 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     consequence="what is placed before and after does not fit{also}",
     fixes=(
         Fix(
-            "look at the source at that moment: encoder overflow, a reset of the filter, wheel slip"
+            "look at the source at that moment: encoder overflow, a reset of the filter, wheel "
+            "slip, a tracker that mistook the body"
         ),
     ),
     causes=(
@@ -335,16 +336,16 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
     rule="an Odometry message and the transform of the same two names and the same stamp "
     "are more than {metres:g} m or {degrees:g}° apart, in a share above {share:g} of "
     "such pairs; a note where tf has no transform of these names",
-    headline="{topic} and tf disagree about {edge}",
+    headline="{topic} {differs} {edge}",
     detail="{found}",
-    consequence="what uses the message and what uses tf believe the robot in different places",
-    fixes=(Fix("let one node publish both, from one estimate"),),
+    consequence="what uses the message and what uses tf may believe the robot in different places",
     causes=(
         "the message is the wheels', the transform a filter's",
         "the filter's publish_tf is off and another node sends the transform",
     ),
     limits={"metres": 0.05, "degrees": 2.0, "share": 0.5},
     needs=("odometry",),
+    because_of=(("frame", "split-tree"),),
 )
 def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
     """Odometry message and transform of one name disagree."""
@@ -357,7 +358,7 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
         track = tracks.get(told.edge)
         topic = ", ".join(told.topics)
         if track is None:
-            if {edge.parent, edge.child} <= model.frames and edge.parent != edge.child:
+            if {edge.parent, edge.child} <= model.frames and not _is_same_base(model, told):
                 yield _no_such_transform(model, told, topic)
             continue
         hit = _disagreement(track, told, topic, model.end, limits)
@@ -365,11 +366,22 @@ def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
             yield hit
 
 
+def _is_same_base(model: Model, told: Track) -> bool:
+    """Whether tf has another frame of the robot's base where a message names one."""
+    above = model.above(told.child)
+    parents = [track.parent for track in above]
+    if told.parent not in parents:
+        return told.parent == told.child
+    between = {told.child, *parents[: parents.index(told.parent)]}
+    return {last_part(name) for name in between} <= set(BASES)
+
+
 def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
     above = model.parents.get(told.child)
     hangs = f"in tf {told.child} hangs from {above.parent}" if above else "in tf it has no parent"
     return Hit(
         edges=(told.edge,),
+        frames=told.edge,
         topics=told.topics,
         publishers=told.nodes,
         count=len(told.stamps),
@@ -377,8 +389,15 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
         facts={
             "topic": topic,
             "edge": told.name,
+            "differs": "and tf connect other frames:",
             "found": f"{topic} says {told.name}; {hangs}",
         },
+        fixes=(
+            Fix(
+                "compare the child_frame_id of the messages with the base frame of tf: one of both "
+                "is probably another frame than was meant"
+            ),
+        ),
         alone=True,
     )
 
@@ -410,11 +429,13 @@ def _disagreement(
         facts={
             "topic": topic,
             "edge": track.name,
+            "differs": "and tf disagree about",
             "apart": float(np.median(apart)),
             "turned": float(np.median(turned)),
             "found": f"{count:,} of {len(wrong):,} pairs of one stamp, usually "
             f"{metres(float(np.median(apart)))} and {np.degrees(np.median(turned)):.3g}° apart",
         },
+        fixes=(Fix("let one node publish both, from one estimate"),),
         alone=True,
     )
 
