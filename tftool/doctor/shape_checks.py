@@ -174,7 +174,7 @@ def nothing_says(root: str) -> Fix:
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
     """Whether a tree without messages is one name in several conventions: odom and odom_ned."""
     others = {f"{tree.root}_{axes}" for axes in ("ned", "enu", "frd", "flu")}
-    return not topics and tree.frames <= {tree.root, *others}
+    return not topics and len(tree.frames) > 1 and tree.frames <= {tree.root, *others}
 
 
 def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
