@@ -163,7 +163,7 @@ def view(
     from tftool.buffer.buffer import Buffer
     from tftool.frames.frames import Frames
     from tftool.recordings.recording import Recording
-    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.robots.mesh_folders import MeshFolders
     from tftool.screens.browser.protocol import reach
     from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.standalone import StandaloneData, standalone_page

@@ -5,6 +5,8 @@ from rich.cells import cell_len
 
 from tests.robots.test_robot import TEXT
 from tests.world.nodes.harness import new_world
+from tftool.drawing.solids import solids_of
+from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 from tftool.screens.terminal.robot_app import RobotApp
@@ -77,7 +79,7 @@ def row(lines, name):
 
 
 def test_every_joint_is_a_slider_and_the_tip_has_its_pose(shown):
-    lines = shown()
+    lines = shown("p")
 
     text = "\n".join(lines)
     assert "▸ turn" in text
@@ -178,7 +180,7 @@ def test_plain_characters_are_enough(shown):
     assert "\n".join(shown("question_mark", ascii_only=True)).isascii()
 
 
-@pytest.mark.parametrize(("resized", "left"), [((100, 24), 22), ((40, 12), 0)])
+@pytest.mark.parametrize(("resized", "left"), [((100, 24), 16), ((40, 12), 0)])
 def test_the_keys_stay_in_the_middle_of_a_window_that_changes(shown, resized, left):
     lines = shown("question_mark", resized=resized)
 
@@ -210,3 +212,84 @@ def test_the_link_beside_the_sliders_is_one_that_has_a_frame():
     )
 
     assert tip_of(robot) == "hand"
+
+
+ARM = """<robot name="arm"><link name="base"/><link name="rod"><visual>
+<origin xyz="0 0 0.5"/><geometry><box size="0.2 0.2 1"/></geometry>
+<material name="red"><color rgba="1 0 0 1"/></material></visual></link>
+<joint name="turn" type="revolute"><parent link="base"/><child link="rod"/>
+<axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="1" velocity="1"/></joint></robot>"""
+
+
+def columns_of(lines, sign):
+    return [column for line in lines for column, one in enumerate(line) if one == sign]
+
+
+@pytest.fixture
+def arm(shown):
+    """The picture of a rod that stands on the ground, after some keys."""
+    described = Robot(parse_description(ARM))
+    solids, _ = solids_of(described.links.values(), MeshFolders())
+
+    def show(*keys, at=0.0, size=(100, 30), **setting):
+        world = new_world()
+        for one in described.transforms({"turn": at}, stamp=1):
+            world.broadcast([one], "me", static=True)
+        mover = Mover(described)
+        setting = Setting(title="tftool robot", **setting)
+        app = RobotApp(world, Sliders(described, mover), setting=setting, solids=solids)
+        lines = []
+
+        async def main():
+            async with app.run_test(size=size) as pilot:
+                await pilot.pause()
+                await pilot.press(*keys)
+                await pilot.pause()
+                app.redraw()
+                await pilot.pause()
+                lines.extend(strip.text for strip in app.screen._compositor.render_strips(app.size))
+
+        asyncio.run(main())
+        assert app.failure is None
+        return lines
+
+    return show
+
+
+def solid_cells(lines):
+    return sum(line.count(sign) for line in lines for sign in "░▒▓█")
+
+
+def test_the_robot_is_drawn_beside_its_joints(arm):
+    assert solid_cells(arm()) > 40
+    assert solid_cells(arm("p")) == 0
+
+
+def test_a_small_terminal_has_joints_alone(arm):
+    assert solid_cells(arm(size=(60, 20))) == 0
+    assert solid_cells(arm(size=(60, 30))) > 10
+
+
+def test_a_rod_is_tall_from_the_side_and_a_square_from_above(arm):
+    def rows(lines):
+        return sum(any(sign in line for sign in "░▒▓█") for line in lines)
+
+    from_the_side = rows(arm("w", "w"))
+    from_above = rows(arm("w", "a"))
+
+    assert from_the_side > 15
+    assert rows(arm("w", "w", "less_than_sign", "less_than_sign")) < from_the_side
+    assert from_above > 15
+
+
+def test_shift_and_arrows_turn_the_picture(arm):
+    assert arm("shift+left", "shift+left") != arm() == arm("shift+left", "shift+right")
+    assert arm("shift+up") != arm()
+
+
+def test_plain_characters_and_no_colours_are_enough_for_a_solid(arm):
+    plain = arm(ascii_only=True)
+
+    assert "\n".join(plain).isascii()
+    assert sum(line.count(sign) for line in plain for sign in "#%@*+") > 20
+    assert sum(line.count(sign) for line in arm(colors=False) for sign in "░▒▓█") > 20

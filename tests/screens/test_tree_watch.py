@@ -143,3 +143,12 @@ def test_in_a_terminal_it_takes_keys_and_leaves_it_as_it_was(tmp_path):
         terminal.ended(0)
     finally:
         terminal.tmux("kill-server")
+
+
+def test_a_key_shows_the_frames_in_space_and_back():
+    lines = shown("p", frames=3)
+
+    assert "grid " in lines[-2]
+    assert any("link_02" in line for line in lines)
+    assert "broadcaster" in shown("p", "p", frames=3)[0]
+    assert lines != shown("p", "w", frames=3)

@@ -19,9 +19,9 @@ pytestmark = pytest.mark.skipif(
 def robot(tmp_path):
     """A robot of two links whose meshes are of every kind, some of them missing."""
     from tests.screens.browser.test_robots import ROBOT
+    from tftool.robots.mesh_folders import MeshFolders
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import parse_description
-    from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
 
     package = write_package(tmp_path)

@@ -8,10 +8,10 @@ from tests.screens.browser.mesh_files import write_package
 from tests.screens.browser.test_server import Page, fetch, open_page, put, serve, where
 from tests.world.nodes.harness import new_world
 from tftool.base.errors import InputError
+from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 from tftool.screens.browser import protocol
-from tftool.screens.browser.meshes import MeshFolders
 from tftool.screens.browser.robots import ShownRobot
 from tftool.world.nodes.joints import JointStatePublisher
 

@@ -1,11 +1,21 @@
 """`tftool robot`: a robot description alive, its joints moved by keys."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tftool.commands.shared.declaration import declare
-from tftool.commands.shared.options import Ascii, Light, RunFor, option, within
+from tftool.commands.shared.options import (
+    Ascii,
+    Force,
+    Light,
+    Meshes,
+    RunFor,
+    option,
+    output_file,
+    within,
+)
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Connection
@@ -40,6 +50,12 @@ def robot(
     frame_prefix: Annotated[
         str, option("What to put before every link: left/.", metavar="PREFIX")
     ] = "",
+    meshes: Meshes = None,
+    output: Annotated[
+        Path | None,
+        output_file("Draw the robot into a file, .svg or .png, and publish nothing."),
+    ] = None,
+    force: Force = False,
     run_for: RunFor = None,
     ascii_only: Ascii = False,
     light: Light = False,
@@ -48,9 +64,11 @@ def robot(
 
     Fixed joints go to /tf_static, the others to /tf, the description to /robot_description.
     Arrow keys slide a joint between its limits; digits type a position; z, c and r put all at
-    zero, in the middle, anywhere. Another terminal sees it: tftool tree, tftool view.
+    zero, in the middle, anywhere. Beside the sliders the robot is drawn in space: Shift+arrows
+    turn it. Another terminal sees it: tftool tree, tftool view.
 
     tftool robot arm.urdf
     tftool robot arm.urdf.xacro size:=large --joint elbow=30deg
     tftool robot arm.urdf --follow --no-screen
+    tftool robot arm.urdf --joint elbow=30deg -o arm.svg
     """

@@ -2,6 +2,8 @@
 
 import os
 import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from tftool.base.counts import count
@@ -14,10 +16,17 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.on_screen import screen_lacks
+from tftool.drawing.solids import Solids, solids_of
+from tftool.drawing.space import SpaceFrame, SpacePicture
+from tftool.drawing.space_file import drawn_file
+from tftool.drawing.theme import DARK, LIGHT
+from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.frame_files import load_described
 from tftool.frames.notes import beyond_limits
+from tftool.geometry.rigid import Transform
 from tftool.opener import kind_in_words, named
 from tftool.recordings.find import Kind
+from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.screens.terminal.robot_app import RobotApp
 from tftool.screens.terminal.screen_options import Setting, setting_from
@@ -31,6 +40,12 @@ from tftool.world.nodes.joints import (
     RobotStatePublisher,
     joint_state_type,
 )
+
+IN_A_FILE = 100_000
+"""Triangles of a picture in a file, which has more points than a terminal."""
+
+MOST_TOLD = 5
+"""Sentences about missing meshes."""
 
 
 def _no_link(described: Robot, link: str) -> str:
@@ -56,6 +71,7 @@ def _show(
     shown: tuple[str | None, str],
     setting: Setting,
     run_for: Duration | None,
+    solids: tuple[Solids, Sequence[str]],
 ) -> None:
     """Show the sliders while the session lives."""
     world = session.world
@@ -68,8 +84,54 @@ def _show(
         world.subscribe("sliders", JOINT_STATES, joint_state_type(), hear)
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     link, prefix = shown
-    app = RobotApp(world, sliders, link=link, prefix=prefix, setting=setting)
+    app = RobotApp(
+        world,
+        sliders,
+        link=link,
+        prefix=prefix,
+        setting=setting,
+        solids=solids[0],
+        missing=solids[1],
+    )
     run_loop(world.clock, show(app, session.along(session.lasting(run_for))))
+
+
+def _draw(
+    described: Robot,
+    joints: Mapping[str, float],
+    shapes: tuple[Solids, Sequence[str]],
+    output: Path,
+    *,
+    light: bool,
+    force: bool,
+) -> ExitStatus:
+    """Draw the robot as it is at some joint positions into a file."""
+    form = output.suffix.lower().removeprefix(".")
+    if form not in ("svg", "png"):
+        raise UsageError(f"'{output}' does not say what to draw: end it in .svg or .png.")
+    poses = {described.root: Transform.identity()}
+    for one in described.transforms(joints):
+        poses[one.child_frame_id] = poses[one.frame_id] @ one.transform
+    frames = tuple(
+        SpaceFrame(
+            name, pose, None if name == described.root else described.joint_above(name).parent
+        )
+        for name, pose in poses.items()
+    )
+    picture = SpacePicture(described.root, frames, shapes[0])
+    _tell_missing(shapes[1])
+    content = drawn_file(picture, form, LIGHT if light else DARK, title=described.name)
+    with whole_file(output, force=force) as file:
+        file.write(content)
+    notice(visible(f"Drew {count(len(frames), 'link')} to {output}."))
+    return ExitStatus.DONE
+
+
+def _tell_missing(sentences: Sequence[str]) -> None:
+    for sentence in sentences[:MOST_TOLD]:
+        notice(f"A mesh is not drawn: {visible(sentence)}.")
+    if len(sentences) > MOST_TOLD:
+        notice(f"... and {len(sentences) - MOST_TOLD} more.")
 
 
 def run(
@@ -80,6 +142,9 @@ def run(
     no_screen: bool,
     rate: float,
     frame_prefix: str,
+    meshes: list[Path] | None,
+    output: Path | None,
+    force: bool,
     run_for: int | None,
     ascii_only: bool,
     light: bool,
@@ -93,7 +158,7 @@ def run(
         )
     if follow and connection.robot.joints:
         raise UsageError("--follow leaves the joints to others: leave out --joint.")
-    if not no_screen and (lacking := screen_lacks()):
+    if output is None and not no_screen and (lacking := screen_lacks()):
         raise UsageError(f"The sliders need a terminal, and {lacking}: add --no-screen.")
     described = load_described(found, connection.robot)
     if link is not None and link not in described.links:
@@ -101,6 +166,11 @@ def run(
     described.positions(connection.robot.joints)
     for note in (*described.notes, *beyond_limits(described, connection.robot.joints)):
         notice(visible(note))
+
+    folders = MeshFolders(found.paths[0], meshes or [])
+    if output is not None:
+        shapes = solids_of(described.links.values(), folders, most=IN_A_FILE)
+        return _draw(described, connection.robot.joints, shapes, output, light=light, force=force)
 
     session = open_empty_session(connection)
     world = session.world
@@ -123,5 +193,7 @@ def run(
         return ExitStatus.DONE
 
     setting = Setting(title="tftool robot", ascii_only=ascii_only, light=light)
-    _show(session, described, mover, (link, frame_prefix), setting, run_for)
+    shapes = solids_of(described.links.values(), folders, frame_prefix)
+    _tell_missing(shapes[1])
+    _show(session, described, mover, (link, frame_prefix), setting, run_for, shapes)
     return ExitStatus.DONE

@@ -18,7 +18,7 @@ import typer
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
-from tftool.commands.shared.options import option
+from tftool.commands.shared.options import ROBOT, option
 from tftool.world.link.link_options import LARGEST_DOMAIN, REACHES, reach_at
 from tftool.world.link.reach import Reach
 
@@ -56,9 +56,6 @@ SESSION_OPTIONS: dict[str, Any] = {
     **{name: kind for reach in REACHES[1:] for name, kind in _declared(reach).items()},
 }
 
-
-ROBOT = "Robot descriptions"
-"""Heading of the help under which their options are listed."""
 
 ROBOT_OPTIONS: dict[str, Any] = {
     "joint": Annotated[

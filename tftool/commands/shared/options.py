@@ -189,6 +189,7 @@ def _date(text: str) -> At:
 # Options
 
 WHEN = "When"
+ROBOT = "Robot descriptions"
 OUTPUT = "Output"
 MANY = "Many recordings"
 """Headings of the help under which options are listed; "Options" is that of all others."""
@@ -336,6 +337,18 @@ Junit = Annotated[
 ]
 
 Force = Annotated[bool, option("Replace existing files.", "--force", panel=OUTPUT)]
+
+Meshes = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--meshes",
+        metavar="FOLDER",
+        rich_help_panel=ROBOT,
+        file_okay=False,
+        exists=True,
+        help="Where packages with meshes lie; again for more. Nothing outside is shown.",
+    ),
+]
 
 Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT)]
 

@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import ROBOT, declare
+from tftool.commands.shared.declaration import declare
 from tftool.commands.shared.options import (
     CacheTime,
     Force,
     From,
+    Meshes,
     RunFor,
     option,
     output_file,
@@ -42,17 +43,7 @@ def view(
         ),
     ] = 30.0,
     cache_time: CacheTime = None,
-    meshes: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--meshes",
-            metavar="FOLDER",
-            rich_help_panel=ROBOT,
-            file_okay=False,
-            exists=True,
-            help="Where packages with meshes lie; again for more. Nothing outside is shown.",
-        ),
-    ] = None,
+    meshes: Meshes = None,
     output: Annotated[
         Path | None,
         output_file("Write the page with all of its data into one .html file, and serve nothing."),

@@ -31,10 +31,10 @@ from tftool.frames.notes import beyond_limits
 from tftool.opener import named
 from tftool.recordings.find import Found, Kind
 from tftool.recordings.target import refuse_existing
+from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
 from tftool.screens.browser.live_messages import LiveDisplays
-from tftool.screens.browser.meshes import MeshFolders
 from tftool.screens.browser.recorded_messages import IN_A_FILE, recorded_tracks, tracks_named
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.server import PageServer

@@ -16,8 +16,8 @@ from tftool.robots.description import (
     SphereShape,
     Surface,
 )
+from tftool.robots.mesh_folders import SHAPES, MeshFolders, MeshRefused
 from tftool.robots.robot_model import Robot
-from tftool.screens.browser.meshes import SHAPES, MeshFolders, MeshRefused
 from tftool.screens.terminal.sliders import Positions, slide_range
 
 MOST_SHAPES = 5000

@@ -32,12 +32,12 @@ from tftool.base.errors import InputError, TftoolError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import Snapshot
+from tftool.robots.mesh_folders import MeshRefused
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.cadence import Cadence
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
 from tftool.screens.browser.live_messages import LiveDisplays
 from tftool.screens.browser.marks import marks_of
-from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import PackedBlock
 from tftool.screens.browser.recorded_messages import IN_A_FILE, DrawnTopic, Limits, pack_tracks
 from tftool.screens.browser.robots import ShownRobot

@@ -20,9 +20,9 @@ import numpy as np
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo
+from tftool.robots.mesh_folders import MeshRefused
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.marks import marks_of
-from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Progress, TooLarge
 from tftool.screens.browser.recorded_messages import DrawnTopic, pack_tracks
 from tftool.screens.browser.robots import ShownRobot

@@ -310,6 +310,9 @@ LOOKING = """\
 
  + - 0        nearer, farther, all there is (also the wheel)
  Shift+Arrow  move the picture (or drag it)
+ p            the frames in space, or from above; in space:
+              Shift+Arrow turns, w changes the view, y keeps the picked
+              frame in the middle, < > go farther and nearer, a shows all
 
  [ ]          back and on in time by 0.1 s
  { }          by a second
@@ -369,7 +372,7 @@ def hints(
         return [Hint(updown, "source"), Hint("x", "swap"), *always, end]
     if panel == "log":
         return [Hint(updown, "scroll"), *always, end]
-    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom")]
+    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom"), Hint("p", "3-D")]
     other = [Hint("o", "scenarios")] if chooses else []
     if not drives:
         return [*always, *look, *other, end]

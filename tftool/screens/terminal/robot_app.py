@@ -1,4 +1,4 @@
-"""The screen of `tftool robot`: a slider for each joint, and the pose of a link beside them."""
+"""The screen of `tftool robot`: a slider for each joint, the pose of a link, the robot in space."""
 
 from collections.abc import Callable, Sequence
 from typing import ClassVar
@@ -7,14 +7,24 @@ from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
+from textual.containers import Container
 
 from tftool.base.counts import count
 from tftool.base.errors import TransformException
 from tftool.base.fixed_width import fitted, padded
+from tftool.drawing.solids import Solids
+from tftool.drawing.space import SpacePicture
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.screens.terminal.panel_text import Hint, footer
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.sliders import Slider, Sliders, tip_of
+from tftool.screens.terminal.space_panel import (
+    ORBIT_BINDINGS,
+    SPACE_BINDINGS,
+    SPACE_KEYS,
+    SpacePanel,
+    frames_in_space,
+)
 from tftool.screens.terminal.text_style import Look, wrapped
 from tftool.screens.terminal.world_app import Panel, PanelApp
 from tftool.world.world import World
@@ -24,7 +34,13 @@ LOOKS_PER_SECOND = 15
 SMALLEST = (40, 8)
 """Columns and rows below which nothing useful is to be seen."""
 
-KEYS = """\
+BESIDE = 76
+"""Columns from which the picture has room beside the joints."""
+
+BELOW = 26
+"""Rows from which it has room below them."""
+
+KEYS = f"""\
  Up, Down        choose a joint (also k, j)
  Left, Right     slide it between its limits
  , .             the same in small steps
@@ -33,6 +49,8 @@ KEYS = """\
  Z C R           the chosen joint alone
 
  Tab             pose of another link (Shift+Tab too)
+
+{SPACE_KEYS}
  m               light or dark
  q               quit
 """
@@ -47,6 +65,8 @@ class RobotApp(PanelApp):
         link: The link whose pose is shown; the one farthest from the root if None.
         prefix: Prefix of the names of every link.
         setting: How to show it.
+        solids: The shapes of its links, where they are drawn.
+        missing: Why some of them are not, a sentence each.
     """
 
     CSS = """
@@ -55,12 +75,16 @@ class RobotApp(PanelApp):
     Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
     .ascii Panel { border: ascii $secondary; }
     #header, #footer { border: none; height: 1; background: $background; }
+    #body { height: 1fr; layout: horizontal; overflow: hidden; }
+    .portrait #body { layout: vertical; }
+    #side { width: 1fr; height: 1fr; layout: vertical; overflow: hidden; }
+    #space { width: 1fr; height: 1fr; display: none; }
     #joints { height: 1fr; }
     #pose { height: 4; }
-    #keys { layer: above; dock: top; width: 56; display: none; border: round $accent; }
+    #keys { layer: above; dock: top; width: 68; display: none; border: round $accent; }
     .ascii #keys { border: ascii $accent; }
     """
-    KEYS_WIDTH = 56
+    KEYS_WIDTH = 68
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up,k", "choose(-1)", show=False, priority=True),
         Binding("down,j", "choose(1)", show=False, priority=True),
@@ -75,6 +99,9 @@ class RobotApp(PanelApp):
         Binding("tab", "link(1)", show=False, priority=True),
         Binding("shift+tab", "link(-1)", show=False, priority=True),
         Binding("escape", "cancel", show=False),
+        Binding("p", "picture", show=False),
+        *SPACE_BINDINGS,
+        *ORBIT_BINDINGS,
     ]
 
     def __init__(
@@ -85,9 +112,14 @@ class RobotApp(PanelApp):
         link: str | None = None,
         prefix: str = "",
         setting: Setting | None = None,
+        solids: Solids | None = None,
+        missing: Sequence[str] = (),
     ) -> None:
         super().__init__(world, setting)
         self.sliders = sliders
+        self._solids = solids
+        self._missing = missing
+        self._wants_space = True
         self.prefix = prefix
         self.link = link or tip_of(sliders.robot)
         self._links = list(sliders.robot.links)
@@ -102,8 +134,11 @@ class RobotApp(PanelApp):
     def compose(self) -> ComposeResult:
         """Make the panels."""
         yield Panel("header", can_focus=False)
-        yield Panel("joints", "Joints", can_focus=False)
-        yield Panel("pose", "Link", can_focus=False)
+        with Container(id="body"):
+            with Container(id="side"):
+                yield Panel("joints", "Joints", can_focus=False)
+                yield Panel("pose", "Link", can_focus=False)
+            yield SpacePanel("space", "Robot", can_focus=False)
         yield Panel("footer", can_focus=False)
         yield Panel("keys", "Keys", can_focus=False)
 
@@ -113,7 +148,21 @@ class RobotApp(PanelApp):
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit everything into the new size."""
+        self._arrange()
         self.call_after_refresh(self.redraw)
+
+    def _arrange(self) -> None:
+        """Give the picture its room: beside the joints, or below them."""
+        width, height = self.size
+        space = self.query_one("#space", SpacePanel)
+        space.in_space = self._wants_space and (width >= BESIDE or height >= BELOW)
+        space.display = space.in_space
+        is_beside = space.in_space and width >= BESIDE
+        self.screen.set_class(space.in_space and not is_beside, "portrait")
+        self.query_one("#side").styles.width = (
+            max(44, min(76, width * 2 // 5)) if is_beside else "1fr"
+        )
+        self.panel("pose").styles.height = 6 if height >= 16 else 4
 
     # Looking
 
@@ -145,11 +194,28 @@ class RobotApp(PanelApp):
         panel.show(lines or [Text("This robot has no joint that moves.")])
         self.panel("pose").show(self._pose(*self.panel("pose").size))
         self.panel("footer").show([self._footer(width)])
+        self._draw_space()
+
+    def _draw_space(self) -> None:
+        space = self.query_one("#space", SpacePanel)
+        if not space.in_space:
+            return
+        root = self.prefix + self.sliders.robot.root
+        snapshot = self.world.buffer.snapshot(self.world.clock.now())
+        frames = frames_in_space(snapshot, root)
+        space.draw(SpacePicture(root, frames, self._solids, chosen=self._chosen_frame()), self.look)
+        if self._missing:
+            space.border_subtitle = f"meshes missing: {len(self._missing)}"
+
+    def _chosen_frame(self) -> str:
+        """Return the link that the chosen joint moves."""
+        joint = self.sliders.chosen
+        return self.prefix + (self.link if joint is None else joint.child)
 
     def _rows(self, shown: Sequence[Slider], width: int) -> list[Text]:
         look = self.look
         names = max((len(one.joint.name) for one in shown), default=0)
-        name_width = min(names, max(10, width // 3))
+        name_width = min(names, max(10, width // 3, width - 28))
         limits = width >= 72
         bar_width = width - name_width - 18 - (20 if limits else 0)
         return [self._row(one, name_width, bar_width, limits, look) for one in shown]
@@ -193,17 +259,32 @@ class RobotApp(PanelApp):
             return [heading, *wrapped(str(error), width, look.ink(look.palette.warning))][:height]
         x, y, z = found.transform.translation
         roll, pitch, yaw = rpy_from_quaternion(found.transform.rotation)
-        return [
-            heading,
-            Text(f"xyz {x:.4f} {y:.4f} {z:.4f} m   rpy {roll:.4f} {pitch:.4f} {yaw:.4f} rad"),
-        ]
+        place = f"xyz {x:.4f} {y:.4f} {z:.4f} m"
+        turn = f"rpy {roll:.4f} {pitch:.4f} {yaw:.4f} rad"
+        if height < 4:
+            return [heading, Text(f"{place}   {turn}")]
+        return [heading, Text(place), Text(turn), self._joint(width)]
+
+    def _joint(self, width: int) -> Text:
+        """Say what the joint under the cursor is, and how far it goes."""
+        joint, look = self.sliders.chosen, self.look
+        if joint is None:
+            return Text()
+        limits = "no limits"
+        if joint.limits is not None:
+            limits = f"{joint.limits[0]:.3g} to {joint.limits[1]:.3g} {joint.unit}"
+        words = f"{joint.name}: {joint.type}, {limits}"
+        return Text(fitted(words, width, more=look.more), look.ink(look.palette.dim))
 
     def _footer(self, width: int) -> Text:
         look = self.look
         if self.sliders.refusal:
             words = fitted(f" {self.sliders.refusal}", width, more=look.more)
             return Text(words, look.ink(look.palette.warning))
-        end = [Hint("Tab", "link"), Hint("?", "keys"), Hint("q", "quit")]
+        turn = [Hint("Shift+arrows", "turn"), Hint("w", "view"), Hint("< >", "zoom")]
+        has_picture = self.query_one("#space", SpacePanel).in_space
+        end = [Hint("Tab", "link"), *(turn if has_picture else [Hint("p", "picture")])]
+        end += [Hint("?", "keys"), Hint("q", "quit")]
         if not self.sliders.can_move:
             return footer(
                 [Hint("up/down" if look.ascii_only else "↑↓", "joint"), *end], width, look
@@ -270,6 +351,16 @@ class RobotApp(PanelApp):
         }
         moves[what](all_of_them=all_of_them)
         self.redraw()
+
+    def action_picture(self) -> None:
+        """Show the robot in space, or the joints alone."""
+        self._wants_space = not self._wants_space
+        self._arrange()
+        self.call_after_refresh(self.redraw)
+
+    def action_space(self, key: str) -> None:
+        """Turn the picture."""
+        self.query_one("#space", SpacePanel).press(key, self._chosen_frame())
 
     def action_link(self, step: int) -> None:
         """Show the pose of another link."""

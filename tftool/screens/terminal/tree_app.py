@@ -10,8 +10,11 @@ from textual.app import ComposeResult
 from tftool.base.fixed_width import fitted, plain
 from tftool.buffer.sample import Snapshot
 from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
+from tftool.drawing.space import SpacePicture
+from tftool.screens.terminal.frames_picture import natural_fixed
 from tftool.screens.terminal.screen_options import Setting
-from tftool.screens.terminal.text_style import wrapped
+from tftool.screens.terminal.space_panel import SpacePanel, frames_in_space
+from tftool.screens.terminal.text_style import Look, wrapped
 from tftool.screens.terminal.world_app import Panel, WorldApp
 from tftool.world.world import World
 
@@ -113,7 +116,7 @@ class TreeWatch(WorldApp):
 
     def compose(self) -> ComposeResult:
         """Make the panels."""
-        yield Panel("rows", can_focus=False)
+        yield SpacePanel("rows", can_focus=False)
         yield Panel("footer", can_focus=False)
 
     def on_mount(self) -> None:
@@ -148,11 +151,19 @@ class TreeWatch(WorldApp):
         if self._seen is None:
             return
         snapshot, marks = self._seen
-        rows = self.query_one("#rows", Panel)
+        rows = self.query_one("#rows", SpacePanel)
         width, height = rows.size
-        rows.show(
-            self.window.lines(snapshot, marks, width, height, ascii_only=self.setting.ascii_only)
-        )
+        if rows.in_space:
+            fixed = natural_fixed(snapshot, ("", ""))
+            frames = frames_in_space(snapshot, fixed)
+            picture = SpacePicture(fixed, frames, chosen=rows.camera.follows)
+            rows.draw(picture, Look(ascii_only=self.setting.ascii_only))
+        else:
+            rows.show(
+                self.window.lines(
+                    snapshot, marks, width, height, ascii_only=self.setting.ascii_only
+                )
+            )
         self.query_one("#footer", Panel).show([self._footer(width)])
 
     def _footer(self, width: int) -> Text:
@@ -170,12 +181,25 @@ class TreeWatch(WorldApp):
         return line
 
     def _hints(self) -> list[tuple[str, str]]:
+        if self.query_one("#rows", SpacePanel).in_space:
+            hints = [("q", "quit"), ("p", "tree"), ("Shift+arrows", "turn"), ("< >", "zoom")]
+            return [*hints, ("w", "view"), ("y", "follow the next frame"), ("a", "show all")]
         updown = "up/down" if self.setting.ascii_only else "↑↓"
         kept = f"filter: {plain(self.window.wanted)}" if self.window.wanted else "filter"
-        hints = [("q", "quit"), ("s", f"sort: {self.window.order.value}"), ("/", kept)]
+        hints = [
+            ("q", "quit"),
+            ("s", f"sort: {self.window.order.value}"),
+            ("/", kept),
+        ]
         if self.window.wanted:
             hints.append(("Esc", "all frames"))
-        return [*hints, (updown, "scroll"), ("PgUp PgDn", "page"), ("g G", "top, end")]
+        return [
+            *hints,
+            ("p", "3-D"),
+            (updown, "scroll"),
+            ("PgUp PgDn", "page"),
+            ("g G", "top, end"),
+        ]
 
     # Keys
 
@@ -183,10 +207,15 @@ class TreeWatch(WorldApp):
         """Scroll, sort, filter or leave."""
         event.stop()
         self.news = ""
+        rows = self.query_one("#rows", SpacePanel)
         if self._types:
             self._type(event)
         elif event.key in ("q", "Q"):
             self.exit()
+            return
+        elif event.key == "p":
+            rows.in_space = not rows.in_space
+        elif rows.press(event.key, self._next_followed(rows)):
             return
         elif event.key == "s":
             self.window.sort()
@@ -197,6 +226,13 @@ class TreeWatch(WorldApp):
         else:
             self._scroll(event.key)
         self.draw()
+
+    def _next_followed(self, rows: SpacePanel) -> str:
+        """Return the frame after the one that is followed; none after the last."""
+        names = [info.frame for info in self._seen[0].frames] if self._seen else []
+        names.append("")
+        follows = rows.camera.follows
+        return names[(names.index(follows) + 1) % len(names) if follows in names[:-1] else 0]
 
     def _type(self, event: events.Key) -> None:
         if event.key in ("enter", "escape"):

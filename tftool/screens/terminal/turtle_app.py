@@ -26,6 +26,8 @@ from tftool.screens.terminal.plane_view import PlaneView
 from tftool.screens.terminal.question import SceneQuestion
 from tftool.screens.terminal.scene import Scene, SceneMoment
 from tftool.screens.terminal.screen_options import SMALLEST, Setting, arranged
+from tftool.screens.terminal.space_panel import SPACE_BINDINGS, SpacePanel
+from tftool.screens.terminal.space_scene import opens_in_space, space_picture
 from tftool.screens.terminal.text_style import wrapped
 from tftool.screens.terminal.world_app import Panel, PanelApp
 from tftool.world.nodes.turtle_drivers import IdleDrawing
@@ -106,6 +108,8 @@ class TurtleApp(PanelApp):
         Binding("k", "pick(-1)", show=False),
         Binding("enter,space", "measure", show=False),
         Binding("x", "swap", show=False),
+        Binding("p", "picture", show=False),
+        *SPACE_BINDINGS,
         Binding("L", "log", show=False),
         Binding("o,O", "scenarios", show=False),
         Binding("left_square_bracket", f"travel({-STEP})", show=False),
@@ -137,6 +141,7 @@ class TurtleApp(PanelApp):
         self._back = 0
         self._rest_until = 0.0
         self._plane = PlaneView()
+        self._is_decided = self.setting.drive_only
         self._plot = PairPlot()
         self._dragged: tuple[int, int] | None = None
         self._rows_shown: tuple[str, ...] = ()
@@ -155,7 +160,7 @@ class TurtleApp(PanelApp):
         yield Panel("header", can_focus=False)
         yield Panel("banner", can_focus=False)
         with Container(id="body"):
-            yield Panel("field", "Field")
+            yield SpacePanel("field", "Field")
             with Container(id="side"):
                 yield Panel("tree", "Tree")
                 yield Panel("pair", "Echo")
@@ -265,7 +270,9 @@ class TurtleApp(PanelApp):
             self._draw_panels(moment)
 
     def _draw_field(self, moment: SceneMoment) -> None:
-        field = self.panel("field")
+        field = self.field
+        if not self._is_decided and moment.picture.frames:
+            self._is_decided, field.in_space = True, opens_in_space(moment)
         width, height = field.size
         field.border_title = Content(
             panels.field_title(moment, is_chosen=bool(self._question.fixed))
@@ -275,9 +282,17 @@ class TurtleApp(PanelApp):
             f"{self._idle.turtle} draws by itself; a key stops it" if is_idle and self._idle else ""
         )
         field.border_subtitle = Content(told)
+        if field.in_space:
+            field.draw(space_picture(moment), self.look)
+            return
         field.show(
             self._plane.lines(moment.picture, width, height, self.look, colors=self.setting.colors)
         )
+
+    @property
+    def field(self) -> SpacePanel:
+        """The panel of the picture."""
+        return self.query_one("#field", SpacePanel)
 
     def _draw_panels(self, moment: SceneMoment) -> None:
         look, clock = self.look, self.scene.world.clock
@@ -342,7 +357,10 @@ class TurtleApp(PanelApp):
             return
         if name == "field":
             self._dragged = event.screen_x, event.screen_y
-            frame = self._plane.frame_at(moment.picture, x, y)
+            if self.field.in_space:
+                frame = self.field.frame_at(x, y)
+            else:
+                frame = self._plane.frame_at(moment.picture, x, y)
         elif name == "tree":
             frame = self._rows_shown[y - 1] if 0 < y <= len(self._rows_shown) else None
         else:
@@ -467,17 +485,30 @@ class TurtleApp(PanelApp):
 
     def action_zoom(self, steps: int) -> None:
         """Come nearer, or go back."""
-        self._plane.camera.zoom(steps)
+        (self.field.camera if self.field.in_space else self._plane.camera).zoom(steps)
         self.redraw()
 
     def action_pan(self, columns: int, rows: int) -> None:
-        """Move the picture."""
-        self._plane.camera.pan(columns, rows)
+        """Move the picture; turn around it in space."""
+        if self.field.in_space:
+            self.field.camera.turn(-columns / 6, rows / 3)
+        else:
+            self._plane.camera.pan(columns, rows)
         self.redraw()
+
+    def action_picture(self) -> None:
+        """Show the frames in space, or from above."""
+        if not self.setting.drive_only:
+            self._is_decided, self.field.in_space = True, not self.field.in_space
+            self.redraw()
+
+    def action_space(self, key: str) -> None:
+        """Turn the frames in space."""
+        self.field.press(key, self._question.source)
 
     def action_fit(self) -> None:
         """Show all there is again."""
-        self._plane.camera.fit()
+        (self.field.camera if self.field.in_space else self._plane.camera).fit()
         self.redraw()
 
     def action_swap(self) -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.screens.browser.mesh_files import stl, write_package
-from tftool.screens.browser.meshes import MeshFolders, MeshRefused
+from tftool.robots.mesh_folders import MeshFolders, MeshRefused
 
 MESH = "package://arm_description/meshes/a.stl"
 

@@ -1,0 +1,211 @@
+"""Frames in space as a screen shows them, and the camera that turns around them."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.base.color import Color
+from tftool.drawing.plane import grid_step
+from tftool.drawing.solids import Solids
+from tftool.geometry.rigid import Transform
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+
+VIEWS: Final = {"orbit": (-60.0, 25.0), "top": (-90.0, 90.0), "front": (0.0, 0.0),
+                "side": (-90.0, 0.0)}  # fmt: skip
+"""Degrees around the vertical axis and above the ground, by the name of the view."""
+
+TURN: Final = math.radians(7.5)
+"""Angle of one step around the scene."""
+
+STEP: Final = 1.25
+"""Factor of one step of the zoom."""
+
+NEAREST, MOST_DISTANT = 1e3, 1e-3
+"""Limits of the zoom, as factors of the fitted picture."""
+
+ROOMY: Final = 0.6
+"""The view shrinks only when the scene needs less than this share of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class SpaceFrame:
+    """One frame.
+
+    Attributes:
+        name: Its name.
+        pose: Where it is in the fixed frame.
+        parent: The name of its parent; None for a root.
+        age: Seconds without news, for one that is not static.
+    """
+
+    name: str
+    pose: Transform
+    parent: str | None = None
+    age: float = 0.0
+
+
+class Line3(NamedTuple):
+    """Straight line between two points, metres."""
+
+    start: tuple[float, float, float]
+    end: tuple[float, float, float]
+    color: Color
+
+
+@dataclass(frozen=True, slots=True)
+class SpacePicture:
+    """Frames at one moment, seen in one of them.
+
+    Attributes:
+        fixed: The fixed frame.
+        frames: Those of its tree.
+        solids: The shapes that move with them.
+        lines: Trails and other lines.
+        chosen: The frame under the cursor: its name is bold, its solid coloured.
+        pair: Two frames joined by a line of their own.
+    """
+
+    fixed: str = ""
+    frames: tuple[SpaceFrame, ...] = ()
+    solids: Solids | None = None
+    lines: Sequence[Line3] = ()
+    chosen: str = ""
+    pair: tuple[str, str] = ("", "")
+
+
+class Viewpoint(NamedTuple):
+    """Direction, middle and scale of a picture without perspective.
+
+    Attributes:
+        axes: Unit vectors to the right, up and towards the viewer, as rows.
+        middle: The point in the middle of the picture, metres.
+        scale: Metres to a dot of braille: a cell has two across and four down.
+    """
+
+    axes: Floats
+    middle: Floats
+    scale: float
+
+    def project(self, points: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+        """Return dots to the right and up from the middle, and towards the viewer."""
+        axes = (self.axes / self.scale).astype(points.dtype)
+        return (points - self.middle.astype(points.dtype)) @ axes.T
+
+    @property
+    def grid(self) -> float:
+        """Metres between two lines of the grid on the ground."""
+        return grid_step(4.0 * self.scale)
+
+
+class OrbitCamera:
+    """Turns around a scene, which it keeps in sight until a person zooms or moves it.
+
+    Fitted, it grows at once with the scene, and shrinks only when most of it is empty.
+
+    Attributes:
+        name: The name of the view; "orbit" once it was turned.
+        follows: The frame in the middle; empty for the middle of the scene.
+    """
+
+    def __init__(self, name: str = "orbit") -> None:
+        self.follows = ""
+        self._factor = 1.0
+        self._shift = (0.0, 0.0)
+        self._box: Floats | None = None
+        self._scale = 1.0
+        self._fixed = ""
+        self.look_from(name)
+
+    def look_from(self, name: str) -> None:
+        """Look from one of `VIEWS`."""
+        self.name = name
+        self._azimuth, self._elevation = map(math.radians, VIEWS[name])
+
+    def next_view(self) -> None:
+        """Look from the next one of `VIEWS`."""
+        names = list(VIEWS)
+        self.look_from(names[(names.index(self.name) + 1) % len(names)])
+
+    def turn(self, right: float, up: float) -> None:
+        """Turn around the scene by some steps."""
+        self.name = "orbit"
+        self._azimuth += TURN * right
+        quarter = 0.5 * math.pi
+        self._elevation = min(quarter, max(-quarter, self._elevation + TURN * up))
+
+    def zoom(self, steps: float) -> None:
+        """Come nearer by some steps, or go back by fewer than none."""
+        self._factor = min(NEAREST, max(MOST_DISTANT, self._factor * STEP**steps))
+
+    def pan(self, columns: float, rows: float) -> None:
+        """Move the picture by a number of cells, to the right and down."""
+        right, up = self._shift
+        self._shift = right + 2.0 * columns * self._scale, up - 4.0 * rows * self._scale
+
+    def fit(self) -> None:
+        """Show everything again."""
+        self._factor, self._shift, self._box, self.follows = 1.0, (0.0, 0.0), None, ""
+
+    def view(self, picture: SpacePicture, corners: Floats, columns: int, rows: int) -> Viewpoint:
+        """Return the view of a picture in columns × rows of cells.
+
+        Args:
+            picture: What is shown.
+            corners: Every point that should be in sight, shape (n, 3).
+            columns: Cells across.
+            rows: Cells down.
+        """
+        if picture.fixed != self._fixed:
+            self._fixed, self._box = picture.fixed, None
+        axes = self._axes()
+        box = self._box = self._fitted(corners)
+        low, high = box
+        reach = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
+        middle = 0.5 * (low + high)
+        wide, tall = 2.0 * np.abs((reach - middle) @ axes[:2].T).max(0)
+        # Names need some room around the frames.
+        across, down = max(1, 2 * columns - 16), max(1, 4 * rows - 8)
+        self._scale = max(float(wide) / across, float(tall) / down, 1e-9) / self._factor
+        for one in picture.frames:
+            if one.name == self.follows:
+                middle = np.array(one.pose.translation)
+        right, up = self._shift
+        return Viewpoint(axes, middle - right * axes[0] - up * axes[1], self._scale)
+
+    def _axes(self) -> Floats:
+        azimuth, elevation = self._azimuth, self._elevation
+        toward = np.array(
+            [
+                math.cos(elevation) * math.cos(azimuth),
+                math.cos(elevation) * math.sin(azimuth),
+                math.sin(elevation),
+            ]
+        )
+        right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+        return np.stack([right, np.cross(toward, right), toward])
+
+    def _fitted(self, corners: Floats) -> Floats:
+        kept = self._box
+        corners = corners[np.isfinite(corners).all(1)]
+        if not len(corners):
+            return np.array([[-1.0] * 3, [1.0] * 3]) if kept is None else kept
+        box = np.stack([corners.min(0), corners.max(0)])
+        size = float((box[1] - box[0]).max())
+        if size <= 0.0:
+            box = box + np.array([[-0.5], [0.5]])
+        if kept is None or size < ROOMY * float((kept[1] - kept[0]).max()):
+            return box
+        low, high = np.minimum(kept[0], box[0]), np.maximum(kept[1], box[1])
+        # With some room to spare, or it would grow at every look.
+        room = 0.05 * float((high - low).max())
+        return np.stack([low - room * (low < kept[0]), high + room * (high > kept[1])])
+
+
+def axis_length(view: Viewpoint, rows: int) -> float:
+    """Metres that the axes of a frame are drawn long."""
+    return view.scale * 4.0 * max(1.2, rows / 10.0)

@@ -1,0 +1,536 @@
+"""A picture of frames in space: a depth buffer in numpy, shaded half blocks, braille lines.
+
+The depth buffer has a point for each dot of braille. Four of them make half a cell of a solid.
+Lines are dots: those of the ground are hidden by solids, axes are drawn through them.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Final, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from rich.segment import Segment
+
+from tftool.base.color import Color
+from tftool.base.fixed_width import fitted, plain
+from tftool.drawing import theme
+from tftool.drawing.cells import Line, cells_of, sign_of, style_of
+from tftool.drawing.labels import Label, Placer
+from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length
+
+Floats: TypeAlias = npt.NDArray[np.float32]
+Indices: TypeAlias = npt.NDArray[np.int64]
+Tones = Literal["full", "few", "none"]
+"""Colours of a terminal: all of them, sixteen, or none."""
+
+MOST_NAMED: Final = 40
+"""Frames whose names are drawn; of more, only the first."""
+
+MOST_POINTS: Final = 1_000_000
+"""Points of triangles that are looked at together, as far as memory goes."""
+
+_LIGHT: Final = np.array([-0.35, 0.6, 0.72], np.float32)
+_NONE: Final = -1
+_RAMPS: Final = {True: " .:-=+*#%@", False: "  ░░▒▒▓▓██"}
+_BITS: Final = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
+_SIGNS: Final = {
+    ascii_only: np.array([sign_of(mask, ascii_only=ascii_only) for mask in range(256)], "<U4")
+    for ascii_only in (False, True)
+}
+
+
+class DepthBuffer(NamedTuple):
+    """Nearest surface at each point of a picture, rows from the top.
+
+    Attributes:
+        owners: The index of the triangle there; -1 for none. Shape (height, width).
+        depths: Its distance towards the viewer, in points; minus infinity for none.
+    """
+
+    owners: Indices
+    depths: Floats
+
+
+class Layer(NamedTuple):
+    """Lines of one colour.
+
+    Attributes:
+        color: Their colour.
+        ends: Both ends of each in dots from the middle of the picture, shape (n, 2, 3).
+        is_hidden: Whether solids in front of them hide them.
+    """
+
+    color: Color
+    ends: npt.NDArray[np.floating]
+    is_hidden: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DrawnSpace:
+    """A picture before it becomes cells or a file.
+
+    Attributes:
+        image: Red, green and blue from 0 to 255 of the solids at every dot.
+        depth: What is in front there.
+        layers: Lines in the order in which they are drawn.
+        names: Names of frames with their dots to the right and down from the corner.
+        grid: Metres between two lines of the grid.
+    """
+
+    image: Floats
+    depth: DepthBuffer
+    layers: Sequence[Layer]
+    names: Sequence[tuple[SpaceFrame, str, float, float]]
+    grid: float
+
+
+def rasterise(corners: Floats, triangles: Indices, width: int, height: int) -> DepthBuffer:
+    """Find the nearest triangle at every point of a picture.
+
+    Args:
+        corners: Points to the right and up from the middle, and towards the viewer, shape (n, 3).
+        triangles: Three indices of corners each, shape (m, 3).
+        width: Points across.
+        height: Points down.
+    """
+    owners = np.full(width * height, -1, np.int64)
+    depths = np.full(width * height, -np.inf, np.float32)
+    x, y, z = corners.T[:, triangles.T] if len(triangles) else np.zeros((3, 3, 0), np.float32)
+    x, y = x + np.float32(0.5 * width), np.float32(0.5 * height) - y
+    with np.errstate(invalid="ignore", divide="ignore"):
+        left = np.clip(np.ceil(x.min(0) - 0.5), 0, width)
+        right = np.clip(np.floor(x.max(0) - 0.5), -1, width - 1)
+        top = np.clip(np.ceil(y.min(0) - 0.5), 0, height)
+        bottom = np.clip(np.floor(y.max(0) - 0.5), -1, height - 1)
+        wide, tall = right - left + 1, bottom - top + 1
+        area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+        (seen,) = np.nonzero((wide > 0) & (tall > 0) & (np.abs(area) > 1e-9))
+    if not len(seen):
+        return DepthBuffer(owners.reshape(height, width), depths.reshape(height, width))
+    x, y, z, area = x[:, seen], y[:, seen], z[:, seen], area[seen]
+    wide, left, top = (one[seen].astype(np.int32) for one in (wide, left, top))
+    counts = wide * tall[seen].astype(np.int32)
+    # Two barycentric weights as planes over the picture, from the first point of each triangle.
+    planes = np.empty((9, len(seen)), np.float32)
+    planes[0], planes[1] = (y[1] - y[2]) / area, (x[2] - x[1]) / area
+    planes[2], planes[3] = (y[2] - y[0]) / area, (x[0] - x[2]) / area
+    from_x, from_y = left + np.float32(0.5) - x[2], top + np.float32(0.5) - y[2]
+    planes[4] = planes[0] * from_x + planes[1] * from_y
+    planes[5] = planes[2] * from_x + planes[3] * from_y
+    planes[6], planes[7], planes[8] = z[0] - z[2], z[1] - z[2], z[2]
+    cuts = np.flatnonzero(np.diff(np.cumsum(counts, dtype=np.int64) // MOST_POINTS)) + 1
+    for some in np.split(np.arange(len(seen)), cuts):
+        count = counts[some]
+        one = np.repeat(some, count)
+        place = np.arange(len(one), dtype=np.int32) - np.repeat(
+            np.cumsum(count, dtype=np.int32) - count, count
+        )
+        down, across = np.divmod(place, wide[one])
+        plane = planes[:, one]
+        first = plane[0] * across + plane[1] * down + plane[4]
+        second = plane[2] * across + plane[3] * down + plane[5]
+        slack = np.float32(-1e-4)
+        (inside,) = np.nonzero((first >= slack) & (second >= slack) & (first + second <= 1 - slack))
+        first, second, plane = first[inside], second[inside], plane[6:, inside]
+        depth = first * plane[0] + second * plane[1] + plane[2]
+        one = one[inside]
+        point = (top[one] + down[inside]).astype(np.int64) * width + left[one] + across[inside]
+        nearer = depth > depths[point]
+        point, depth, one = point[nearer], depth[nearer], one[nearer]
+        # Of several values for one point numpy keeps the last: the nearest.
+        order = np.argsort(depth)
+        point = point[order]
+        depths[point], owners[point] = depth[order], seen[one[order]]
+    return DepthBuffer(owners.reshape(height, width), depths.reshape(height, width))
+
+
+def drawn(
+    picture: SpacePicture,
+    view: Viewpoint,
+    columns: int,
+    rows: int,
+    palette: theme.Palette = theme.DARK,
+    *,
+    tinted: bool = True,
+) -> DrawnSpace:
+    """Draw a picture in columns × rows of cells.
+
+    Args:
+        picture: What is shown.
+        view: From where.
+        columns: Cells across; each has two dots.
+        rows: Cells down; each has four dots.
+        palette: The screen's own colours.
+        tinted: Whether the solid under the cursor takes the colour of the cursor.
+    """
+    width, height = 2 * columns, 4 * rows
+    poses = {one.name: one.pose for one in picture.frames}
+    solids = picture.solids
+    image = np.zeros((height, width, 3), np.float32)
+    if solids is None:
+        depth = rasterise(np.zeros((0, 3), np.float32), np.zeros((0, 3), int), width, height)
+    else:
+        corners = view.project(solids.placed(poses))
+        depth = rasterise(corners, solids.triangles, width, height)
+        found = depth.owners >= 0
+        owners = depth.owners[found]
+        # On a dark screen black parts would have no shape.
+        colors = solids.colors[owners] ** 0.6
+        parts = solids.parts()[owners]
+        if tinted and picture.chosen in solids.frames:
+            accent = np.array(palette.accent, np.float32) / 255.0
+            mine = parts == solids.frames.index(picture.chosen)
+            colors[mine] = 0.35 * colors[mine] + 0.65 * accent
+        shades = _shades(corners, solids.triangles, owners)
+        image[found] = 255.0 * colors * shades[:, None]
+        whose = np.full(depth.owners.shape, -1)
+        whose[found] = parts
+        image[_edges(whose, depth.depths)] *= 0.6
+    places = view.project(np.array([one.pose.translation for one in picture.frames]).reshape(-1, 3))
+    names = [
+        (one, name, 0.5 * width + x, 0.5 * height - y)
+        for one, name, (x, y, _) in _named(picture, places.tolist())
+    ]
+    return DrawnSpace(image, depth, _layers(picture, view, rows, palette), names, view.grid)
+
+
+def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
+    """Return the brightness of each point, from the triangle it is on."""
+    used, where = np.unique(owners, return_inverse=True)
+    first, second, third = (corners[triangles[used, corner]] for corner in range(3))
+    ahead, aside = second - first, third - first
+    normals = np.stack(
+        [
+            ahead[:, 1] * aside[:, 2] - ahead[:, 2] * aside[:, 1],
+            ahead[:, 2] * aside[:, 0] - ahead[:, 0] * aside[:, 2],
+            ahead[:, 0] * aside[:, 1] - ahead[:, 1] * aside[:, 0],
+        ],
+        1,
+    )
+    lengths = np.sqrt((normals * normals).sum(1)) + np.float32(1e-12)
+    # Meshes do not agree on the side that is outside: the one in sight is.
+    facing = np.where(normals[:, 2] < 0.0, -1.0, 1.0) / lengths
+    light = np.clip((normals @ _LIGHT) * facing, 0.0, 1.0)
+    shade: Floats = (0.28 + 0.72 * light).astype(np.float32)
+    return shade[where]
+
+
+def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
+    """Find the points where one part ends in front of another, or far in front of itself."""
+    edge = np.zeros(whose.shape, bool)
+    with np.errstate(invalid="ignore"):
+        for here, there in (
+            (np.s_[:, :-1], np.s_[:, 1:]),
+            (np.s_[:-1], np.s_[1:]),
+        ):
+            both = (whose[here] >= 0) & (whose[there] >= 0)
+            gap = depths[here] - depths[there]
+            apart = both & ((whose[here] != whose[there]) | (np.abs(gap) > 8.0))
+            edge[here] |= apart & (gap <= 0)
+            edge[there] |= apart & (gap > 0)
+    return edge
+
+
+def _named(
+    picture: SpacePicture, places: Sequence[Sequence[float]]
+) -> list[tuple[SpaceFrame, str, Sequence[float]]]:
+    """Give frames at one place one label, the one under the cursor first."""
+    labels: dict[tuple[int, int], list[int]] = {}
+    order = sorted(range(len(places)), key=lambda n: picture.frames[n].name != picture.chosen)
+    for number in order[:MOST_NAMED]:
+        x, y, _ = places[number]
+        if abs(x) + abs(y) < 1e6:
+            labels.setdefault((round(x / 3.0), round(y / 5.0)), []).append(number)
+    found = []
+    for group in labels.values():
+        names = [plain(picture.frames[number].name) for number in group]
+        shown = 2 if len("".join(names[:2])) <= 18 else 1
+        more = f" +{len(names) - shown}" if len(names) > shown else ""
+        found.append((picture.frames[group[0]], ", ".join(names[:shown]) + more, places[group[0]]))
+    return found
+
+
+def _layers(
+    picture: SpacePicture, view: Viewpoint, rows: int, palette: theme.Palette
+) -> list[Layer]:
+    """Return the ground, the trails, the lines to the parents, the pair and the axes."""
+    paper = theme.paper(palette)
+    poses = {one.name: one.pose for one in picture.frames}
+    layers = [Layer(paper.grid, view.project(_ground(picture, view)), is_hidden=True)]
+    by_color: dict[Color, list[object]] = {}
+    for line in picture.lines:
+        by_color.setdefault(line.color, []).append(line[:2])
+    for color, lines in by_color.items():
+        layers.append(Layer(color, view.project(np.array(lines, float))))
+    links = [
+        (one.pose.translation, poses[one.parent].translation)
+        for one in picture.frames
+        if one.parent in poses
+    ]
+    layers.append(Layer(paper.link, view.project(np.array(links, float).reshape(-1, 2, 3))))
+    if picture.pair[0] in poses and picture.pair[1] in poses:
+        pair = [[poses[name].translation for name in picture.pair]]
+        layers.append(Layer(paper.accent, view.project(np.array(pair, float))))
+    length = axis_length(view, rows)
+    for number, color in enumerate((paper.x_axis, paper.y_axis, paper.z_axis)):
+        axis = tuple(length * (place == number) for place in range(3))
+        ends = [(one.pose.translation, one.pose.apply(axis)) for one in picture.frames]
+        layers.append(Layer(color, view.project(np.array(ends, float).reshape(-1, 2, 3))))
+    return layers
+
+
+def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
+    """Return the lines of a grid on the ground under the frames, shape (n, 2, 3)."""
+    step = view.grid
+    places = np.array([one.pose.translation[:2] for one in picture.frames]).reshape(-1, 2)
+    places = places if len(places) else np.zeros((1, 2))
+    low = np.floor(places.min(0) / step) - 2
+    high = np.ceil(places.max(0) / step) + 2
+    # Of a plane that goes on for kilometres only what is near the middle.
+    middle = view.middle[:2] / step
+    low, high = np.maximum(low, np.floor(middle) - 60), np.minimum(high, np.ceil(middle) + 60)
+    (left, near), (right, far) = low * step, high * step
+    along = np.arange(low[0], high[0] + 0.5) * step
+    across = np.arange(low[1], high[1] + 0.5) * step
+    lines = [((x, near, 0.0), (x, far, 0.0)) for x in along]
+    lines += [((left, y, 0.0), (right, y, 0.0)) for y in across]
+    return np.array(lines).reshape(-1, 2, 3)
+
+
+def _dots(layer: Layer, width: int, height: int) -> tuple[Indices, Indices, Floats]:
+    """Return the dots of some lines that are inside of a picture: across, down, and depth."""
+    ends = layer.ends[np.isfinite(layer.ends).all((1, 2))]
+    middle = np.array([0.5 * width, 0.5 * height])
+    start = ends[:, 0] * [1, -1, 1] + [*middle, 0.0]
+    way = ends[:, 1] * [1, -1, 1] + [*middle, 0.0] - start
+    # Cut each line to the picture (Liang and Barsky).
+    with np.errstate(divide="ignore", invalid="ignore"):
+        to_low = (0.0 - start[:, :2]) / way[:, :2]
+        to_high = ([width, height] - start[:, :2]) / way[:, :2]
+    flat = way[:, :2] == 0.0
+    inside = (start[:, :2] >= 0.0) & (start[:, :2] <= [width, height])
+    enter = np.where(flat, np.where(inside, -np.inf, np.inf), np.minimum(to_low, to_high))
+    leave = np.where(flat, np.where(inside, np.inf, -np.inf), np.maximum(to_low, to_high))
+    first = np.clip(enter.max(1, initial=0.0), 0.0, None)
+    last = np.clip(leave.min(1, initial=1.0), None, 1.0)
+    kept = first <= last
+    start, way, first, last = start[kept], way[kept], first[kept], last[kept]
+    counts = np.ceil((last - first) * np.abs(way[:, :2]).max(1, initial=0.0)).astype(int) + 1
+    one = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(one)) - np.repeat(np.cumsum(counts) - counts, counts)
+    share = first[one] + (last - first)[one] * place / np.maximum(counts - 1, 1)[one]
+    dots = start[one] + share[:, None] * way[one]
+    across = np.minimum(dots[:, 0].astype(int), width - 1)
+    down = np.minimum(dots[:, 1].astype(int), height - 1)
+    return across, down, dots[:, 2]
+
+
+class SpaceCanvas:
+    """Draws pictures of frames in space as lines of a terminal.
+
+    Args:
+        columns: Cells across.
+        rows: Cells down.
+        palette: The screen's own colours.
+        tones: Colours of the terminal.
+        ascii_only: Draw with ASCII characters alone.
+    """
+
+    def __init__(
+        self,
+        columns: int,
+        rows: int,
+        *,
+        palette: theme.Palette = theme.DARK,
+        tones: Tones = "full",
+        ascii_only: bool = False,
+    ) -> None:
+        self.columns, self.rows = columns, rows
+        self._palette, self._tones, self._ascii = palette, tones, ascii_only
+        self._has_halves = tones == "full" and not ascii_only
+        self._placer = Placer(columns, rows)
+        self._places: list[tuple[float, float, str]] = []
+
+    def lines(self, picture: SpacePicture, view: Viewpoint) -> list[Line]:
+        """Draw a picture: exactly as many lines, and cells in each, as were asked for."""
+        columns, rows = self.columns, self.rows
+        if not columns or not rows:
+            return [[] for _ in range(rows)]
+        tinted = self._tones == "full"
+        sheet = drawn(picture, view, columns, rows, self._palette, tinted=tinted)
+        self._places = [(x / 2.0, y / 4.0, one.name) for one, _, x, y in sheet.names]
+        texts, inks, grounds = self._shaded(sheet)
+        masks, colors = self._dotted(sheet)
+        marked = masks > 0
+        texts[marked] = _SIGNS[self._ascii][masks[marked]]
+        if self._has_halves:
+            # Under a line a solid has one colour: that of its upper half, or the lower one.
+            halves = np.where(inks >= 0, inks, grounds)
+            grounds[marked] = halves[marked]
+        inks[marked] = colors[marked]
+        bold = np.zeros(texts.shape, bool)
+        self._name(sheet, picture.chosen, texts, inks, grounds, bold, marked)
+        if self._tones == "none":
+            inks[:], grounds[:] = _NONE, _NONE
+        return [_line(*row) for row in zip(texts, inks, grounds, bold, strict=True)]
+
+    def frame_at(self, column: int, row: int) -> str | None:
+        """Return the frame nearest to a cell, within three cells of it."""
+        near = [
+            (max(0.5 * abs(x - column - 0.5), abs(y - row - 0.5)), name)
+            for x, y, name in self._places
+        ]
+        away, name = min(near, default=(9.0, ""))
+        return name if away <= 1.5 else None
+
+    def _shaded(self, sheet: DrawnSpace) -> tuple[npt.NDArray[np.str_], Indices, Indices]:
+        """Return the signs, inks and grounds of the solids' cells."""
+        columns, rows = self.columns, self.rows
+        found = sheet.depth.owners >= 0
+        texts = np.full((rows, columns), " ", "<U4")
+        inks = np.full((rows, columns), _NONE, np.int64)
+        grounds = inks.copy()
+        if not self._has_halves:
+            total = found.reshape(rows, 4, columns, 2).sum((1, 3))
+            some = total > 0
+            color = sheet.image.reshape(rows, 4, columns, 2, 3).sum((1, 3))
+            bright = color.max(2) / 255.0 / 8.0
+            ramp = np.array(list(_RAMPS[self._ascii]), "<U4")
+            steps = len(ramp) - 1
+            texts[some] = ramp[np.clip(np.ceil(bright[some] * steps), 2, steps).astype(int)]
+            mean = color[some] / total[some][:, None]
+            # The sign has the shade; the ink only has the hue.
+            inks[some] = _packed(mean * (230.0 / np.maximum(mean.max(1, keepdims=True), 1.0)))
+            return texts, inks, grounds
+        count = found.reshape(rows, 2, 2, columns, 2).sum((2, 4))
+        color = sheet.image.reshape(rows, 2, 2, columns, 2, 3).sum((2, 4))
+        ground = np.array(self._palette.panel, np.float32)
+        packed = _packed((color + (4 - count)[..., None] * ground) / 4.0)
+        packed[count < 2] = _NONE
+        upper, lower = packed[:, 0], packed[:, 1]
+        only_lower, any_upper = (upper < 0) & (lower >= 0), upper >= 0
+        texts[only_lower], inks[only_lower] = "▄", lower[only_lower]
+        texts[any_upper], inks[any_upper] = "▀", upper[any_upper]
+        both = any_upper & (lower >= 0)
+        grounds[both] = lower[both]
+        return texts, inks, grounds
+
+    def _dotted(self, sheet: DrawnSpace) -> tuple[Indices, Indices]:
+        """Return the dots of all lines in each cell, and their colour: the last one wins."""
+        width, height = 2 * self.columns, 4 * self.rows
+        masks = np.zeros((self.rows, self.columns), np.int64)
+        colors = np.full_like(masks, _NONE)
+        for layer in sheet.layers:
+            across, down, depth = _dots(layer, width, height)
+            if layer.is_hidden:
+                seen = depth >= sheet.depth.depths[down, across]
+                across, down = across[seen], down[seen]
+            mine = np.zeros_like(masks)
+            np.bitwise_or.at(mine, (down // 4, across // 2), _BITS[down % 4, across % 2])
+            marked = mine > 0
+            if layer.is_hidden:
+                # The ground never takes the cell of a solid.
+                solid = (sheet.depth.owners >= 0).reshape(self.rows, 4, self.columns, 2)
+                marked &= ~solid.any((1, 3))
+            masks[marked] = mine[marked]
+            red, green, blue = layer.color
+            colors[marked] = (red << 16) + (green << 8) + blue
+        return masks, colors
+
+    def _name(
+        self,
+        sheet: DrawnSpace,
+        chosen: str,
+        texts: npt.NDArray[np.str_],
+        inks: Indices,
+        grounds: Indices,
+        bold: npt.NDArray[np.bool_],
+        marked: npt.NDArray[np.bool_],
+    ) -> None:
+        """Write the names of frames where they cover no other name."""
+        more = "~" if self._ascii else "…"
+        named: dict[str, SpaceFrame] = {}
+        labels = []
+        for one, name, x, y in sheet.names:
+            column, row = int(x // 2), int(y // 4)
+            if 0 <= column < self.columns and 0 <= row < self.rows:
+                text = fitted(name, max(14, self.columns // 3), more=more)
+                if theme.is_stale(one.age):
+                    text = f"{text} {one.age:.1f} s ago"
+                if self._ascii:
+                    text = text.encode("ascii", "replace").decode("ascii")
+                labels.append(
+                    Label(one.name, fitted(text, self.columns, more=more), column, row, 1)
+                )
+                named[one.name] = one
+        # Names beside a robot are easier to read than names on it.
+        soft = marked | (inks != _NONE) | (grounds != _NONE)
+        rows, columns = (place.tolist() for place in np.nonzero(soft))
+        hint = f"grid {sheet.grid:g} m"
+        places = {(self.rows - 1, column) for column in range(len(hint) + 1)}
+        for placed in self._placer.placed(
+            labels, set(places), set(zip(rows, columns, strict=True))
+        ):
+            one = named[placed.label.name]
+            if placed.is_far and one.name != chosen:
+                continue
+            ink = theme.of_age(
+                theme.readable(theme.of_name(one.name), self._palette), one.age, self._palette
+            )
+            for offset, sign in cells_of(placed.label.text):
+                place = placed.row, placed.column + offset
+                texts[place], inks[place], grounds[place] = sign, _number(ink), _NONE
+                bold[place] = one.name == chosen
+        for column, sign in enumerate(hint[: self.columns]):
+            texts[-1, column], inks[-1, column] = sign, _number(self._palette.dim)
+            grounds[-1, column] = _NONE
+
+
+def _number(color: Color) -> int:
+    return (color.r << 16) + (color.g << 8) + color.b
+
+
+def _packed(colors: npt.NDArray[np.floating]) -> Indices:
+    """Return colours as whole numbers, a few shades of each: styles are kept and used again."""
+    red, green, blue = np.moveaxis(np.clip(colors, 0, 255).astype(np.int64) & 0xF8, -1, 0)
+    packed: Indices = (red << 16) + (green << 8) + blue
+    return packed
+
+
+def _line(
+    texts: npt.NDArray[np.str_], inks: Indices, grounds: Indices, bold: npt.NDArray[np.bool_]
+) -> Line:
+    """Join the cells of a row that look the same."""
+    # The ink of a blank is not seen: no new segment for it.
+    key = (np.where(texts == " ", _NONE, inks) << 26) + (grounds << 1) + bold
+    starts = [0, *(np.flatnonzero(np.diff(key)) + 1).tolist(), len(key)]
+    signs, ink, ground = texts.tolist(), inks.tolist(), grounds.tolist()
+    return [
+        Segment(
+            "".join(signs[first:end]),
+            style_of(_color(ink[first]), _color(ground[first]), bool(bold[first])),
+        )
+        for first, end in pairwise(starts)
+    ]
+
+
+def _color(number: int) -> Color | None:
+    return None if number < 0 else Color(number >> 16, number >> 8 & 255, number & 255)
+
+
+def corners_of(picture: SpacePicture) -> npt.NDArray[np.float64]:
+    """Return the points of a picture that should be in sight, shape (n, 3)."""
+    parts: list[npt.NDArray[np.floating]] = [
+        np.array([one.pose.translation for one in picture.frames], float).reshape(-1, 3)
+    ]
+    if picture.solids is not None:
+        poses = {one.name: one.pose for one in picture.frames}
+        placed = picture.solids.placed(poses)
+        first = 0
+        for end, _ in picture.solids.ends:
+            if end > first and np.isfinite(placed[first]).all():
+                parts += [placed[first:end].min(0)[None], placed[first:end].max(0)[None]]
+            first = end
+    return np.concatenate(parts)

@@ -1,0 +1,207 @@
+"""The panel that shows frames in space, and the keys and the mouse that turn them."""
+
+import math
+from collections.abc import Callable, Mapping
+
+from rich.text import Text
+from textual import events
+from textual.binding import Binding
+from textual.content import Content
+
+from tftool.buffer.sample import Snapshot
+from tftool.drawing.space import OrbitCamera, SpaceFrame, SpacePicture
+from tftool.drawing.space_canvas import SpaceCanvas, Tones, corners_of
+from tftool.screens.terminal.frames_picture import Lookup, in_snapshot
+from tftool.screens.terminal.text_style import Look
+from tftool.screens.terminal.world_app import Panel
+
+FARTHEST = 1e9
+"""Metres from the fixed frame beyond which nothing is drawn."""
+
+_MOVES: Mapping[str, Callable[[OrbitCamera], None]] = {
+    "shift+left": lambda camera: camera.turn(-1, 0),
+    "shift+right": lambda camera: camera.turn(1, 0),
+    "shift+up": lambda camera: camera.turn(0, 1),
+    "shift+down": lambda camera: camera.turn(0, -1),
+    "less_than_sign": lambda camera: camera.zoom(-1),
+    "greater_than_sign": lambda camera: camera.zoom(1),
+    "w": OrbitCamera.next_view,
+    "a": OrbitCamera.fit,
+}
+"""Keys of every screen that has this panel; none of them means anything else there."""
+
+SPACE_KEYS = """\
+ p            the frames in space, or as before
+ Shift+Arrow  turn around them (or drag with the mouse)
+ < >          farther, nearer (also the wheel)
+ w            another view: orbit, top, front, side
+ y            keep the chosen frame in the middle, or the scene
+ a            show everything again
+"""
+
+SPACE_BINDINGS = [
+    Binding(key, f"space('{key}')", show=False, priority=True)
+    for key in (*_MOVES, "y")
+    if not key.startswith("shift")
+]
+"""Bindings of a screen whose `action_space` hands keys to `SpacePanel.press`."""
+
+ORBIT_BINDINGS = [
+    Binding(key, f"space('{key}')", show=False, priority=True)
+    for key in _MOVES
+    if key.startswith("shift")
+]
+"""Those of the arrows, for a screen that does not use them in another way."""
+
+
+class SpacePanel(Panel):
+    """Frames in space.
+
+    Attributes:
+        camera: From where they are seen.
+        in_space: Whether the panel shows them; off, it is a panel of text.
+    """
+
+    def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
+        super().__init__(name, title, can_focus=can_focus)
+        self.camera = OrbitCamera()
+        self.in_space = False
+        self._picture = SpacePicture()
+        self._look = Look()
+        self._canvas: SpaceCanvas | None = None
+        self._key: object = None
+        self._dragged: tuple[int, int] | None = None
+
+    def draw(self, picture: SpacePicture, look: Look) -> None:
+        """Show a picture from now on."""
+        self._picture, self._look = picture, look
+        self._paint()
+
+    def _paint(self) -> None:
+        width, height = self.size
+        if not width or not height:
+            return
+        look, tones = self._look, self._tones()
+        key = width, height, look, tones
+        if key != self._key or self._canvas is None:
+            self._key = key
+            self._canvas = SpaceCanvas(
+                width, height, palette=look.palette, tones=tones, ascii_only=look.ascii_only
+            )
+        picture = self._picture
+        if not picture.frames:
+            self.show([Text("There are no frames yet.", look.ink(look.palette.dim))])
+            return
+        view = self.camera.view(picture, corners_of(picture), width, height)
+        follows = f", follows {self.camera.follows}" if self.camera.follows else ""
+        self.border_subtitle = Content(f"{self.camera.name}{follows}")
+        self.show(self._canvas.lines(picture, view))
+
+    def _tones(self) -> Tones:
+        console = self.app.console
+        if console.no_color or console.color_system is None or not self._has_colors():
+            return "none"
+        return "few" if console.color_system == "standard" else "full"
+
+    def _has_colors(self) -> bool:
+        setting = getattr(self.app, "setting", None)
+        return setting is None or bool(setting.colors)
+
+    def frame_at(self, x: int, y: int) -> str | None:
+        """Return the frame nearest to a cell of the panel, within three cells of it."""
+        return None if self._canvas is None else self._canvas.frame_at(x, y)
+
+    # Keys and the mouse
+
+    def press(self, key: str, chosen: str = "") -> bool:
+        """Take a key; return whether it means something here.
+
+        Args:
+            key: Its name.
+            chosen: The frame that "y" keeps in the middle.
+        """
+        if not self.in_space:
+            return False
+        if key == "y":
+            self.camera.follows = "" if self.camera.follows == chosen else chosen
+        elif key in _MOVES:
+            _MOVES[key](self.camera)
+        else:
+            return False
+        self._paint()
+        return True
+
+    def on_mouse_down(self, event: events.MouseDown) -> None:
+        """Begin to drag."""
+        if self.in_space:
+            self._dragged = event.screen_x, event.screen_y
+
+    def on_mouse_move(self, event: events.MouseMove) -> None:
+        """Turn with the left button, move with another one."""
+        if self._dragged is None or not self.in_space:
+            return
+        event.stop()
+        if not event.button:
+            self._dragged = None
+            return
+        x, y = event.screen_x - self._dragged[0], event.screen_y - self._dragged[1]
+        self._dragged = event.screen_x, event.screen_y
+        if event.button == 1:
+            self.camera.turn(-0.4 * x, 0.8 * y)
+        else:
+            self.camera.pan(x, y)
+        self._paint()
+
+    def on_mouse_up(self) -> None:
+        """End dragging."""
+        self._dragged = None
+
+    def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
+        """Come nearer."""
+        self._wheel(event, 1)
+
+    def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
+        """Go back."""
+        self._wheel(event, -1)
+
+    def _wheel(self, event: events.MouseEvent, steps: int) -> None:
+        if self.in_space:
+            event.stop()
+            self.camera.zoom(steps)
+            self._paint()
+
+
+def frames_in_space(
+    snapshot: Snapshot,
+    fixed: str,
+    ages: Mapping[str, float] | None = None,
+    lookup: Lookup | None = None,
+) -> tuple[SpaceFrame, ...]:
+    """Return the frames of the tree of `fixed`, as seen from there.
+
+    Args:
+        snapshot: The frames.
+        fixed: The frame they are seen from.
+        ages: Seconds since there was news of each.
+        lookup: Gives their poses; the snapshot itself if None.
+    """
+    lookup = lookup or in_snapshot(snapshot)
+    root = snapshot.frame(fixed).root if fixed in snapshot else None
+    found = []
+    for info in snapshot.frames:
+        pose = lookup(fixed, info.frame) if info.root == root and root is not None else None
+        if pose is not None and math.dist(pose.translation, (0, 0, 0)) < FARTHEST:
+            age = 0.0 if ages is None else ages.get(info.frame, 0.0)
+            found.append(SpaceFrame(info.frame, pose, info.parent, age))
+    return tuple(found)
+
+
+def is_tall(frames: tuple[SpaceFrame, ...]) -> bool:
+    """Whether frames are farther apart upwards than a view from above can show."""
+    if len(frames) < 2:
+        return False
+    across, along, up = (
+        max(axis) - min(axis)
+        for axis in zip(*(one.pose.translation for one in frames), strict=True)
+    )
+    return bool(up > max(across, along))
