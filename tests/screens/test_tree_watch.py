@@ -15,8 +15,13 @@ from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.tree_app import TreeWatch
 
 
-def shown(*keys, frames=60, size=(80, 24), news="", **setting):
-    """What is on the screen after some keys; its tree is a fan below `world`."""
+def shown(*keys, frames=60, size=(80, 24), news="", framed=False, **setting):
+    """Return the rows and the footer after some keys; the tree is a fan below `world`.
+
+    The size is that of both without their frame and the title bar, unless `framed`.
+    """
+    if not framed:
+        size = size[0] + 2, size[1] + 3
     world = new_world()
     now = world.clock.now()
     for n in range(frames):
@@ -36,7 +41,7 @@ def shown(*keys, frames=60, size=(80, 24), news="", **setting):
     async def main():
         async with app.run_test(size=size) as pilot:
             await pilot.pause()
-            app.look()
+            app.look_again()
             await pilot.press(*keys)
             if news:
                 app.tell(news)
@@ -48,6 +53,9 @@ def shown(*keys, frames=60, size=(80, 24), news="", **setting):
     asyncio.run(main())
     assert app.failure is None
     assert [cell_len(line) for line in lines] == [size[0]] * len(lines)
+    if lines and not framed:
+        assert "live" in lines[0]
+        lines = [*(line[1:-1] for line in lines[2:-2]), lines[-1]]
     return [line.rstrip() for line in lines]
 
 
@@ -127,7 +135,7 @@ def test_news_are_told_in_place_of_the_keys_until_one_is_pressed():
 @pytest.mark.parametrize("size", [(30, 5), (12, 2), (200, 60)])
 @pytest.mark.parametrize("frames", [0, 3, 60])
 def test_it_fits_into_any_terminal(size, frames):
-    assert shown("down", size=size, frames=frames, ascii_only=True)
+    assert shown("down", size=size, frames=frames, framed=True, ascii_only=True)
 
 
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux")
@@ -152,3 +160,10 @@ def test_a_key_shows_the_frames_in_space_and_back():
     assert any("link_02" in line for line in lines)
     assert "broadcaster" in shown("p", "p", frames=3)[0]
     assert lines != shown("p", "w", frames=3)
+
+
+def test_keys_are_told_and_closed():
+    told = shown("question_mark", framed=True)
+
+    assert any("scroll by a page" in line for line in told)
+    assert not any("scroll by a page" in line for line in shown("question_mark", "escape"))

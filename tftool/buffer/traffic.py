@@ -62,6 +62,11 @@ class Series:
         return sum(self._delays) / len(self._delays) if self._delays else None
 
     @property
+    def latest_delay(self) -> float | None:
+        """Seconds from stamp to arrival of the newest message; None where no stamp says when."""
+        return self._delays[-1] if self._delays else None
+
+    @property
     def maximum_delay(self) -> float | None:
         """Most seconds from stamp to arrival, negative if all came from the future."""
         return max(self._delays) if self._delays else None

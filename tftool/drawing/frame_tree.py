@@ -21,6 +21,7 @@ from tftool.base.short_numbers import finite, short_duration, short_rate
 from tftool.base.stamps import FRAME_TIMEOUT, Stamp, as_seconds, display
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import ASCII, UNICODE, Branch, Forest, Guides, branches, grow
+from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.drawing.table_columns import Cell, TableColumn, fit
 from tftool.geometry.rigid import Transform
 
@@ -337,6 +338,7 @@ def compact(
     order: TreeOrder = TreeOrder.tree,
     wanted: str = "",
     most: int | None = None,
+    history: TrafficHistory = NO_HISTORY,
 ) -> CompactTree:
     """Draw every tree, one line a frame.
 
@@ -349,6 +351,7 @@ def compact(
         order: What decides the order; any but the tree's own leaves out guides.
         wanted: Only frames whose name has these letters, and in the tree what they hang from.
         most: Rows to draw; None for all.
+        history: Rates and delays of the last looks.
     """
     forest = grow(snapshot)
     rows = _ordered(forest, order, wanted)[:most]
@@ -359,7 +362,10 @@ def compact(
     drawing = _Drawing(rows, distinct(forest.info), width, ascii_only, order)
     longest = max(drawing.longest(drawing.guides), cell_len(told), LEAST_NAME)
     columns = fit(
-        _link_columns(rows, width, moving, marks or {}),
+        [
+            *_link_columns(rows, width, moving, marks or {}),
+            *history.columns([one.info.frame for one in rows], width, ascii_only=ascii_only),
+        ],
         width,
         wanted=min(longest, drawing.most),
         longest=longest,

@@ -14,6 +14,7 @@ from tftool.base.stamps import FRAME_TIMEOUT, Duration, Stamp, as_seconds
 from tftool.buffer.traffic import FrameTraffic, NetDelay, Series, Traffic
 from tftool.doctor.findings import STALE_AFTER, STOPPED_AFTER, STOPPED_PERIODS
 from tftool.drawing.echo_view import in_words
+from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.drawing.table_columns import Cell, TableColumn, fit
 
 NONE = "-"
@@ -93,6 +94,7 @@ def table(
     width: int,
     height: int,
     ascii_only: bool = False,
+    history: TrafficHistory = NO_HISTORY,
 ) -> Text:
     """Return a table for people: frames, in the order of the chain where there is one, and senders.
 
@@ -107,6 +109,7 @@ def table(
         width: Columns there are.
         height: Lines there are; the rest is counted.
         ascii_only: Whether to draw with ASCII only.
+        history: Rates and delays of the last looks.
     """
     links = _links(traffic, chain)
     if chain is not None:
@@ -121,6 +124,7 @@ def table(
         TableColumn("in", parents, caps=(24, 12), goes=4),
         TableColumn("broadcaster", senders, caps=(24, 16, 11), goes=3),
         *_measures(now, series, statics, ascii_only),
+        *history.columns([link.frame for link in links], width, ascii_only=ascii_only),
     ]
     names = [(visible(link.frame), _late(now, link.series, link.is_static)) for link in links]
     frames = _rows("frame", names, columns, width, more)

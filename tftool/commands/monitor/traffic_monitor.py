@@ -1,12 +1,15 @@
 """The report on the transforms that arrive, and a session that fills it."""
 
 import json
+import os
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
 from enum import Enum, auto
 
-from rich.console import Console
+from rich import box
+from rich.console import Console, RenderableType
+from rich.panel import Panel
 from rich.text import Text
 
 from tftool.base.errors import TransformException
@@ -18,8 +21,10 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.pair_wait import PairWait
 from tftool.commands.shared.pairs import FramePair
 from tftool.commands.shared.redraw import Redrawing
+from tftool.drawing import theme
 from tftool.drawing import traffic_view as view
 from tftool.drawing.echo_view import in_words
+from tftool.drawing.sparklines import TrafficHistory
 from tftool.world.clock import Phase, pace_of
 from tftool.world.supervisor import beside
 from tftool.world.topics import Topic
@@ -52,6 +57,7 @@ class TrafficReport:
         self.style = style
         self.traffic = Traffic()
         self.chain: view.Chain | None = None
+        self.history = TrafficHistory()
 
     def begin(self, buffer: Buffer, now: Stamp) -> None:
         """Find the chain, and take in static transforms, as a late subscriber gets them."""
@@ -83,17 +89,31 @@ class TrafficReport:
         else:
             notice(f"Gathering data on {about}, a report every {as_seconds(period):g} s ...")
 
-    def table(self, console: Console, now: Stamp, began: Stamp) -> Text:
-        """Return the report as a table that fits a terminal."""
-        return view.table(
+    def table(self, console: Console, now: Stamp, began: Stamp) -> RenderableType:
+        """Return the report as a table in a frame that fits a terminal."""
+        self.history.look(now, self.traffic)
+        ascii_only = console.options.ascii_only
+        # A small terminal has no room for a frame; the line below all of it is the cursor's.
+        is_framed = console.width >= 60 and console.height >= 12
+        shown = view.table(
             now,
             began,
             self.traffic,
             self.chain,
-            width=console.width,
-            # The line below it is the cursor's.
-            height=console.height - 1,
-            ascii_only=console.options.ascii_only,
+            width=console.width - 4 * is_framed,
+            height=console.height - 1 - 2 * is_framed,
+            ascii_only=ascii_only,
+            history=self.history,
+        )
+        if not is_framed:
+            return shown
+        palette = theme.LIGHT if theme.prefers_light(os.environ) else theme.DARK
+        return Panel(
+            shown,
+            title=Text(" tftool monitor ", theme.ink(palette.accent, bold=True)),
+            title_align="left",
+            border_style=theme.ink(palette.dim),
+            box=box.ASCII if ascii_only else box.ROUNDED,
         )
 
     def write(self, now: Stamp) -> None:

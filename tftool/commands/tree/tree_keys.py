@@ -17,7 +17,7 @@ from tftool.world.log import LogRecord
 def watch_with_keys(session: Session, duration: Duration | None) -> None:
     """Show the tree until q is pressed or the time is over."""
     world = session.world
-    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting())
+    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting(title="tftool tree"))
     app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
 
     def tell(record: LogRecord) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from rich.cells import cell_len
 from rich.text import Text
 
+from tftool.base.color import Color
 from tftool.base.errors import TransformException
 from tftool.base.fixed_width import fitted, padded, plain
 from tftool.base.stamps import as_seconds, seconds
@@ -260,11 +261,22 @@ def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look)
         state, ink = ("* live" if look.ascii_only else "● live"), palette.accent
     if rate != 1.0 and math.isfinite(rate):
         state += f" {'x' if look.ascii_only else '×'}{rate:g}"
+    return _bar(title, clock, (state, ink), width, look)
+
+
+def title_bar(title: str, elapsed: float, width: int, look: Look) -> Text:
+    """One line above what is live: its title, and seconds since it began."""
+    state = "* live" if look.ascii_only else "● live"
+    return _bar(title, f"{elapsed:.1f} s", (state, look.palette.accent), width, look)
+
+
+def _bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Look) -> Text:
+    words, ink = state
     right = Text.assemble(
-        (clock + "  ", look.ink(palette.text)), (state, look.ink(ink, bold=True)), " "
+        (clock + "  ", look.ink(look.palette.text)), (words, look.ink(ink, bold=True)), " "
     )
     left = padded(" " + title, max(0, width - right.cell_len), more=look.more)
-    return Text.assemble((left, look.ink(palette.text, bold=True)), right)
+    return Text.assemble((left, look.ink(look.palette.text, bold=True)), right)
 
 
 class Hint(NamedTuple):

@@ -2,21 +2,28 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
+from textual.binding import BindingType
 
+from tftool.base.counts import count
 from tftool.base.fixed_width import fitted, plain
+from tftool.base.stamps import as_seconds
 from tftool.buffer.sample import Snapshot
+from tftool.buffer.traffic import Traffic
 from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
 from tftool.drawing.space import SpacePicture
+from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.screens.terminal.frames_picture import natural_fixed
+from tftool.screens.terminal.panel_text import title_bar
 from tftool.screens.terminal.screen_options import Setting
-from tftool.screens.terminal.space_panel import SpacePanel, frames_in_space
-from tftool.screens.terminal.text_style import Look, wrapped
-from tftool.screens.terminal.world_app import Panel, WorldApp
-from tftool.world.world import World
+from tftool.screens.terminal.space_panel import SPACE_KEYS, SpacePanel, frames_in_space
+from tftool.screens.terminal.text_style import wrapped
+from tftool.screens.terminal.world_app import Panel, PanelApp, WorldApp
+from tftool.world.world import TransformMessage, World
 
 LOOKS_PER_SECOND = 2
 
@@ -38,7 +45,14 @@ class TreeWindow:
     wanted: str = ""
 
     def lines(
-        self, snapshot: Snapshot, marks: Marks, width: int, height: int, *, ascii_only: bool
+        self,
+        snapshot: Snapshot,
+        marks: Marks,
+        width: int,
+        height: int,
+        *,
+        ascii_only: bool,
+        history: TrafficHistory = NO_HISTORY,
     ) -> list[Text]:
         """So many lines: the heading, the rows there is room for, and how many there are more."""
         if not snapshot.frames:
@@ -50,6 +64,7 @@ class TreeWindow:
             marks=marks,
             order=self.order,
             wanted=self.wanted,
+            history=history,
         )
         heading = list(found.heading)[: max(0, height - 1)]
         room = max(1, height - len(heading))
@@ -77,7 +92,21 @@ class TreeWindow:
         self.first = 0
 
 
-class TreeWatch(WorldApp):
+KEYS = f"""\
+ Up, Down     scroll by a line (also k, j, the wheel)
+ PgUp, PgDn   scroll by a page
+ g G          the top, the end
+ s            sort by name, rate, age, broadcaster
+ /            only frames with the letters typed; Esc: all of them
+
+{SPACE_KEYS}
+ m            light or dark
+ ? or Esc     close these keys
+ q            quit
+"""
+
+
+class TreeWatch(PanelApp, inherit_bindings=False):
     """The screen of `tftool tree --watch`.
 
     Args:
@@ -87,11 +116,19 @@ class TreeWatch(WorldApp):
     """
 
     CSS = """
-    Screen { layout: vertical; background: ansi_default; color: ansi_default; overflow: hidden; }
-    Panel { background: ansi_default; color: ansi_default; }
+    Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
+    Screen { layers: default above; }
+    Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
+    .ascii Panel { border: ascii $secondary; }
+    #header, #footer { border: none; height: 1; background: $background; }
     #rows { height: 1fr; }
-    #footer { height: 1; }
+    .tiny #rows { border: none; }
+    #keys { layer: above; dock: top; width: 68; display: none; border: round $accent; }
+    .ascii #keys { border: ascii $accent; }
     """
+    KEYS_WIDTH = 68
+    # Every other key is a letter while a filter is typed.
+    BINDINGS: ClassVar[list[BindingType]] = WorldApp.BINDINGS
 
     def __init__(
         self,
@@ -99,42 +136,58 @@ class TreeWatch(WorldApp):
         marks: Callable[[Snapshot], Marks],
         setting: Setting | None = None,
     ) -> None:
-        # The drawing is text, and belongs among the user's text.
-        super().__init__(world, setting, terminal_colors=True)
+        super().__init__(world, setting)
         self._marks_now = marks
         self.window = TreeWindow()
         self.news = ""
         self._types = False
         self._seen: tuple[Snapshot, Marks] | None = None
+        self._traffic = Traffic()
+        self._history = TrafficHistory()
+        self._began = world.clock.now()
+        world.tf.subscribe(self._receive, "screen")
+
+    def _receive(self, message: TransformMessage) -> None:
+        now = self.world.clock.now()
+        self._traffic.receive(now, message.transforms, message.authority, is_static=False)
 
     def tell(self, sentence: str) -> None:
         """Show this in place of the keys from now on."""
         self.news = sentence
-        self.draw()
+        self.redraw()
 
     # Building
 
+    def keys_told(self) -> str:
+        """Say what the keys do."""
+        return KEYS
+
     def compose(self) -> ComposeResult:
         """Make the panels."""
-        yield SpacePanel("rows", can_focus=False)
+        yield Panel("header", can_focus=False)
+        yield SpacePanel("rows", "Frames", can_focus=False)
         yield Panel("footer", can_focus=False)
+        yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
     def on_mount(self) -> None:
         """Start looking."""
-        self.set_interval(1.0 / LOOKS_PER_SECOND, self.look)
-        self.call_after_refresh(self.look)
+        self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
+        self.call_after_refresh(self.look_again)
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit everything into the new size."""
-        self.call_after_refresh(self.draw)
+        is_tiny = event.size.height < 8 or event.size.width < 30
+        self.screen.set_class(is_tiny, "tiny")
+        self.panel("header").display = not is_tiny
+        self.call_after_refresh(self.redraw)
 
     # Looking
 
-    def look(self) -> None:
+    def look_again(self) -> None:
         """Read the present state, and draw it."""
         self._shown(self._look)
 
-    def draw(self) -> None:
+    def redraw(self) -> None:
         """Draw the state read last, with the present options."""
         self._shown(self._draw)
 
@@ -143,7 +196,9 @@ class TreeWatch(WorldApp):
             self.guarded(work)
 
     def _look(self) -> None:
-        snapshot = self.world.buffer.snapshot(self.world.clock.now())
+        now = self.world.clock.now()
+        snapshot = self.world.buffer.snapshot(now)
+        self._history.look(now, self._traffic)
         self._seen = (snapshot, self._marks_now(snapshot))
         self._draw()
 
@@ -156,26 +211,39 @@ class TreeWatch(WorldApp):
         if rows.in_space:
             fixed = natural_fixed(snapshot, ("", ""))
             frames = frames_in_space(snapshot, fixed)
-            picture = SpacePicture(fixed, frames, chosen=rows.camera.follows)
-            rows.draw(picture, Look(ascii_only=self.setting.ascii_only))
+            rows.draw(SpacePicture(fixed, frames, chosen=rows.camera.follows), self.look)
         else:
+            rows.border_subtitle = ""
             rows.show(
                 self.window.lines(
-                    snapshot, marks, width, height, ascii_only=self.setting.ascii_only
+                    snapshot,
+                    marks,
+                    width,
+                    height,
+                    ascii_only=self.setting.ascii_only,
+                    history=self._history,
                 )
             )
-        self.query_one("#footer", Panel).show([self._footer(width)])
+        self.panel("header").show([self._header(snapshot)])
+        self.panel("footer").show([self._footer(self.size.width)])
+
+    def _header(self, snapshot: Snapshot) -> Text:
+        words = f"{self.title}: {count(len(snapshot.frames), 'frame')}"
+        elapsed = as_seconds(self.world.clock.now() - self._began)
+        return title_bar(words, elapsed, self.size.width, self.look)
 
     def _footer(self, width: int) -> Text:
         more = "~" if self.setting.ascii_only else "…"
         if self._types:
             told = fitted(f"filter: {plain(self.window.wanted)}", max(1, width - 1), more=more)
             return Text(told, style="bold").append("_", style="blink")
+        look = self.look
         if self.news:
-            return wrapped(self.news, width)[0].copy()
+            return wrapped(self.news, width, look.ink(look.palette.warning))[0].copy()
         line = Text()
+        strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
         for keys, does in self._hints():
-            hint = Text.assemble((keys, "bold"), (f" {does}", "dim"))
+            hint = Text.assemble((keys, strong), (f" {does}", weak))
             if line.cell_len + hint.cell_len + 2 <= width:
                 line.append("  " if line.cell_len else "").append_text(hint)
         return line
@@ -199,6 +267,7 @@ class TreeWatch(WorldApp):
             (updown, "scroll"),
             ("PgUp PgDn", "page"),
             ("g G", "top, end"),
+            ("?", "keys"),
         ]
 
     # Keys
@@ -213,6 +282,10 @@ class TreeWatch(WorldApp):
         elif event.key in ("q", "Q"):
             self.exit()
             return
+        elif event.key in ("question_mark", "h"):
+            self.action_keys()
+        elif event.key == "m":
+            self.action_shade()
         elif event.key == "p":
             rows.in_space = not rows.in_space
         elif rows.press(event.key, self._next_followed(rows)):
@@ -223,9 +296,10 @@ class TreeWatch(WorldApp):
             self._types = True
         elif event.key == "escape":
             self.window.wanted = ""
+            self.panel("keys").display = False
         else:
             self._scroll(event.key)
-        self.draw()
+        self.redraw()
 
     def _next_followed(self, rows: SpacePanel) -> str:
         """Return the frame after the one that is followed; none after the last."""
@@ -256,9 +330,9 @@ class TreeWatch(WorldApp):
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
         """Scroll."""
         self.window.first += 3
-        self.draw()
+        self.redraw()
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
         """Scroll back."""
         self.window.first = max(0, self.window.first - 3)
-        self.draw()
+        self.redraw()

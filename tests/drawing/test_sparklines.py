@@ -1,0 +1,39 @@
+"""Small curves of rate and delay beside each frame."""
+
+import pytest
+
+from tftool.base.stamps import seconds
+from tftool.buffer.sample import TransformStamped
+from tftool.buffer.traffic import Traffic
+from tftool.drawing.sparklines import TrafficHistory, sparkline
+from tftool.geometry.rigid import Transform
+
+
+def test_a_curve_goes_from_nothing_to_its_largest_value():
+    assert sparkline([0, 5, 10], 3) == "▁▅█"
+    assert sparkline([0, 5, 10], 3, ascii_only=True).isascii()
+    assert sparkline([1, None, 1, 1], 6) == "  █ ██"
+    assert sparkline([9, 1, 2], 2) == "▅█"
+    assert sparkline([None, None], 4) == ""
+    assert sparkline([0.0, -1.0], 2) == "▁▁"
+
+
+@pytest.mark.parametrize(("width", "cells"), [(100, 12), (200, 30)])
+def test_rate_and_delay_are_counted_from_look_to_look(width, cells):
+    traffic, history = Traffic(), TrafficHistory()
+    now = seconds(100)
+    for look in range(20):
+        now += seconds(0.5)
+        # Ten messages a look at first, and none later; each 0.1 s old.
+        for _ in range(10 if look < 10 else 0):
+            sample = TransformStamped(now - seconds(0.1), "map", "base", Transform.identity())
+            traffic.receive(now, [sample], "driver", is_static=False)
+        history.look(now, traffic)
+
+    rate, delay = history.columns(["base", "map"], width)
+
+    assert rate.cells[0][0].strip().endswith("▁")
+    assert "█" in rate.cells[0][0]
+    assert set(delay.cells[0][0].strip()) == {"█"}
+    assert rate.cells[1][0] == delay.cells[1][0] == ""
+    assert rate.width == max(cells, len("rate, lately"))
