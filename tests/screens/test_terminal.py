@@ -336,13 +336,16 @@ def test_without_colours_turtles_are_arrows(danced):
 
 
 def test_for_teleop_there_is_the_banner_and_the_field(danced):
-    text = "\n".join(shown(danced, drive_only=True, banner=BANNER))
+    text = "\n".join(shown(danced, (100, 40), drive_only=True, banner=BANNER))
 
     assert "Reading from keyboard" in text
     assert "'q' to quit." in text
     assert "L log" in text
     assert "Tree" not in text
-    assert "Reading" not in "\n".join(shown(danced, (60, 20), drive_only=True, banner=BANNER))
+    small = shown(danced, (80, 24), drive_only=True, banner=BANNER)
+    assert "Reading" not in "\n".join(small)
+    # Title, log and keys take a row each; the picture has all others, its border included.
+    assert sum(line.startswith("│") for line in small) == 19
 
 
 @pytest.mark.parametrize("size", [(60, 20), (200, 60)])

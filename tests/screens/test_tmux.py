@@ -309,6 +309,6 @@ def test_the_words_of_ros2_for_teleop_drive_too(terminal):
 def test_q_leaves_a_live_plot_and_gives_the_terminal_back(terminal):
     plot = terminal(80, 24, "-m", "tftool", "plot", "turtle2", "turtle1", "--host")
 
-    plot.until(lambda screen: "distance, m" in screen and "q quits" in screen, "a plot")
+    plot.until(lambda screen: "distance, m" in screen and "q quit" in screen, "a plot")
     plot.press("x", "q")
     plot.ended(0)

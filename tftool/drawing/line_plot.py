@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Final
 
@@ -24,8 +24,10 @@ from tftool.frames.pair_series import (
     panels,
     path_curves,
     reasons,
+    round_ticks,
     shades,
     thinned,
+    tick_labels,
 )
 from tftool.geometry.rigid_arrays import Floats
 
@@ -36,10 +38,12 @@ LEAST_ROWS: Final = 3
 ROWS: Final = 6
 """Lines of a panel where no terminal says how many there are."""
 
-_DARK: Final = (Color(255, 135, 135), Color(135, 255, 135), Color(135, 175, 255),
-                Color(255, 215, 95), Color(255, 175, 255), Color(95, 255, 255))  # fmt: skip
+_DARK: Final = (Color(255, 110, 110), Color(110, 230, 110), Color(120, 165, 255),
+                Color(255, 215, 80), Color(255, 130, 255), Color(80, 240, 240),
+                Color(255, 160, 60), Color(190, 190, 190), Color(180, 130, 255))  # fmt: skip
 _LIGHT: Final = (Color(175, 0, 0), Color(0, 115, 0), Color(0, 0, 215),
-                 Color(135, 95, 0), Color(135, 0, 135), Color(0, 115, 135))  # fmt: skip
+                 Color(135, 95, 0), Color(150, 0, 150), Color(0, 115, 135),
+                 Color(190, 80, 0), Color(90, 90, 90), Color(90, 40, 190))  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +55,16 @@ class PlotLook:
         height: Lines there are; as many as are good if None.
         ascii_only: Whether to draw with plain characters.
         light: Whether the ground is light.
+        numbered: Whether each curve has the number of the key that hides it.
+        hidden: Numbers of the curves that are not drawn.
     """
 
     width: int = 80
     height: int | None = None
     ascii_only: bool = False
     light: bool = False
+    numbered: bool = False
+    hidden: frozenset[int] = frozenset()
 
     @property
     def colors(self) -> tuple[Color, ...]:
@@ -94,10 +102,12 @@ def over_time(
     if look.height is not None:
         rows = max(LEAST_ROWS, (look.height - 2 - len(told)) // max(1, len(drawn)) - 1)
     text = Text(no_wrap=True, overflow="crop")
+    number = 1
     for panel in drawn:
-        text.append_text(_titled(panel, look))
-        for line in _drawn(panel, (low, high), shaded, rows, look):
+        text.append_text(_titled(panel, look, number))
+        for line in _drawn(panel, (low, high), shaded, rows, look, number):
             text.append_text(line)
+        number += len(panel.curves)
     text.append(_axis(low, high, look.width))
     for reason in told:
         text.append(f"{fitted(reason, look.width)}\n", style="dim")
@@ -141,8 +151,8 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
             _style(colors[place % len(colors)]),
         )
     for row in range(rows):
-        shown = bottom + high if row == 0 else bottom if row == rows - 1 else None
-        _append_row(text, shown, ink, row, "", look)
+        edges = {0: axis_number(bottom + high), rows - 1: axis_number(bottom)}
+        _append_row(text, edges.get(row, ""), ink, row, "", look)
     edge = (
         f"{axis_number(left):<{columns // 2}}{axis_number(left + wide):>{columns - columns // 2}}"
     )
@@ -157,11 +167,18 @@ def _span(drawn: Sequence[PlotPanel], shaded: Sequence[RefusedSpan]) -> tuple[fl
     return (low, high) if high > low else (low - 0.5, high + 0.5)
 
 
-def _titled(panel: PlotPanel, look: PlotLook) -> Text:
+def _titled(panel: PlotPanel, look: PlotLook, number: int) -> Text:
+    """Return the title of a panel, with the name and the last value of each curve."""
     line = Text(f"{panel.title}, {panel.unit}", style="bold")
-    if len(panel.curves) > 1 or panel.curves[0].label != panel.title:
-        for place, one in enumerate(panel.curves):
-            line.append(f"  {visible(one.label)}", _style(look.colors[place % len(look.colors)]))
+    is_alone = len(panel.curves) == 1 and panel.curves[0].label == panel.title
+    for place, one in enumerate(panel.curves):
+        holds = np.flatnonzero(np.isfinite(one.values))
+        value = axis_number(float(one.values[holds[-1]])) if len(holds) else ""
+        key = str(number + place) if look.numbered and number + place < 10 else ""
+        label = "" if is_alone else visible(one.label)
+        is_hidden = number + place in look.hidden
+        style = "dim strike" if is_hidden else _style(look.colors[place % len(look.colors)])
+        line.append("  ").append(" ".join(filter(None, (key, label, value))), style)
     line.truncate(look.width, overflow="ellipsis")
     line.append("\n")
     return line
@@ -173,12 +190,20 @@ def _drawn(
     shaded: Sequence[RefusedSpan],
     rows: int,
     look: PlotLook,
+    number: int = 1,
 ) -> Iterable[Text]:
     columns = max(10, look.width - LABELS - 1)
-    low, high = panel.limits()
+    seen = [place for place in range(len(panel.curves)) if number + place not in look.hidden]
+    shown = replace(panel, curves=tuple(panel.curves[place] for place in seen))
+    ticks = round_ticks(*shown.limits(), 2 if rows < 5 else 3 if rows < 10 else 6)
+    low, high = ticks[0], ticks[-1]
+    labels = [""] * rows
+    for tick, label in zip(ticks, tick_labels(ticks), strict=True):
+        labels[round((high - tick) / (high - low) * (rows - 1))] = label
     first, last = span
     ink = Ink(columns, rows, 0.0, 0.0, 1.0)
-    for place, one in enumerate(panel.curves):
+    for place in seen:
+        one = panel.curves[place]
         times, values = thinned(one.times, one.values, 16 * columns)
         draw_curve(
             ink,
@@ -195,16 +220,12 @@ def _drawn(
         ):
             shade[column] = ":" if look.ascii_only else "░"
     for row in range(rows):
-        shown = high if row == 0 else low if row == rows - 1 else None
         text = Text(no_wrap=True)
-        _append_row(text, shown, ink, row, "".join(shade), look)
+        _append_row(text, labels[row], ink, row, "".join(shade), look)
         yield text
 
 
-def _append_row(
-    text: Text, shown: float | None, ink: Ink, row: int, shade: str, look: PlotLook
-) -> None:
-    label = "" if shown is None else axis_number(shown)
+def _append_row(text: Text, label: str, ink: Ink, row: int, shade: str, look: PlotLook) -> None:
     text.append(f"{label:>{LABELS}}{look.bar}")
     for column, cell in enumerate(ink.cells(row, ascii_only=look.ascii_only)):
         if cell.ink is not None:
@@ -227,11 +248,22 @@ def draw_curve(ink: Ink, across: Floats, up: Floats, color: Color) -> None:
 
 
 def _axis(low: float, high: float, width: int) -> str:
+    """Write round seconds below their columns, and the unit at the end."""
     columns = max(10, width - LABELS - 1)
-    middle = axis_number(0.5 * (low + high))
-    left, right = axis_number(low), f"{axis_number(high)} s"
-    line = left.ljust(columns // 2 - len(middle) // 2) + middle
-    return f"{'':>{LABELS + 1}}{line}{right:>{columns - len(line)}}\n"
+    # A tick just outside of the data is written at the edge.
+    slack = 0.02 * (high - low)
+    found = round_ticks(low, high, max(3, columns // 14))
+    ticks = [tick for tick in found if low - slack <= tick <= high + slack]
+    line = [" "] * columns
+    end = 0
+    for tick, label in zip(ticks, tick_labels(ticks), strict=True):
+        place = round((tick - low) / (high - low) * (columns - 1)) - len(label) // 2
+        place = max(0, min(place, columns - 2 - len(label)))
+        if place >= end:
+            line[place : place + len(label)] = label
+            end = place + len(label) + 1
+    line[-1] = "s"
+    return f"{'':>{LABELS + 1}}{''.join(line)}\n"
 
 
 def _style(color: Color) -> str:

@@ -6,6 +6,7 @@ Times are seconds since one start, so that a plot's axis counts as `--from` and 
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -188,6 +189,31 @@ def axis_number(value: float) -> str:
     if size >= 1e6 or size < 1e-3:
         return f"{value:.2e}"
     return f"{value:.{max(0, 3 - max(0, math.floor(math.log10(size))))}f}"
+
+
+def round_ticks(low: float, high: float, most: int) -> list[float]:
+    """Return multiples of 1, 2 or 5 times a power of ten, of which the outer two enclose a span.
+
+    Args:
+        low: Where the span begins.
+        high: Where it ends, above `low`.
+        most: How many there may be, at least two.
+    """
+    power = 10.0 ** math.floor(math.log10((high - low) / max(1, most - 1)))
+    for step in (factor * power for factor in (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)):
+        first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+        if last - first < max(2, most):
+            break
+    return [round(place * step, 12) for place in range(first, last + 1)]
+
+
+def tick_labels(ticks: Sequence[float]) -> list[str]:
+    """Write the ticks of one axis with as many digits as tell them apart."""
+    step = min((after - before for before, after in pairwise(ticks)), default=1.0)
+    if max(map(abs, ticks), default=0.0) >= 1e6 or step < 1e-6:
+        return [axis_number(tick) for tick in ticks]
+    digits = max(0, -math.floor(math.log10(step) + 1e-9))
+    return [f"{tick + 0.0:.{digits}f}" for tick in ticks]
 
 
 def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]:

@@ -19,6 +19,59 @@ from tftool.world.world import World
 ON_ITS_WAY = seconds(1)
 """Samples no older than that may still arrive; a live plot ends before them."""
 
+FARTHEST_BACK = 4
+"""Windows of time that are kept to go back to."""
+
+NEAREST = seconds(0.2)
+"""Least time across the plot."""
+
+_STEP = 1.5
+"""Factor of one step of the zoom."""
+
+
+class PlotSight:
+    """Visible time of a live plot, and its hidden curves: what keys change.
+
+    Attributes:
+        hidden: Numbers of the curves that are not drawn.
+        ended: Whether the key that ends the plot was pressed.
+    """
+
+    def __init__(self, window: Duration) -> None:
+        self.hidden: frozenset[int] = frozenset()
+        self.ended = False
+        self._window = self._span = window
+        self._back: Duration = 0
+
+    def press(self, key: str) -> None:
+        """Take a key: + - for the zoom, left and right for time, 0 for all, digits for curves."""
+        quarter = self._span // 4
+        if key in ("q", "Q"):
+            self.ended = True
+        elif key in ("+", "="):
+            self._span = max(NEAREST, int(self._span / _STEP))
+        elif key in ("-", "_"):
+            self._span = min(FARTHEST_BACK * self._window, int(self._span * _STEP))
+        elif key == "left":
+            self._back = min(FARTHEST_BACK * self._window - self._span, self._back + quarter)
+        elif key == "right":
+            self._back = self._back - quarter
+        elif key == "0":
+            self._span, self._back = self._window, 0
+        elif key in "123456789":
+            self.hidden ^= {int(key)}
+        self._back = max(0, self._back)
+
+    def span(self, now: Stamp) -> tuple[Stamp, Stamp]:
+        """Return the first and the last moment to draw."""
+        return now - self._back - self._span, now - self._back
+
+    @property
+    def hint(self) -> str:
+        """Return a line that says what keys do, and how far back the plot is."""
+        back = f"{as_seconds(self._back):.1f} s back   " if self._back else ""
+        return f"{back}q quit  + - zoom  left right time  0 all  1-9 hide a curve"
+
 
 def plot_live(
     connection: Connection,
@@ -29,27 +82,29 @@ def plot_live(
 ) -> None:
     """Draw a session as it goes on, until q is pressed or it is stopped."""
     console = Console()
-    session = open_session(connection, None, cache_time=window + seconds(1))
+    session = open_session(connection, None, cache_time=FARTHEST_BACK * window + seconds(1))
     world = session.world
     world.clock.when_killed.add(leave_screen, "screen")
     start = min(world.clock.now(), world.clock.epoch) or world.clock.now()
 
-    typed: set[str] = set()
+    sight = PlotSight(window)
 
     async def draw() -> None:
         with (
-            keyboard(typed.add) as takes_keys,
+            keyboard(sight.press) as takes_keys,
             Live(console=console, auto_refresh=False, screen=True) as live,
             left_while_stopped(live.stop, live.start),
         ):
-            hint = "q quits" if takes_keys else ""
             due = world.clock.now()
             end = None if lasting is None else due + lasting
             world.clock.limit(end)
-            while not typed & {"q", "Q"} and (end is None or due <= end):
-                height = console.height - bool(hint)
-                text = _newest(world, pairs, style, start, window, console, height)
-                live.update(text.append(hint), refresh=True)
+            while not sight.ended and (end is None or due <= end):
+                height = console.height - takes_keys
+                text = _newest(world, pairs, style, start, sight, console, height)
+                if takes_keys:
+                    hint = sight.hint[: console.width - 1]
+                    text.append(hint, "yellow" if sight.span(due)[1] < due else "dim")
+                live.update(text, refresh=True)
                 due = max(due + seconds(0.2), world.clock.now())
                 await world.clock.sleep_until(due, Phase.WATCH)
 
@@ -61,12 +116,12 @@ def _newest(
     pairs: list[tuple[str, str]],
     style: PlotStyle,
     start: Stamp,
-    window: Duration,
+    sight: PlotSight,
     console: Console,
     height: int,
 ) -> Text:
-    """Draw the last `window` of a world that goes on, or say what it waits for."""
-    now = world.clock.now()
+    """Draw the visible time of a world that goes on, or say what it waits for."""
+    first, now = sight.span(world.clock.now())
 
     def arrived(target: str, source: str) -> Stamp:
         """Up to where there can be a pose: samples on their way are not missing yet."""
@@ -74,8 +129,8 @@ def _newest(
         return newest if now - ON_ITS_WAY < newest < now else now
 
     # Two moments for each column of dots.
-    period = max(seconds(0.001), window // max(20, 2 * console.width))
-    begin = -(-max(start, now - window) // period) * period
+    period = max(seconds(0.001), (now - first) // max(20, 2 * console.width))
+    begin = -(-max(start, first) // period) * period
     try:
         found = [
             sample(world.buffer, *pair, Moments(begin, arrived(*pair), period)) for pair in pairs
@@ -83,4 +138,4 @@ def _newest(
     except (TransformException, UsageError, InputError) as refusal:
         return Text(f"Waiting: {refusal}\n", style="yellow", overflow="fold")
     span = as_seconds(begin - start), as_seconds(now - start)
-    return style.text(found, start, console, height=height, span=span)
+    return style.text(found, start, console, height=height, span=span, hidden=sight.hidden)

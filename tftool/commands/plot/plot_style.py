@@ -54,6 +54,7 @@ class PlotStyle:
         *,
         height: int | None = None,
         span: tuple[float, float] | None = None,
+        hidden: frozenset[int] | None = None,
     ) -> Text:
         """Draw pairs in the width of a console.
 
@@ -63,10 +64,13 @@ class PlotStyle:
             console: Where it goes; 80 wide unless it is a terminal.
             height: Lines there are; as many as are good if None.
             span: Seconds since `start` that the axis covers; from data to data if None.
+            hidden: Numbers of the curves that keys have hidden; None where there are no keys.
         """
         width = console.width if console.is_terminal else 80
         ascii_only = self.ascii_only or console.options.ascii_only
-        look = view.PlotLook(width, height, ascii_only, self.light)
+        look = view.PlotLook(
+            width, height, ascii_only, self.light, hidden is not None, hidden or frozenset()
+        )
         if self.from_above:
             return view.from_above(found, look)
         return view.over_time(found, start, self.quantities, look, span=span)

@@ -5,8 +5,9 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
 
+from tftool.base.color import Color
 from tftool.base.errors import TransformException
-from tftool.base.stamps import Stamp, seconds
+from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing import theme
@@ -160,6 +161,12 @@ MOST_FRAMES = 24
 LEAST = 0.004
 """Metres under which a frame stays where it is."""
 
+FADE_EVERY = seconds(1.0)
+"""How often the colours of a trail follow its age; trails of many strokes fade less often."""
+
+FADED = Color(112, 116, 130)
+"""Colour of what is as old as `REACH`; on a light ground and on a dark one it is faint."""
+
 GAP = seconds(1.0)
 """Two moments farther apart are not joined by a line."""
 
@@ -184,6 +191,8 @@ class FrameTrails:
         self._stamps: deque[Stamp] = deque()
         self._box: Box | None = None
         self._next: Stamp = 0
+        self._faded: Stamp = 0
+        self._shown: list[Stroke] = []
 
     def follow(self, fixed: str, frames: Iterable[str], now: Stamp) -> Drawn:
         """Look the frames up since the last time, and give all of their trails up to now.
@@ -201,7 +210,19 @@ class FrameTrails:
                 self._grow(frame, now)
             if self._stamps and now - self._stamps[0] > KEPT * 5 // 4:
                 self._forget(now - KEPT)
-        return Drawn(self._strokes, 0, self._edition, self._box)
+            if now - self._faded >= FADE_EVERY * (1 + len(self._strokes) // 1000):
+                self._fade(now)
+            self._shown.extend(islice(self._strokes, len(self._shown), None))
+        return Drawn(self._shown, 0, self._edition, self._box)
+
+    def _fade(self, now: Stamp) -> None:
+        """Give every part the colour of its age; that is another drawing."""
+        self._shown = [
+            _of_age(stroke, now - stamp)
+            for stamp, stroke in zip(self._stamps, self._strokes, strict=True)
+        ]
+        self._edition += 1
+        self._faded = now
 
     def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> Drawn:
         """All trails up to an earlier moment, looked up as far back as the buffer reaches."""
@@ -213,10 +234,12 @@ class FrameTrails:
             start = min(stamp for stamp, _ in found) - PERIOD
         elif fixed == self.fixed:
             start = at
-        strokes = [stroke for _, stroke in sorted(found, key=lambda one: one[0])]
+        found.sort(key=lambda one: one[0])
         if fixed == self.fixed:
             older = bisect_right(self._stamps, start)
-            strokes = [*islice(self._strokes, older), *strokes]
+            before = zip(self._stamps, self._strokes, strict=True)
+            found = [*islice(before, older), *found]
+        strokes = [_of_age(stroke, at - stamp) for stamp, stroke in found]
         # Another drawing at every moment: at rest it is drawn once.
         return Drawn(strokes, 0, -1 - at, _around(None, strokes))
 
@@ -226,6 +249,7 @@ class FrameTrails:
         self._until.clear()
         self._strokes.clear()
         self._stamps.clear()
+        self._shown, self._faded = [], 0
         self._box = None
 
     def _forget(self, before: Stamp) -> None:
@@ -233,8 +257,8 @@ class FrameTrails:
         while self._stamps and self._stamps[0] < before:
             self._stamps.popleft()
             self._strokes.popleft()
-        self._edition += 1
         self._box = _around(None, self._strokes)
+        self._faded, self._shown = 0, []
 
     def _grow(self, frame: str, now: Stamp) -> None:
         start = max(self._until.get(frame, 0), now - REACH)
@@ -283,6 +307,13 @@ class FrameTrails:
         if latest is None or last is None:
             return found, last
         return found, (latest[0], last[1])
+
+
+def _of_age(stroke: Stroke, age: Duration) -> Stroke:
+    """Give a part of a trail the colour of its age."""
+    x0, y0, x1, y1, color, width = stroke
+    share = min(1.0, max(0.0, age / REACH))
+    return x0, y0, x1, y1, theme.blend(color, FADED, 0.9 * share), width
 
 
 def _around(box: Box | None, strokes: Iterable[Stroke]) -> Box | None:

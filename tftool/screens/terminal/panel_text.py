@@ -56,6 +56,9 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
     """The rows that `tree` shows below its heading, the cursor's among them."""
     at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
     space = max(1, height - 1)
+    if len(listed) > space > 2:
+        # The last line counts the others.
+        space -= 1
     first = max(0, min(at - space // 2, len(listed) - space))
     return listed[first : first + space]
 
@@ -103,6 +106,9 @@ def tree(
             sender = padded(info.authority or "", columns.sender, more=look.more)
             line.append("  " + sender, dim)
         lines.append(line)
+    if len(visible) < len(listed) and len(lines) < height:
+        count_words = f"  {len(listed) - len(visible)} more"
+        lines.append(Text(fitted(count_words, width, more=look.more), accent))
     return lines
 
 

@@ -73,6 +73,9 @@ BLOCK_LINES = 11
 LEAST_PLOT = 6
 """Lines of the plots, with their border."""
 
+WITH_BANNER = 36
+"""Rows from which there is room for lines above the picture."""
+
 SCALE = 5
 """Columns left of the picture for its metres."""
 
@@ -127,7 +130,9 @@ def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
         )
     if room >= 36:
         pair = BLOCK_LINES + 2
-    tree = min(tree, max(5, room - pair - max(LEAST_PLOT, room // 4)))
+    # A line less of the plots is better than a frame that is not listed.
+    plot = LEAST_PLOT - 1 if tree == room - pair - LEAST_PLOT + 1 else LEAST_PLOT
+    tree = min(tree, max(5, room - pair - max(plot, room // 4)))
     across = 2 * beside + 2
     if width - across - SCALE >= 38:
         across += SCALE

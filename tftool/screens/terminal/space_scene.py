@@ -25,7 +25,8 @@ def space_picture(moment: SceneMoment) -> SpacePicture:
 
 
 def opens_in_space(moment: SceneMoment) -> bool:
-    """Whether a view from above would put the frames of a moment over each other."""
-    if moment.picture.field is not None:
+    """Whether a view from above would put frames that do not move over each other."""
+    moves = any(not info.is_static and info.parent for info in moment.snapshot.frames)
+    if moves or moment.picture.field is not None:
         return False
     return is_tall(frames_in_space(moment.snapshot, moment.picture.fixed))

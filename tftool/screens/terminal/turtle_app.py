@@ -25,7 +25,7 @@ from tftool.screens.terminal.panel_text import PairPlot
 from tftool.screens.terminal.plane_view import PlaneView
 from tftool.screens.terminal.question import SceneQuestion
 from tftool.screens.terminal.scene import Scene, SceneMoment
-from tftool.screens.terminal.screen_options import SMALLEST, Setting, arranged
+from tftool.screens.terminal.screen_options import SMALLEST, WITH_BANNER, Setting, arranged
 from tftool.screens.terminal.space_panel import SPACE_BINDINGS, SpacePanel
 from tftool.screens.terminal.space_scene import opens_in_space, space_picture
 from tftool.screens.terminal.text_style import wrapped
@@ -144,6 +144,7 @@ class TurtleApp(PanelApp):
         self._is_decided = self.setting.drive_only
         self._plot = PairPlot()
         self._dragged: tuple[int, int] | None = None
+        self._pair_height = 0
         self._rows_shown: tuple[str, ...] = ()
         self._journal = Journal(scene.world.log.records)
         scene.world.log.listen(self._journal.add, "screen")
@@ -183,7 +184,7 @@ class TurtleApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self, width: int, height: int) -> None:
-        banner = self._banner(width) if height >= 24 else []
+        banner = self._banner(width) if height >= WITH_BANNER else []
         moment = self._question.moment
         frames = 3 if moment is None else len(moment.snapshot.frames)
         layout = arranged(width, height, len(banner), frames)
@@ -198,6 +199,8 @@ class TurtleApp(PanelApp):
         field, tree, pair, plot = (self.panel(name) for name in ("field", "tree", "pair", "plot"))
         field.styles.width = layout.field[0] or "1fr"
         field.styles.height = layout.field[1] or "1fr"
+        self._pair_height = layout.pair
+        plot.display = True
         for panel, lines in ((tree, layout.tree), (pair, layout.pair), (plot, 0)):
             panel.styles.height = lines or "1fr"
         if self.setting.drive_only:
@@ -278,9 +281,10 @@ class TurtleApp(PanelApp):
             panels.field_title(moment, is_chosen=bool(self._question.fixed))
         )
         is_idle = self._idle is not None and self._idle.is_drawing
-        told = (
-            f"{self._idle.turtle} draws by itself; a key stops it" if is_idle and self._idle else ""
-        )
+        told = ""
+        if is_idle and self._idle:
+            told = f"{self._idle.turtle} draws by itself"
+            told += "; a key stops it" if width > len(told) + 22 else ""
         field.border_subtitle = Content(told)
         if field.in_space:
             field.draw(space_picture(moment), self.look)
@@ -315,7 +319,13 @@ class TurtleApp(PanelApp):
         shown = panels.in_view(listed, self._question.source, tree.size.height)
         self._rows_shown = tuple(row.info.frame for row in shown)
         tree.show(panels.tree(moment, listed, self._question.source, *tree.size, look))
-        pair.show(panels.pair(moment, *pair.size, look))
+        told = panels.pair(moment, *pair.size, look)
+        is_long = moment.pair.found is None and len(told) > self._pair_height - 2
+        if plot.display == is_long:
+            # A refusal is read to its end: there is nothing to plot meanwhile.
+            plot.display = not is_long
+            pair.styles.height = "1fr" if is_long else self._pair_height
+        pair.show(told)
         plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
 
     def _draw_log(self, moment: SceneMoment) -> None:
