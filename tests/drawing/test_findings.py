@@ -53,7 +53,7 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "       so:  what is placed before and after does not fit; REP-105 wants this transform "
         "continuous",
         "       fix: look at the source at that moment: encoder overflow, a reset of the filter, "
-        "wheel slip",
+        "wheel slip, a tracker that mistook the body",
         "",
         "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /image)"
         " · robot description: skipped, no URDF given",
