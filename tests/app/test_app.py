@@ -13,6 +13,7 @@ import pytest
 import tftool as package
 from tests.patience import PATIENCE
 from tftool.app import main as app
+from tftool.app.help_layout import painted
 from tftool.app.index import COMMANDS
 from tftool.base.errors import (
     InputError,
@@ -170,7 +171,7 @@ def test_a_near_miss_is_told_what_was_meant(tftool):
             "No such option: --precission. Did you mean --precision?",
         ),
         (["echo", "a", "b", "--zzz"], "No such option: --zzz. Try"),
-        (["tree", "--format", "png"], "'png' is not one of"),
+        (["tree", "--format", "bmp"], "'bmp' is not one of"),
         (["check", "turtles", "--run"], "Option '--run' requires an argument."),
     ],
 )
@@ -463,3 +464,33 @@ def test_without_a_stdout_it_does_its_work_all_the_same(monkeypatch):
 
     assert app.main(["--version"]) == 0
     sys.stdout.close()
+
+
+@pytest.mark.parametrize("command", [name for name in COMMANDS if name != "calibrate"])
+def test_help_fits_eighty_columns(tftool, monkeypatch, command):
+    monkeypatch.setenv("COLUMNS", "80")
+
+    assert max(map(len, tftool(command, "--help").out.splitlines())) <= 80
+
+
+def test_help_is_painted_where_it_is_read():
+    plain = main_help()
+    text = painted(plain)
+
+    assert re.sub("\x1b\\[[0-9;]*m", "", text) == plain
+    assert "\x1b[1;33mOptions:\x1b[0m" in text
+    assert "\x1b[36m--at SECONDS\x1b[0m" in text
+    assert "\x1b[32m  tftool echo map laser\x1b[0m" in text
+
+
+def main_help():
+    return """Usage: tftool echo [OPTIONS]
+
+  Say where it is.
+
+  tftool echo map laser
+
+Options:
+  --at SECONDS  When; the latest
+                if not said.
+"""

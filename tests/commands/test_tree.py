@@ -62,6 +62,7 @@ def test_several_trees_are_all_shown(tftool):
         ("svg", "svg", b"<"),
         ("html", "html", b"<!doctype html>"),
         ("pdf", "pdf", b"%PDF"),
+        ("png", "png", b"\x89PNG"),
     ],
 )
 def test_a_file_gets_what_its_suffix_or_the_format_says(
@@ -76,7 +77,7 @@ def test_a_file_gets_what_its_suffix_or_the_format_says(
     assert result.err.endswith(f"Wrote 3 frames to {file}.\n")
     content = file.read_bytes()
     assert content.startswith(opening)
-    assert b"turtle1" in content or form == "pdf"
+    assert b"turtle1" in content or form in ("pdf", "png")
 
 
 def test_data_for_programs_is_what_it_says_it_is(tftool):
@@ -101,7 +102,7 @@ def test_a_pdf_goes_down_a_pipe_as_bytes():
 @pytest.mark.parametrize(
     ("words", "status", "sentence"),
     [
-        (["-o", "frames.png"], 2, "'frames.png' does not say what to write"),
+        (["-o", "frames.bmp"], 2, "'frames.png' does not say what to write"),
         (["-o", "/"], 2, "'/' is a folder: name a file in it."),
         (
             ["-o", "/nowhere/frames.svg"],
@@ -235,7 +236,7 @@ def test_nothing_stands_beside_frames_that_are_as_they_should_be(tftool):
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of a process are POSIX")
 @pytest.mark.parametrize(
     "words",
-    [["tree", "robot", "--at", "1", "-o"], ["check", "turtles", "--junit"]],
+    [["tree", "robot", "--at", "1", "--force", "-o"], ["check", "turtles", "--junit"]],
 )
 def test_a_file_that_cannot_be_completed_leaves_the_one_before(tmp_path, words):
     kept = tmp_path / "kept.txt"
@@ -251,3 +252,15 @@ def test_a_file_that_cannot_be_completed_leaves_the_one_before(tmp_path, words):
     assert done.returncode == 3, done.stderr
     assert "cannot be written: File too large" in done.stderr
     assert [(one.name, one.read_text()) for one in tmp_path.iterdir()] == [("kept.txt", "before")]
+
+
+def test_a_file_is_replaced_only_by_force(tftool, simulated, tmp_path):
+    file = tmp_path / "tree.svg"
+    file.write_text("mine")
+
+    refused = tftool("tree", "robot", "-o", file)
+    assert refused.status == 2
+    assert "--force" in refused.err
+    assert file.read_text() == "mine"
+    assert tftool("tree", "robot", "-o", file, "--force").status == 0
+    assert file.read_text().startswith("<svg")

@@ -1,7 +1,10 @@
 """Layout of help: commands by purpose, options by subject."""
 
 import math
+import os
 import re
+import shutil
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from inspect import cleandoc
 from itertools import pairwise
@@ -20,7 +23,65 @@ _SESSION = "help_session"
 _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
 
 
-class Commands(TyperGroup):
+class Shown:
+    """Help that is coloured on a terminal, and goes through a pager where it is longer than that.
+
+    A command and the list of commands share it.
+    """
+
+    def get_help(self, ctx: Any) -> str:
+        """Return the help; where a pager shows it, end instead."""
+        # The class beside this one in a base list makes the text.
+        text: str = super().get_help(ctx)  # type: ignore[misc]
+        if not sys.stdout.isatty() or os.environ.get("TERM") == "dumb":
+            return text
+        is_long = text.count("\n") + 2 > shutil.get_terminal_size().lines
+        if not os.environ.get("NO_COLOR"):
+            text = painted(text)
+        if is_long and sys.stdin.isatty():
+            _page(text)
+            ctx.exit()
+        return text
+
+
+def _page(text: str) -> None:
+    """Show a text in the user's pager, else in less; write it where there is neither."""
+    import shlex
+    import signal
+    import subprocess
+
+    command = shlex.split(os.environ.get("PAGER") or "less")
+    if shutil.which(command[0]) is None:
+        sys.stdout.write(f"{text}\n")
+        return
+    # Ctrl-C is the pager's: if this process ended before it, the shell and the pager would
+    # both read the keyboard.
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        # Colours as they are; the text stays on the screen after q.
+        environment = {"LESS": "-RX", **os.environ}
+        subprocess.run(command, input=f"{text}\n", text=True, env=environment, check=False)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+_HEADING = re.compile(r"^(\S[^:\n]*:)$", re.MULTILINE)
+_NAME = re.compile(r"^(  )((?:-[^ ]|\[|[A-Z]).*?|[a-z][\w-]*)(?=\s{2,}\S|$)", re.MULTILINE)
+_EXAMPLE = re.compile(r"^(  tftool .*)$", re.MULTILINE)
+
+
+def painted(text: str) -> str:
+    """Paint headings, the names of options and commands, and examples."""
+    head, colon, lists = text.partition("\n\nArguments:")
+    for title in ("Options", *GROUPS):
+        if not colon:
+            head, colon, lists = text.partition(f"\n\n{title}:")
+    lists = _NAME.sub("\\1\x1b[36m\\2\x1b[0m", colon + lists)
+    text = _EXAMPLE.sub("\x1b[32m\\1\x1b[0m", head) + lists
+    return _HEADING.sub("\x1b[1;33m\\1\x1b[0m", text).replace("Usage:", "\x1b[1mUsage:\x1b[0m", 1)
+
+
+class Commands(Shown, TyperGroup):
     """The `tftool` command, whose help lists its commands by group.
 
     Only a command that is asked for is made: for all of them that takes longer than to start
@@ -60,7 +121,7 @@ def _laid_out(command: Callable[..., Any]) -> str:
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
-class Command(TyperCommand):
+class Command(Shown, TyperCommand):
     """A command whose options are listed by what they are about, those of sessions when asked."""
 
     def __init__(self, name: str | None, **words: Any) -> None:

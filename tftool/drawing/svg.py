@@ -1,9 +1,12 @@
 """The tree as SVG, and as a page of HTML with that picture and a table.
 
-Each is one self-contained file, light or dark as its viewer is: nothing fetched, no script.
+Each is one self-contained file, light or dark as its viewer is, and fetches nothing. The page has
+a script that fits, moves and searches the picture; without it everything is still there.
 """
 
 import math
+from base64 import b64encode
+from hashlib import sha256
 from html import escape
 
 from tftool.base.escaping import distinct, visible
@@ -98,7 +101,12 @@ _PAGE_STYLE = """\
 :root { color-scheme: light dark; }
 body { margin: 1.5rem; font: 15px/1.45 system-ui, sans-serif; background: #fbfbfd; color: #171c24; }
 h1 { font-size: 1.2rem; margin: 0; }
-.picture { overflow: auto; margin: 1rem 0; }
+.picture { overflow: hidden; margin: .6rem 0 1rem; height: 75vh; border: 1px solid #d6dce5; }
+.picture svg { width: 100%; height: 100%; cursor: grab; touch-action: none; }
+rect.found { stroke: #d9731a; stroke-width: 5; }
+.tools { display: flex; gap: .5rem; align-items: center; flex-wrap: wrap; margin-top: .6rem; }
+.tools input { font: inherit; padding: .2rem .5rem; width: 16rem; }
+.tools button { font: inherit; padding: .2rem .6rem; }
 .table { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .25rem .9rem .25rem 0; vertical-align: top; }
@@ -111,6 +119,81 @@ body { background: #14171c; color: #e4e9f0; }
 td { border-color: #333c49; }
 tr.wrong td { color: #f0a860; }
 }"""
+
+
+_SCRIPT = """\
+const svg = document.querySelector(".picture svg"), words = document.querySelector("#words");
+const wide = svg.viewBox.baseVal.width, high = svg.viewBox.baseVal.height;
+const rows = [...document.querySelectorAll("tbody tr")];
+const boxes = [...svg.querySelectorAll("rect")].filter((box) => box.querySelector("title"));
+let view = [0, 0, wide, high], found = [], place = -1;
+const show = () => svg.setAttribute("viewBox", view.join(" "));
+const fit = () => { view = [0, 0, wide, high]; show(); };
+function point(event) {
+  const at = new DOMPoint(event.clientX, event.clientY);
+  return at.matrixTransform(svg.getScreenCTM().inverse());
+}
+function zoom(factor, x = view[0] + view[2] / 2, y = view[1] + view[3] / 2) {
+  const size = Math.min(4 * wide, Math.max(wide / 200, view[2] * factor)) / view[2];
+  view = [x + (view[0] - x) * size, y + (view[1] - y) * size, view[2] * size, view[3] * size];
+  show();
+}
+svg.addEventListener("wheel", (event) => {
+  event.preventDefault();
+  const at = point(event);
+  zoom(event.deltaY < 0 ? 0.8 : 1.25, at.x, at.y);
+}, { passive: false });
+let held = null;
+svg.addEventListener("pointerdown", (event) => {
+  held = point(event);
+  svg.setPointerCapture(event.pointerId);
+});
+svg.addEventListener("pointermove", (event) => {
+  if (!held) return;
+  const at = point(event);
+  view[0] += held.x - at.x;
+  view[1] += held.y - at.y;
+  show();
+});
+svg.addEventListener("pointerup", () => { held = null; });
+function search() {
+  const wanted = words.value.trim().toLowerCase();
+  const has = (text) => wanted !== "" && text.toLowerCase().includes(wanted);
+  found = boxes.filter((box) => has(box.querySelector("title").textContent));
+  for (const box of boxes) box.classList.toggle("found", found.includes(box));
+  for (const row of rows) row.hidden = wanted !== "" && !has(row.cells[0].textContent);
+  document.querySelector("#count").textContent =
+    wanted === "" ? "" : found.length + (found.length === 1 ? " frame" : " frames");
+  place = -1;
+}
+function next() {
+  if (!found.length) return;
+  place = (place + 1) % found.length;
+  const box = found[place].getBBox(), ratio = svg.clientHeight / svg.clientWidth;
+  const across = Math.max(6 * box.width, 900);
+  view = [box.x + box.width / 2 - across / 2, box.y + box.height / 2 - across * ratio / 2,
+    across, across * ratio];
+  show();
+}
+words.addEventListener("input", search);
+words.addEventListener("keydown", (event) => { if (event.key === "Enter") next(); });
+const tools = { fit, nearer: () => zoom(0.8), farther: () => zoom(1.25) };
+for (const [name, does] of Object.entries(tools)) {
+  document.querySelector("#" + name).addEventListener("click", does);
+}
+addEventListener("keydown", (event) => {
+  if (event.target === words) return;
+  if (event.key === "+" || event.key === "=") zoom(0.8);
+  else if (event.key === "-") zoom(1.25);
+  else if (event.key === "0") fit();
+  else if (event.key === "/") { event.preventDefault(); words.focus(); }
+});
+"""
+_TOOLS = """\
+<div class="tools"><input id="words" type="search" placeholder="find a frame: Enter goes to it"
+ aria-label="Find a frame"><span id="count" role="status"></span>
+<button id="nearer" type="button">+</button><button id="farther" type="button">&minus;</button>
+<button id="fit" type="button">fit</button></div>"""
 
 
 def page(snapshot: Snapshot, svg: str, marks: Marks = NO_MARKS) -> str:
@@ -139,11 +222,18 @@ def page(snapshot: Snapshot, svg: str, marks: Marks = NO_MARKS) -> str:
         "<h1>Frames</h1>",
         f"<p>{told}</p>",
         *(
-            [f'<div class="picture">\n{svg}</div>', f'<div class="table">\n{table}\n</div>']
+            [
+                _TOOLS,
+                f'<div class="picture">\n{svg}</div>',
+                f'<div class="table">\n{table}\n</div>',
+                f"<script>\n{_SCRIPT}</script>",
+            ]
             if snapshot.frames
             else [f"<p>{NOTHING}</p>"]
         ),
     ]
+    # No other script runs, whatever a name is made of.
+    allowed = b64encode(sha256(f"\n{_SCRIPT}".encode()).digest()).decode()
     return "\n".join(
         [
             "<!doctype html>",
@@ -152,7 +242,8 @@ def page(snapshot: Snapshot, svg: str, marks: Marks = NO_MARKS) -> str:
             '<meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             '<meta http-equiv="Content-Security-Policy" '
-            "content=\"default-src 'none'; style-src 'unsafe-inline'\">",
+            "content=\"default-src 'none'; style-src 'unsafe-inline'; "
+            f"script-src 'sha256-{allowed}'\">",
             "<title>Frames</title>",
             f"<style>{_PAGE_STYLE}</style>",
             "</head>",

@@ -1,4 +1,4 @@
-"""Pictures of the tree: dot, mermaid, SVG, HTML and PDF, without Graphviz.
+"""Pictures of the tree: dot, mermaid, SVG, HTML, PDF and PNG, without Graphviz.
 
 dot is view_frames' own text, so that whatever reads frames.gv reads this too. The
 others are ours. A name is a name in all of them, whatever it is made of.
@@ -186,6 +186,19 @@ def pdf(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     return Drawing(pdf_writer.render(picture), picture.left_out, note)
 
 
+def png(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
+    """Draw the trees as PNG; at most `MOST_DRAWN` frames.
+
+    Raises:
+        UsageError: If the extra `plot` is not installed.
+    """
+    from tftool.drawing import sheet_image  # it needs the extra
+
+    picture = lay_out(snapshot, stale=_stale(marks))
+    note = _picture_note(picture.left_out)
+    return Drawing(sheet_image.render(picture), picture.left_out, note)
+
+
 def _stale(marks: Marks) -> frozenset[str]:
     return frozenset(frame for frame, ids in marks.items() if "edge-stopped" in ids)
 
@@ -228,6 +241,7 @@ FORMATS: Mapping[str, Callable[[Snapshot, Marks], Drawing]] = {
     "svg": svg,
     "html": page,
     "pdf": pdf,
+    "png": png,
 }
 """The formats by name."""
 
@@ -240,5 +254,6 @@ SUFFIXES: Mapping[str, str] = {
     ".html": "html",
     ".htm": "html",
     ".pdf": "pdf",
+    ".png": "png",
 }
 """The format a file's suffix asks for."""

@@ -50,9 +50,11 @@ def export(
     form: Annotated[
         Format | None,
         option(
-            "What to write; if not said, what -o ends in. EuRoC is written where it is said.",
+            f"What to write: {', '.join(Format)}; if not said, what -o ends in. EuRoC is written "
+            "where it is said.",
             "--format",
             "-f",
+            metavar="FORMAT",
             panel=OUTPUT,
         ),
     ] = None,

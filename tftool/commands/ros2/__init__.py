@@ -35,6 +35,6 @@ def ros2(
     each are those of ROS 2. Options of this command go before COMMAND.
 
     tftool ros2 topic list
-    tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2, theta: 0.2, name: ''}"
-    tftool ros2 topic pub /turtle1/cmd_vel geometry_msgs/msg/Twist "{linear: {x: 2.0}}"
+    tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2}"
+    tftool ros2 topic pub turtle1/cmd_vel geometry_msgs/msg/Twist "linear: {x: 2}"
     """

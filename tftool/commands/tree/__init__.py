@@ -9,6 +9,7 @@ from tftool.commands.shared.options import (
     OUTPUT,
     AtOption,
     CacheTime,
+    Force,
     From,
     Json,
     RunFor,
@@ -31,6 +32,7 @@ class TreeFormat(StrEnum):
     svg = "svg"
     html = "html"
     pdf = "pdf"
+    png = "png"
 
 
 @declare(looks_only=True, recordings=True, descriptions=True, urdf=True)
@@ -39,9 +41,16 @@ def tree(
     place: From = None,
     form: Annotated[
         TreeFormat | None,
-        option("What to write; if not said, what -o ends in.", "--format", "-f", panel=OUTPUT),
+        option(
+            f"What to write: {', '.join(TreeFormat)}; if not said, what -o ends in.",
+            "--format",
+            "-f",
+            metavar="FORMAT",
+            panel=OUTPUT,
+        ),
     ] = None,
     output: Annotated[Path | None, output_file("Where to write it; - is stdout.")] = None,
+    force: Force = False,
     as_json: Json = False,
     wide: Annotated[
         bool,

@@ -22,6 +22,7 @@ from tftool.doctor.frame_marks import marks as doctor_marks
 from tftool.drawing import frame_tree
 from tftool.drawing.frame_tree import Marks
 from tftool.frames.moment import At
+from tftool.recordings.target import refuse_existing
 
 TEXTS = {
     ".txt": TreeFormat.tree,
@@ -42,6 +43,7 @@ def run(
     *,
     form: TreeFormat | None,
     output: Path | None,
+    force: bool,
     as_json: bool,
     wide: bool,
     at: At | None,
@@ -61,11 +63,14 @@ def run(
             watch and is_drawn_at_once,
             "--watch draws on the terminal: leave out --format, --json, -o and --at.",
         ),
+        (force and output is None, "--force goes with -o FILE."),
         (
             run_for is not None and not watch,
             "--for goes with --watch; without it the tree is written once.",
         ),
     )
+    if output is not None and output.is_file():
+        refuse_existing(output, force=force)
     if watch:
         from tftool.commands.tree.tree_watch import show_changes
 
@@ -119,7 +124,9 @@ def _write(
     if output is None or str(output) == "-":
         if isinstance(content, bytes):
             if sys.stdout.isatty():
-                raise UsageError("A PDF is nothing for a terminal: say where it goes with -o FILE.")
+                raise UsageError(
+                    "A picture is nothing for a terminal: say where it goes with -o FILE."
+                )
             sys.stdout.buffer.write(content)
         else:
             sys.stdout.writelines(content)

@@ -1,0 +1,87 @@
+"""The tree as PNG, drawn by matplotlib, which is an extra."""
+
+import io
+from importlib import import_module
+from typing import Final
+
+from tftool.base.errors import UsageError
+from tftool.drawing.picture import Box, Picture
+
+_MOST_POINTS: Final = 12_000
+"""Points of the picture across and down: larger ones do not open in many programs."""
+
+_FILLS: Final = {
+    "root": ("#dbe9ff", "#4b7fd6"),
+    "dynamic": ("#ffffff", "#8fa3bd"),
+    "stale": ("#fff1e0", "#d9731a"),
+    "static": ("#fdf7e7", "#b99a45"),
+    "group": ("none", "#c6ced9"),
+    "more": ("none", "#8a93a0"),
+}
+_INKS: Final = {"name": "#171c24", "fact": "#5a6472", "note": "#8a6a17"}
+
+
+def render(picture: Picture) -> bytes:
+    """Write a picture as PNG, with two points to each of its own where it is not too large.
+
+    Raises:
+        UsageError: If the extra `plot` is not installed.
+    """
+    try:
+        figure_module = import_module("matplotlib.figure")
+        patches = import_module("matplotlib.patches")
+        paths = import_module("matplotlib.path")
+    except ImportError as missing:
+        raise UsageError(
+            "A picture as PNG needs an extra: pip install 'tftool-tf2[plot]'; .svg does not."
+        ) from missing
+    scale = min(2.0, _MOST_POINTS / max(picture.width, picture.height))
+    size = picture.width / 72.0, picture.height / 72.0
+    figure = figure_module.Figure(figsize=size, dpi=72, facecolor="#fbfbfd")
+    axes = figure.add_axes((0, 0, 1, 1))
+    axes.set_axis_off()
+    axes.set_xlim(0, picture.width)
+    axes.set_ylim(picture.height, 0)
+    path = paths.Path
+    for link in picture.links:
+        bends = link.bends
+        points = [(link.x0, link.y0), *zip(bends[::2], bends[1::2], strict=True)]
+        codes = [path.MOVETO, path.CURVE4, path.CURVE4, path.CURVE4]
+        ink, dashes = ("#b99a45", (0, (3, 2))) if link.static else ("#6d86a8", "-")
+        axes.add_patch(
+            patches.PathPatch(
+                path(points, codes), fill=False, edgecolor=ink, linewidth=1.4, linestyle=dashes
+            )
+        )
+    for box in picture.boxes:
+        fill, edge = _FILLS[box.kind]
+        axes.add_patch(
+            patches.FancyBboxPatch(
+                (box.x, box.y),
+                box.width,
+                box.height,
+                boxstyle=f"round,pad=0,rounding_size={_radius(box)}",
+                facecolor=fill,
+                edgecolor=edge,
+                linewidth=1.1,
+                linestyle=(0, (3, 2)) if box.kind in ("static", "more") else "-",
+            )
+        )
+    for text in picture.texts:
+        axes.text(
+            text.x,
+            text.y,
+            text.text.replace("$", r"\$"),
+            color=_INKS[text.kind],
+            # A little smaller than in SVG: this font is wider than Helvetica.
+            fontsize=0.86 * text.size,
+            fontweight="bold" if text.kind == "name" else "normal",
+            fontstyle="italic" if text.kind == "note" else "normal",
+        )
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=72.0 * scale, facecolor="#fbfbfd")
+    return file.getvalue()
+
+
+def _radius(box: Box) -> float:
+    return min(box.height / 2.0, box.width / 2.0) if box.kind == "root" else 9.0
