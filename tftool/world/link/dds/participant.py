@@ -169,25 +169,29 @@ class Participant:
         """
         inbox, participant = self.inbox, self
 
-        # Its methods run on threads of the library: they hand over, and touch nothing else.
-        class Taking(Listener):  # type: ignore[misc]
-            def on_data_available(self, reader: Any) -> None:
-                # An exception would go into the library's C code, which prints and loses it.
-                with contextlib.suppress(Exception):
-                    participant._take(reader, on_sample)
+        # Both run on threads of the library: they hand over, and touch nothing else.
+        def on_data_available(reader: Any) -> None:
+            # An exception would go into the library's C code, which prints and loses it.
+            with contextlib.suppress(Exception):
+                participant._take(reader, on_sample)
 
-            def on_requested_incompatible_qos(self, reader: Any, status: Any) -> None:
-                if on_refused is not None:
-                    inbox.put(on_refused, int(status.last_policy_id))
+        def on_requested_incompatible_qos(_: Any, status: Any) -> None:
+            if on_refused is not None:
+                inbox.put(on_refused, int(status.last_policy_id))
 
         # All that waits is kept: it is taken at once, and bounds are those of the inbox.
         policies = _policies(quality, Policy.History.KeepAll)
         # Our own messages reach our own nodes without the wire.
         policies.append(Policy.IgnoreLocal.Participant)
+        # While the library makes a reader it may hold the lock of a writer of this process, whose
+        # thread waits for that lock with Python's own (GIL) in hand. A callback for data needs
+        # the GIL: it is set once the reader is there, or both threads wait for ever.
+        refusing = Listener(on_requested_incompatible_qos=on_requested_incompatible_qos)
         made = DataReader(
-            self.entity, self._topic(topic, kind), qos=_qos(policies), listener=Taking()
+            self.entity, self._topic(topic, kind), qos=_qos(policies), listener=refusing
         )
-        # What came while it was made found nothing to tell yet.
+        made.set_listener(Listener(on_data_available=on_data_available))
+        # Nothing was told of what came before.
         self._take(made, on_sample)
         return TopicReader(made)
 
