@@ -110,3 +110,18 @@ def test_on_a_terminal_keys_steer_it(tmp_path):
         terminal.ended(0)
     finally:
         terminal.tmux("kill-server")
+
+
+def test_on_a_terminal_findings_are_marked_and_told(tmp_path, tftool, simulated):
+    file = tmp_path / "lost.mcap"
+    assert tftool("export", "lost_leader", "-o", file).status == 0
+    words = ("-m", "tftool", "play", str(file), "--host", "--paused")
+    terminal = Terminal(tmp_path, 100, 20, words, {})
+    try:
+        terminal.until(lambda screen: "▲" in screen or "△" in screen, "a mark")
+        terminal.press("n")
+        terminal.until(lambda screen: " s: " in screen, "the finding")
+        terminal.press("q")
+        terminal.ended(0)
+    finally:
+        terminal.tmux("kill-server")

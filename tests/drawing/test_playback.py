@@ -1,15 +1,15 @@
 import pytest
 
 from tftool.base.stamps import seconds
-from tftool.drawing.playback_line import Playback, line
+from tftool.drawing.playback_line import Playback, PlaybackMark, after, line, passed
 
 HALF = Playback(seconds(10), seconds(20), 1.5)
 
 
 def test_the_line_of_a_wide_terminal_tells_all():
-    assert line(HALF, 100) == (
+    assert line(HALF, 111) == (
         "▶ 10.00 / 20.00 s  ×1.5  ━━━━───── "
-        " space pause  → next  [ ] 1 s  { } 10 s  ↑↓ rate  0 start  q quit"
+        " space pause  → next  [ ] 1 s  { } 10 s  ↑↓ rate  n finding  0 start  q quit"
     )
 
 
@@ -36,3 +36,29 @@ def test_paused_in_ascii():
 
 def test_a_recording_of_one_moment_is_played_whole():
     assert "━" * 8 in line(Playback(0, 0), 60, with_keys=False)
+
+
+GAP = PlaybackMark(seconds(5), seconds(10), "no data", is_error=True)
+STEP = PlaybackMark(seconds(15), seconds(15), "it steps")
+
+
+def test_findings_are_marks_on_a_longer_bar():
+    told = line(Playback(0, seconds(20), marks=[GAP, STEP]), 80, with_keys=False)
+    bar = told.split()[-1]
+
+    assert len(bar) > 50
+    assert bar.count("△") == 1
+    assert bar.index("△") == pytest.approx(0.75 * len(bar), abs=1)
+    assert bar.index("▲") == pytest.approx(0.25 * len(bar), abs=1)
+    assert bar.count("▲") == pytest.approx(0.25 * len(bar), abs=2)
+    plain = line(Playback(0, seconds(20), marks=[GAP, STEP]), 80, ascii_only=True)
+    assert plain.isascii()
+    assert "!" in plain
+
+
+def test_the_next_finding_and_those_just_passed():
+    assert after([GAP, STEP], 0) == seconds(5)
+    assert after([GAP, STEP], seconds(5)) == seconds(15)
+    assert after([GAP, STEP], seconds(15)) is None
+    assert passed([GAP, STEP], seconds(4), seconds(5)) == [GAP]
+    assert passed([GAP, STEP], seconds(5), seconds(14)) == []

@@ -11,6 +11,7 @@ KEYS = (
     ("[ ]", "1 s"),
     ("{ }", "10 s"),
     ("↑↓", "rate"),
+    ("n", "finding"),
     ("0", "start"),
     ("q", "quit"),
 )
@@ -18,6 +19,25 @@ KEYS = (
 
 _ASCII = {"→": "right", "↑↓": "up/down"}
 _SHORTEST_BAR, _LONGEST_BAR = 8, 30
+_LONGEST_TIMELINE = 120
+"""Cells of a bar that shows findings: their places are to be told apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlaybackMark:
+    """Finding of the doctor on the bar.
+
+    Attributes:
+        since: Where it begins, nanoseconds from the start.
+        until: Where it ends.
+        message: The finding, in one line.
+        is_error: Whether it is an error, not a warning.
+    """
+
+    since: Duration
+    until: Duration
+    message: str
+    is_error: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +50,7 @@ class Playback:
         rate: How many of its seconds pass in a real one.
         is_paused: Whether it stands still.
         laps: How often it has started over.
+        marks: Findings of the doctor, the worst first.
     """
 
     done: Duration
@@ -37,6 +58,7 @@ class Playback:
     rate: float = 1.0
     is_paused: bool = False
     laps: int = 0
+    marks: Sequence[PlaybackMark] = ()
 
 
 def line(
@@ -57,13 +79,33 @@ def line(
     text += f"  {'x' if ascii_only else '×'}{playback.rate:.3g}"
     if playback.laps:
         text += f"  lap {playback.laps + 1}"
-    keys = _keys(width - len(text) - _SHORTEST_BAR - 4, ascii_only) if with_keys else ""
-    room = min(width - len(text) - len(keys) - 4, _LONGEST_BAR)
+    shortest = 3 * _SHORTEST_BAR if playback.marks else _SHORTEST_BAR
+    keys = _keys(width - len(text) - shortest - 4, ascii_only) if with_keys else ""
+    longest = _LONGEST_TIMELINE if playback.marks else _LONGEST_BAR
+    room = min(width - len(text) - len(keys) - 4, longest)
     if room >= _SHORTEST_BAR:
         full = round(room * min(max(seconds / total, 0.0), 1.0)) if total > 0 else room
         solid, empty = ("#", ".") if ascii_only else ("━", "─")
-        text += f"  {solid * full}{empty * (room - full)}"
+        bar = list(solid * full + empty * (room - full))
+        for mark in reversed(playback.marks):
+            first, last = (
+                min(room - 1, max(0, int(room * moment / max(1, playback.total))))
+                for moment in (mark.since, mark.until)
+            )
+            sign = ("!", "?")[not mark.is_error] if ascii_only else "▲△"[not mark.is_error]
+            bar[first : last + 1] = sign * (last + 1 - first)
+        text += f"  {''.join(bar)}"
     return f"{text}  {keys}".rstrip()[: max(width, 0)]
+
+
+def passed(marks: Sequence[PlaybackMark], before: Duration, now: Duration) -> list[PlaybackMark]:
+    """Return the marks that begin after one moment and not after another."""
+    return [one for one in marks if before < one.since <= now]
+
+
+def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
+    """Return where the next mark begins; None behind the last."""
+    return min((one.since for one in marks if one.since > now), default=None)
 
 
 def _keys(room: int, ascii_only: bool) -> str:

@@ -61,7 +61,8 @@ def play(
     ROS 2 do with use_sim_time. 'tftool view', 'tftool echo' and your own nodes see them live.
 
     On a terminal space pauses, the right arrow sends the next message, [ and ] seek by a second,
-    { and } by ten, up and down change the rate, 0 goes to the start, q quits.
+    { and } by ten, up and down change the rate, n goes to the doctor's next finding, 0 to the
+    start, q quits. Findings are marked on the line, and told as they are passed.
 
     tftool play run.mcap
     tftool play run.mcap --from 12.5 --to 20 --rate 0.5 --loop

@@ -1,6 +1,8 @@
 """`tftool play`: a recording as a session that lives."""
 
 import asyncio
+import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,6 +16,10 @@ from tftool.commands.shared.keypresses import keyboard
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.playback import Display, press
+from tftool.doctor.evidence import evidence_of_recording
+from tftool.doctor.findings import Severity
+from tftool.doctor.judge import judge
+from tftool.drawing.playback_line import PlaybackMark
 from tftool.frames.moment import At
 from tftool.opener import named
 from tftool.recordings.recording import Recording
@@ -27,6 +33,12 @@ from tftool.world.link.session_world import shared
 from tftool.world.nodes.player import Player
 from tftool.world.supervisor import beside, live
 from tftool.world.world import World
+
+MOST_JUDGED = 1_000_000
+"""Transforms of a recording that the doctor looks at before it plays: that takes about a second."""
+
+MOST_MARKS = 200
+"""Findings on the line, the worst ones."""
 
 
 def _refuse_to_mix(link: Link) -> None:
@@ -78,16 +90,17 @@ class _Playing:
     is_restamped: bool
     sends_all: bool
     duration: Duration | None
+    marks: Sequence[PlaybackMark] = ()
 
     async def play(self, pace: Clock, link: Link | None) -> None:
         """Play, and share it."""
         world = World(pace if self.is_restamped else FollowedClock(max(self.span[0], 1)))
         with shared(link, world):
             player = self._player(world, pace, link)
-            display = Display(player, pace)
+            display = Display(player, pace, self.marks)
             stop_telling = world.log.listen(display.tell, "console")
             try:
-                with keyboard(lambda key: press(player, key)) as display.has_keys:
+                with keyboard(lambda key: press(player, key, self.marks)) as display.has_keys:
                     helper = self._until_over(world, pace, display)
                     await beside(live(world), helper)
             finally:
@@ -132,6 +145,24 @@ class _Playing:
             showing.cancel()
 
 
+def _marks(recording: Recording, start: Stamp) -> list[PlaybackMark]:
+    """Return the doctor's findings that have a moment, where a terminal shows them."""
+    if not sys.stderr.isatty() or len(recording.transforms) > MOST_JUDGED:
+        return []
+    found = judge(evidence_of_recording(recording)).findings
+    marks = [
+        PlaybackMark(
+            one.since - start,
+            (one.until or one.since) - start,
+            one.message,
+            one.severity is Severity.ERROR,
+        )
+        for one in sorted(found, key=lambda one: one.severity.rank)
+        if one.since is not None
+    ]
+    return marks[:MOST_MARKS]
+
+
 def run(
     connection: Connection,
     file: str,
@@ -155,16 +186,18 @@ def run(
     recording = open_from(connection, file, shares=True).recording
     assert isinstance(recording, Recording)
     timeline = Timeline(recording.source, recording.transforms)
+    span = _span(recording, timeline, begin, until)
     playing = _Playing(
         recording,
         timeline,
-        _span(recording, timeline, begin, until),
+        span,
         rate,
         is_paused=paused,
         is_looping=loop,
         is_restamped=restamp is not None,
         sends_all=everything,
         duration=run_for,
+        marks=_marks(recording, span[0]),
     )
     # Last of all: while it has not been decided who hosts, other processes wait.
     link = join_or_host(connection, file).link

@@ -3,12 +3,13 @@
 import os
 import shutil
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
 from tftool.base.escaping import visible
-from tftool.base.stamps import Duration, seconds
+from tftool.base.stamps import Duration, as_seconds, seconds
 from tftool.commands.shared.notices import is_news, notice, tell_record
-from tftool.drawing.playback_line import Playback, line
+from tftool.drawing.playback_line import Playback, PlaybackMark, after, line, passed
 from tftool.world.clock import Clock, Phase
 
 if TYPE_CHECKING:
@@ -24,8 +25,14 @@ NEAR, FAR = seconds(1), seconds(10)
 _ERASE = "\r\x1b[2K"
 
 
-def press(player: "Player", key: str) -> None:
-    """Do what a key says: pause, next message, seek, rate, quit. Any other does nothing."""
+def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> None:
+    """Do what a key says: pause, next message, seek, rate, quit. Any other does nothing.
+
+    Args:
+        player: Who plays.
+        key: The key.
+        marks: Findings that "n" goes to, one after the other.
+    """
     if key == "space":
         if player.is_paused:
             player.resume()
@@ -37,6 +44,10 @@ def press(player: "Player", key: str) -> None:
         player.set_rate(player.rate * (FASTER if key == "up" else 1.0 / FASTER))
     elif key in _SEEKS:
         player.seek(player.position + _SEEKS[key])
+    elif key == "n":
+        to = after(marks, player.position - player.start)
+        if to is not None:
+            player.seek(player.start + to)
     elif key in ("0", "home"):
         player.seek(player.start)
     elif key in ("q", "Q"):
@@ -55,13 +66,16 @@ _SEEKS: Final[dict[str, Duration]] = {
 class Display:
     """A line on stderr that says where a player stands, if that is a terminal."""
 
-    def __init__(self, player: "Player", clock: Clock) -> None:
+    def __init__(self, player: "Player", clock: Clock, marks: Sequence[PlaybackMark] = ()) -> None:
         """Show nothing yet.
 
         Args:
             player: Who plays.
             clock: When to draw.
+            marks: Findings of the doctor.
         """
+        self._marks = marks
+        self._done: Duration = -1
         self._player = player
         self._clock = clock
         self._is_shown = False
@@ -90,7 +104,12 @@ class Display:
             player.rate,
             player.is_paused,
             player.laps,
+            self._marks,
         )
+        for mark in passed(self._marks, self._done, now.done):
+            self.clear()
+            notice(f"{as_seconds(mark.since):.2f} s: {visible(mark.message)}")
+        self._done = now.done
         # The last column stays free: some terminals wrap there.
         width = shutil.get_terminal_size().columns - 1
         text = line(now, width, with_keys=self.has_keys, ascii_only=self._ascii_only)
