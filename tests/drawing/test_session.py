@@ -82,3 +82,16 @@ def test_nobody_there_is_nothing_listed():
     assert [line.plain for line in session.lines(empty)] == [
         "Processes (0)", "Topics (0)", "Services (0)",
     ]  # fmt: skip
+
+
+def test_a_small_terminal_has_all_topics_in_a_line_each():
+    topic = {"type": "a/msg/B", "publishers": ["sender"], "subscribers": ["x" * 90], "rate": 5.0}
+    found = FOUND | {"topics": {f"topic_{n}": topic for n in range(9)} | {"a/_action/b": topic}}
+    told = [line.plain for line in session.lines(found, width=80, height=24)]
+
+    assert len(told) < 24
+    assert max(map(cell_len, told)) <= 80
+    assert sum("5.0 Hz  sender → x" in line for line in told) == 9
+    assert "  spawn, turtle1/set_pen" in told
+    assert told[-1] == "  and 1 topics, 1 services of parameters and actions (--verbose)"
+    assert len(session.lines(found, width=80, height=60)) > 24

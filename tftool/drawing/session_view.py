@@ -25,6 +25,7 @@ def lines(
     *,
     verbose: bool = False,
     width: int | None = None,
+    height: int | None = None,
     ascii_only: bool = False,
 ) -> list[Text]:
     """Processes, nodes of others, topics and services; names of strangers are made harmless.
@@ -34,6 +35,8 @@ def lines(
         verbose: Whether to list the services that every node has.
         width: Columns of the terminal, where long lists go on in a line of their own; None for
             one line for each, however long.
+        height: Lines of the terminal; where all of it is longer, a topic takes one line, and
+            services share lines. None for any number.
         ascii_only: Whether to draw with ASCII only.
     """
     writer = _Writer(width, "~" if ascii_only else "…")
@@ -43,9 +46,12 @@ def lines(
     if others:
         told += writer.heading("Other nodes", len(others))
         told += writer.rows([visible(node) for node in others])
+    head = list(told)
     told += _topics(writer, found["topics"])
     told += _services(writer, found["services"], verbose=verbose)
-    return told
+    if height is None or width is None or verbose or len(told) < height:
+        return told
+    return head + _brief(writer, found["topics"], found["services"], ascii_only=ascii_only)
 
 
 def _processes(writer: "_Writer", processes: Sequence[Mapping[str, Any]]) -> list[Text]:
@@ -89,6 +95,44 @@ def _services(writer: "_Writer", services: Mapping[str, Any], *, verbose: bool) 
     if folded:
         sentence = f"and {folded} of parameters and actions (--verbose lists them)"
         told.append(Text(f"{INDENT}{sentence}", style="dim"))
+    return told
+
+
+def _brief(
+    writer: "_Writer",
+    topics: Mapping[str, Any],
+    services: Mapping[str, Any],
+    *,
+    ascii_only: bool,
+) -> list[Text]:
+    """Return topics in a line each, and services in as few lines as hold their names."""
+    shown = {name: one for name, one in topics.items() if "/_action/" not in name}
+    arrow = "->" if ascii_only else "→"
+    ways = [
+        (f"{_names(one['publishers'], '-')} {arrow} {_names(one['subscribers'], '-')}", "dim")
+        for one in shown.values()
+    ]
+    # Of long lists both ends are seen.
+    most = max(16, (writer.width or 80) // 2)
+    told = writer.heading("Topics", len(topics)) + writer.rows(
+        [visible(name) for name in shown],
+        [
+            TableColumn("", [(f"{one['rate']:.1f} Hz", "") for one in shown.values()], True),
+            TableColumn("", ways, caps=(most, 16), goes=1),
+        ],
+    )
+    names = [
+        visible(name)
+        for name, one in services.items()
+        if not _goes_without_saying(name, one["type"])
+    ]
+    told += writer.heading("Services", len(services))
+    listed = wrap_words(", ".join(names), max(10, (writer.width or 80) - len(INDENT)))
+    told += [Text(f"{INDENT}{line}") for line in listed] if names else []
+    folded = len(topics) - len(shown), len(services) - len(names)
+    if any(folded):
+        words = f"and {folded[0]} topics, {folded[1]} services of parameters and actions"
+        told.append(Text(f"{INDENT}{words} (--verbose)", style="dim"))
     return told
 
 

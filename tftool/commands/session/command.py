@@ -90,7 +90,11 @@ def _written(found: dict[str, Any], *, verbose: bool) -> str:
 
     console = Console()
     lines = view.lines(
-        found, verbose=verbose, width=console.width, ascii_only=console.options.ascii_only
+        found,
+        verbose=verbose,
+        width=console.width,
+        height=console.height,
+        ascii_only=console.options.ascii_only,
     )
     with console.capture() as captured:
         console.print(Text("\n").join(lines), soft_wrap=True, end="")
