@@ -8,9 +8,17 @@ zero and climbs for minutes, and a static transform counts as very late.
 
 from collections import deque
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.sample import TransformStamped
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Stamps = npt.NDArray[np.int64]
+    Floats = npt.NDArray[np.float64]
 
 KEEP = 1000
 """How many of the newest messages count."""
@@ -44,6 +52,20 @@ class Series:
         self._tf2_maximum = max(self._tf2_maximum, tf2_delay)
         if dated:
             self._delays.append(tf2_delay)
+
+    def add_many(self, arrivals: "Stamps", delays: "Floats") -> None:
+        """Note many messages with dated stamps, as if one by one.
+
+        Args:
+            arrivals: When each arrived, nanoseconds, in that order, shape (n,).
+            delays: Each of these less its stamp, seconds, shape (n,), n > 0.
+        """
+        self.total += len(arrivals)
+        newest = delays[-KEEP:].tolist()
+        self._arrivals.extend(arrivals[-KEEP:].tolist())
+        self._tf2_delays.extend(newest)
+        self._delays.extend(newest)
+        self._tf2_maximum = max(self._tf2_maximum, float(delays.max()))
 
     @property
     def rate(self) -> float | None:
@@ -123,6 +145,10 @@ class Traffic:
         self.links: dict[str, FrameTraffic] = {}
         self.senders: dict[str, Series] = {}
 
+    def link(self, frame: str) -> FrameTraffic:
+        """Return what is known of a frame; nothing yet where it is new."""
+        return self.links.setdefault(frame, FrameTraffic(frame))
+
     def receive(
         self,
         now: Stamp,
@@ -136,7 +162,7 @@ class Traffic:
         for sample in transforms:
             delay = as_seconds(now - sample.stamp)
             delays.append(delay)
-            link = self.links.setdefault(sample.child_frame_id, FrameTraffic(sample.child_frame_id))
+            link = self.link(sample.child_frame_id)
             link.parent = sample.frame_id
             link.sender = authority
             link.is_static = is_static

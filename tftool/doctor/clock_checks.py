@@ -441,8 +441,11 @@ def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
 
 def _is_one_period(stream: "Track | Heard") -> bool:
     """Whether a stream arrives about one of its periods after its stamps."""
-    steps = np.diff(np.sort(stream.stamps))
-    period = float(np.median(steps)) if len(steps) else 0.0
+    if isinstance(stream, Track):
+        period = float(stream.period)
+    else:
+        steps = np.diff(np.sort(stream.stamps))
+        period = float(np.median(steps)) if len(steps) else 0.0
     return 0.5 * period < stream.median_latency < 1.2 * period
 
 
@@ -518,6 +521,8 @@ def _frozen(track: Track, limits: Limits) -> tuple[int, int, int] | None:
     """A stamp that came again and again, how often, and for how long."""
     if track.is_orderly and limits["times"] > 1:
         return None
+    if len(track.steps) == len(track.stamps) - 1 and limits["times"] > 1:
+        return None  # each stamp comes once
     stamped = track.stamps != 0
     if np.count_nonzero(stamped) < max(limits["times"], 1):
         return None

@@ -532,7 +532,6 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     carried = _by_child(model.dynamic)
     families = {family(track.child) for track in moving}
     may_move = [*moving, *_joints_by_statics(model)]
-    shared = np.unique(np.concatenate([track.messages for track in may_move]))
     for track in model.dynamic:
         if track.is_localisation or track.moves or len(track.by_stamp) < max(limits["samples"], 1):
             continue
@@ -540,7 +539,9 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         if track.child in carried or family(track.child) in families:
             continue  # it changes its parent, or its like moves
-        if np.isin(track.messages, shared).any() or _could_move(model, track):
+        if any(np.isin(track.messages, other.messages).any() for other in may_move):
+            continue  # it comes with what moves
+        if _could_move(model, track):
             continue
         if not any(above.moves for above in model.above(track.parent)):
             continue  # it stood still with all that carries it

@@ -1,9 +1,11 @@
 """In which order, and when, the messages of a recording are to be sent again."""
 
+from collections import Counter
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+import numpy.typing as npt
 
 from tftool.base.stamps import SIMULATED_BELOW, Stamp
 from tftool.buffer.sample import TransformStamped
@@ -94,6 +96,21 @@ class Due:
     transforms: tuple[TransformStamped, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """Transforms of some messages, in the order in which they were received.
+
+    Attributes:
+        edges: The number of the edge of each, shape (n,).
+        rows: Its row in that edge, shape (n,).
+        places: The number of its message, shape (n,).
+    """
+
+    edges: Indexes
+    rows: Indexes
+    places: npt.NDArray[np.int64]
+
+
 class Timeline:
     """The transforms of a recording in the order in which they were received.
 
@@ -139,6 +156,42 @@ class Timeline:
     def place(self, moment: Stamp, *, after: bool = False) -> int:
         """The number of the first message at or after a moment, or only after it."""
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
+
+    def is_plain(self) -> npt.NDArray[np.bool_]:
+        """Tell messages all of whose frames come from one sender, with one parent, none static.
+
+        The order among such frames changes nothing. Shape (n,).
+        """
+        transforms = self._transforms
+        edges_of = Counter(edge.child for edge in transforms.edges)
+        odd = [
+            edge.static or edges_of[edge.child] > 1 or bool(np.ptp(transforms.senders_of(edge)))
+            for edge in transforms.edges
+        ]
+        plain = np.ones(len(self), dtype=np.bool_)
+        plain[self.rows(0, len(self)).places[np.array(odd, dtype=np.bool_)[self._edges]]] = False
+        return plain
+
+    def rows(self, first: int, last: int) -> "Rows":
+        """Return the transforms of the messages from `first` up to `last`, which is left out."""
+        begin, end = int(self._firsts[first]), int(self._firsts[last])
+        counts = np.diff(self._firsts[first : last + 1])
+        places = np.repeat(np.arange(first, last), counts)
+        return Rows(self._edges[begin:end], self._rows[begin:end], places)
+
+    def edge(self, number: int) -> Edge:
+        """Return an edge by its number in `Rows`."""
+        return self._transforms.edges[number]
+
+    def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
+        """Return the sender of each message by its number in names, and these names.
+
+        The topic names the sender where no node is recorded.
+        """
+        publishers = [one.node or one.topic for one in self._transforms.publishers]
+        names = tuple(dict.fromkeys(publishers))
+        numbers = np.array([names.index(name) for name in publishers], dtype=np.int32)
+        return numbers[self._transforms.senders[self._order[places]]], names
 
     def message(self, place: int) -> list[Due]:
         """Return a message's transforms, moving and static ones apart."""
