@@ -10,12 +10,15 @@ from tests.terminals import Terminal
 from tests.world.nodes.harness import new_world
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
+from tftool.drawing.solids import solids_of
 from tftool.geometry.rigid import Transform
+from tftool.robots.mesh_folders import MeshFolders
+from tftool.robots.urdf import parse_description
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.tree_app import TreeWatch
 
 
-def shown(*keys, frames=60, size=(80, 24), news="", framed=False, **setting):
+def shown(*keys, frames=60, size=(80, 24), news="", framed=False, solids=None, **setting):
     """Return the rows and the footer after some keys; the tree is a fan below `world`.
 
     The size is that of both without their frame and the title bar, unless `framed`.
@@ -36,6 +39,7 @@ def shown(*keys, frames=60, size=(80, 24), news="", framed=False, **setting):
         for sample in samples:
             world.buffer.set_transform(sample, "me")
     app = TreeWatch(world, lambda _: {"link_01": ("two-parents",)}, setting=Setting(**setting))
+    app.solids = solids
     lines = []
 
     async def main():
@@ -167,3 +171,14 @@ def test_keys_are_told_and_closed():
 
     assert any("scroll by a page" in line for line in told)
     assert not any("scroll by a page" in line for line in shown("question_mark", "escape"))
+
+
+def test_the_shapes_of_a_described_robot_are_drawn_in_space():
+    link = '<link name="link_01"><visual><geometry><sphere radius="1"/></geometry></visual></link>'
+    described = parse_description(f'<robot name="ball">{link}</robot>')
+    solids, _ = solids_of(described.links.values(), MeshFolders())
+
+    drawn = "".join(shown("p", frames=3, solids=solids))
+
+    assert sum(drawn.count(sign) for sign in "░▒▓█") > 20
+    assert not any(sign in "".join(shown("p", frames=3)) for sign in "▒▓")

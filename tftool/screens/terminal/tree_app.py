@@ -15,6 +15,7 @@ from tftool.base.stamps import as_seconds
 from tftool.buffer.sample import Snapshot
 from tftool.buffer.traffic import Traffic
 from tftool.drawing.frame_tree import NOTHING, CompactTree, TreeOrder, compact
+from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpacePicture
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.screens.terminal.frames_picture import natural_fixed
@@ -113,6 +114,9 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         world: Whose frames.
         marks: Finds faults of frames.
         setting: What the terminal can show.
+
+    Attributes:
+        solids: The shapes of a robot among the frames, once its description is known.
     """
 
     CSS = """
@@ -142,6 +146,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.news = ""
         self._types = False
         self._seen: tuple[Snapshot, Marks] | None = None
+        self.solids: Solids | None = None
         self._traffic = Traffic()
         self._history = TrafficHistory()
         self._began = world.clock.now()
@@ -211,7 +216,8 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         if rows.in_space:
             fixed = natural_fixed(snapshot, ("", ""))
             frames = frames_in_space(snapshot, fixed)
-            rows.draw(SpacePicture(fixed, frames, chosen=rows.camera.follows), self.look)
+            picture = SpacePicture(fixed, frames, self.solids, chosen=rows.camera.follows)
+            rows.draw(picture, self.look)
         else:
             rows.border_subtitle = ""
             rows.show(
