@@ -15,6 +15,7 @@ from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
 from tftool.screens.browser.protocol import (
     Got,
+    Key,
     MarksRequest,
     PairRequest,
     Past,
@@ -40,6 +41,7 @@ TRAILS = '{"type": "trails", "fixed": "map", "frames": %s, "from": 1, "to": 2, "
         ('{"type": "pair", "target": "a", "source": "b"}', PairRequest(("a", "b"))),
         ('{"type": "pair", "target": null, "source": null}', PairRequest(None)),
         ('{"type": "got", "sequence": 7}', Got(7)),
+        ('{"type": "key", "key": "left"}', Key("left")),
         ('{"type": "past"}', Past()),
         ('{"type": "marks"}', MarksRequest()),
         (
@@ -60,10 +62,10 @@ def test_what_the_page_may_say(said, means):
         ("", "not JSON"),
         ("{", "not JSON"),
         ("[" * 100_000, "not JSON"),
-        ("null", "show, pair, got, move, past, series, trails or marks"),
-        ("[]", "show, pair, got, move, past, series, trails or marks"),
-        ('{"type": "shutdown"}', "show, pair, got, move, past, series, trails or marks"),
-        ('{"type": ["show"]}', "show, pair, got, move, past, series, trails or marks"),
+        ("null", "show, pair, got, move, key, past, series, trails or marks"),
+        ("[]", "show, pair, got, move, key, past, series, trails or marks"),
+        ('{"type": "shutdown"}', "show, pair, got, move, key, past, series, trails or marks"),
+        ('{"type": ["show"]}', "show, pair, got, move, key, past, series, trails or marks"),
         ('{"type": "show", "at": "now"}', "a number of seconds"),
         ('{"type": "show", "at": NaN}', "a number of seconds"),
         ('{"type": "show", "at": 1e300}', "a number of seconds"),
@@ -71,6 +73,7 @@ def test_what_the_page_may_say(said, means):
         ('{"type": "pair", "target": "a"}', "two names"),
         ('{"type": "pair", "target": 1, "source": 2}', "two names"),
         ('{"type": "got", "sequence": "1"}', "whole number"),
+        ('{"type": "key", "key": "q"}', "up, down, left, right"),
         ('{"type": "series", "target": "a"}', "two names"),
         ('{"type": "trails", "fixed": "a"}', "a list of others"),
         (TRAILS % "[1]", "60 names"),

@@ -16,12 +16,12 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import short_size
-from tftool.base.stamps import Duration, as_seconds
+from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import notice, tell_news
-from tftool.commands.shared.on_screen import at_rest
+from tftool.commands.shared.on_screen import at_rest, driver_of, simulator_of
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.reading_bar import Bar
 from tftool.frames.export.trajectory_files import whole_file
@@ -51,6 +51,7 @@ from tftool.world.nodes.joints import (
     RobotStatePublisher,
     description_type,
 )
+from tftool.world.nodes.turtle_drivers import IdleDrawing
 from tftool.world.world import World
 
 _MOST_TOLD = 5
@@ -150,6 +151,15 @@ def _alive(
     return session, ShownRobot(robot, MeshFolders(found.paths[0], meshes), mover)
 
 
+def _let_drive(session: Session, page: PageServer) -> None:
+    """Have the turtle of a hosted world draw while it is left alone, and take the page's keys."""
+    if not session.is_hosted or simulator_of(session.world) is None:
+        return
+    link = session.link
+    page.take_keys(driver_of(session.world, "turtle1").press)
+    IdleDrawing(session.world, is_alone=lambda: link is None or not link.graph.processes())
+
+
 def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
     """Show the robot whose description is published, as soon as it is."""
 
@@ -189,7 +199,6 @@ async def _show(
     page: PageServer,
     name: str,
     waiting: Coroutine[Any, Any, None],
-    begin: str,
     open_browser: bool,
 ) -> None:
     """Serve the page until the time is over or a signal ends it.
@@ -198,13 +207,12 @@ async def _show(
         page: The page.
         name: Whose frames it shows.
         waiting: Ends when the time is over.
-        begin: What the address ends in: the moment to show first.
         open_browser: Whether to open it.
     """
     async with page:
         if page.asked_port not in (0, page.port):
             notice(f"Port {page.asked_port} is not free: taking {page.port}.")
-        url = f"{page.url}{begin}"
+        url = page.url
         said = f"The frames of {name} are at"
         # An address that is broken at the edge of the terminal cannot be clicked.
         is_long = len(f"{said} {url}") > shutil.get_terminal_size().columns
@@ -294,7 +302,8 @@ def run(
         _tell_missing(shown)
     else:
         _listen(session, page, meshes or [])
-    session.run(_show(page, session.name, session.lasting(run_for), "", open_browser))
+        _let_drive(session, page)
+    session.run(_show(page, session.name, session.lasting(run_for), open_browser))
     return ExitStatus.DONE
 
 
@@ -309,18 +318,16 @@ def _show_frames(
     """Show a complete source from its beginning on; its time stands still."""
     shown_frames = at_rest(connection, frames)
     clock, start = shown_frames.clock, max(frames.span[0], 1)
-    page = serve(shown_frames, name=frames.title)
+    page = serve(shown_frames, name=frames.title, begin=first_look(frames) or start)
     if frames.recording is not None:
         page.show_tracks(partial(tracks_named, frames.recording.name))
     if (shown := _robot_of(connection, frames, meshes)) is not None:
         page.show_robot(shown)
         _tell_missing(shown)
-    begin = first_look(frames)
-    anchor = "" if begin is None else f"#at={as_seconds(begin - start):.9f}"
 
     async def show() -> None:
         await clock.sleep_until(max(frames.span[1], 1), Phase.WATCH)
         waiting = lasting(clock, run_for)
-        await _show(page, frames.title, waiting, anchor, open_browser)
+        await _show(page, frames.title, waiting, open_browser)
 
     run_on(clock, show())

@@ -70,6 +70,10 @@ MOST_BYTES = 16 * 1024
 """The longest message a page has a reason to send: two names of some thousand letters."""
 
 
+ARROWS = ("up", "down", "left", "right")
+"""Keys that drive a turtle."""
+
+
 # Page to server
 
 
@@ -100,6 +104,13 @@ class Move:
 
     joint: str
     position: float
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """A key that drives a turtle: "up", "down", "left" or "right"."""
+
+    key: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +146,7 @@ class MarksRequest:
 
 
 Said: TypeAlias = (
-    Show | PairRequest | Got | Move | Past | SeriesRequest | TrailsRequest | MarksRequest
+    Show | PairRequest | Got | Move | Key | Past | SeriesRequest | TrailsRequest | MarksRequest
 )
 
 
@@ -143,7 +154,7 @@ def parse(message: str | bytes) -> Said:
     """Read what a page sent.
 
     Raises:
-        InputError: If it is none of the eight messages; names the mistake.
+        InputError: If it is none of the nine messages; names the mistake.
     """
     if isinstance(message, bytes):
         raise InputError("the page speaks text, not bytes")
@@ -173,6 +184,10 @@ def parse(message: str | bytes) -> Said:
         if not abs(position) < 1e9:
             raise InputError("a joint's position is a finite number")
         return Move(joint, float(position))
+    if kind == "key":
+        if said.get("key") not in ARROWS:
+            raise InputError(f"a key is one of {', '.join(ARROWS)}")
+        return Key(said["key"])
     if kind == "past":
         return Past()
     if kind == "series":
@@ -182,8 +197,8 @@ def parse(message: str | bytes) -> Said:
     if kind == "marks":
         return MarksRequest()
     raise InputError(
-        'a message is an object whose "type" is show, pair, got, move, past, series, trails '
-        "or marks"
+        'a message is an object whose "type" is show, pair, got, move, key, past, series, '
+        "trails or marks"
     )
 
 
@@ -265,7 +280,12 @@ def moments(frames: Sequence[FrameInfo]) -> list[Stamp]:
 
 
 def encode_names(
-    epoch: Stamp, revision: int, frames: Sequence[FrameInfo], total: int, rate: float
+    epoch: Stamp,
+    revision: int,
+    frames: Sequence[FrameInfo],
+    total: int,
+    rate: float,
+    begin: Stamp | None = None,
 ) -> str:
     """Write what of a snapshot seldom changes.
 
@@ -275,6 +295,7 @@ def encode_names(
         frames: Those that are shown.
         total: How many there are.
         rate: How fast the clock runs, for playing back.
+        begin: The moment to open with, where everything was recorded before.
     """
     place = {frame.frame: index for index, frame in enumerate(frames)}
     return json.dumps(
@@ -290,6 +311,7 @@ def encode_names(
             "authorities": [frame.authority or "no recorded authority" for frame in frames],
             "total": total,
             "rate": rate if math.isfinite(rate) else 1.0,
+            **({} if begin is None else {"begin": since(epoch, begin)}),
         }
     )
 

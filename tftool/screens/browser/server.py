@@ -103,6 +103,7 @@ class PageServer:
         tell: Callable[[str], object] = _LOGGER.warning,
         name: str = "a session",
         secret: str | None = None,
+        begin: Stamp | None = None,
     ) -> None:
         """Prepare to serve.
 
@@ -113,9 +114,12 @@ class PageServer:
             tell: Takes a sentence for the user.
             name: Whose frames they are, for a page that is saved.
             secret: What everything that tells of frames wants; a new one when None.
+            begin: The moment to open with, where everything was recorded before.
         """
         self.source = source
         self._name = name
+        self._begin = begin
+        self._press: Callable[[str], object] | None = None
         self._tell = tell
         self._is_full = False
         self.asked_port = self.port = port
@@ -149,6 +153,10 @@ class PageServer:
     def show_live(self, displays: LiveDisplays) -> None:
         """Draw messages beside the frames as they come."""
         self._live = displays
+
+    def take_keys(self, press: Callable[[str], object]) -> None:
+        """Hand the arrow keys of pages to `press`, as "up", "down", "left" and "right"."""
+        self._press = press
 
     def _tell_robot(self) -> None:
         if self._robot is not None:
@@ -291,6 +299,7 @@ class PageServer:
                 [snapshot.frames[index] for index in shown],
                 len(snapshot.frames),
                 self.source.clock.rate,
+                self._begin,
             )
             tree = TreeMessage(self._revision, text, shown)
             # One page may look at a past in which a frame had another parent: not one shape
@@ -444,6 +453,9 @@ class PageServer:
                 said = protocol.parse(message)
                 if isinstance(said, protocol.Move):
                     self._move(said)
+                elif isinstance(said, protocol.Key):
+                    if self._press is not None:
+                        self._press(said.key)
                 elif isinstance(said, protocol.SeriesRequest):
                     buffer, epoch = self.source.buffer, self.source.clock.epoch
                     await socket.send(protocol.encode_series(buffer, epoch, said))

@@ -45,13 +45,15 @@ export class Choices {
     this.visuals = given.visuals ?? true; // of the robot
     this.collisions = given.collisions ?? false;
     this.jointaxes = given.jointaxes ?? false;
+    this.through = given.through ?? true; // axes are seen through solids
     this.opacity = Math.min(1, Math.max(0.1, given.opacity ?? 1));
     this.view = VIEWS.includes(given.view) ? given.view : "top";
     this.theme = given.theme === "light" || given.theme === "dark" ? given.theme : theme;
     this.interval = 0; // seconds
     this.timeout = 15; // seconds
     this.length = 10; // of trails, seconds
-    this.side = 264; // width of the list of frames, pixels
+    /** @type {number | undefined} */
+    this.side = undefined; // width of the list of frames, pixels; undefined: as wide as its names
     for (const id of Object.keys(LIMITS)) this.setNumber(id, given[id]);
     this.plot = PLOTTED.includes(given.plot) ? given.plot : "xyz";
     this.speed = SPEEDS.includes(given.speed) ? given.speed : 1;

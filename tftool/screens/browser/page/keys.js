@@ -24,7 +24,7 @@ export const KEYS = [
 /** Keys of the list of frames and of fields, told beside the others. */
 export const OTHERS = [
   ["/", "find a frame"],
-  ["↑ ↓ ← →", "through the list of frames"],
+  ["↑ ↓ ← →", "drive the turtle; in the list of frames, move through it"],
   ["Enter", "choose the frame"],
   ["Esc", "close, let go of the frame"],
 ];

@@ -33,7 +33,7 @@ import { same, Wire } from "./wire.js";
 
 const FLIGHT = 350; // milliseconds
 const STEP = 0.1; // seconds one press of [ or ] goes
-const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes"];
+const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through"];
 // When the past is requested for the trails: once the tree has come to rest, and once more later,
 // because what came while the page was busy starting has gaps.
 const PAST_AFTER = [300, 3000];
@@ -56,8 +56,8 @@ const displays = new Displays(stage.scene, tracks, (topic) => {
   changed();
 });
 
-/** @type {{ connection: "wait" | "open" | "silent" | "ended" | "stored", hearing: Hearing, pair: any, unacknowledged: number }} */
-const server = { connection: "wait", hearing: new Hearing(), pair: null, unacknowledged: 0 };
+/** @type {{ connection: "wait" | "open" | "silent" | "ended" | "stored", hearing: Hearing, pair: any, unacknowledged: number, recorded: boolean }} */
+const server = { connection: "wait", recorded: false, hearing: new Hearing(), pair: null, unacknowledged: 0 };
 /**
  * What is on screen: of every frame, of those drawn, the trails.
  * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: { name: string, color: string, points: number[][] }[] }}
@@ -126,10 +126,15 @@ const handlers = {
   names(message) {
     const another = model.setNames(message);
     timeline.rate = model.rate;
-    if (another) {
-      timeline.goLive();
-      tracks.forget();
-    }
+    const recorded = message.begin ?? null; // the moment to open with, where nothing more comes
+    if (another) tracks.forget();
+    if (recorded !== null) {
+      server.recorded = timeline.ends = $("live").hidden = true;
+      if (another || timeline.at === null) {
+        timeline.playing = false;
+        timeline.show(recorded);
+      }
+    } else if (another) timeline.goLive();
     tree.build(model, choices);
     course.forget();
     past.forget();
@@ -301,7 +306,8 @@ function distance(pair) {
 
 function words() {
   stage.inset = insets();
-  const state = freshness(server.connection, model, timeline.past);
+  const connection = server.recorded && server.connection === "open" ? "stored" : server.connection;
+  const state = freshness(connection, model, timeline.past);
   showStatus(timeline, state);
   showBanner(state, model, choices);
   showCounts(model, choices.hidden);
@@ -374,9 +380,12 @@ function insets() {
     left: left && innerWidth > 640 ? left.right : 0,
     right: right && innerWidth > 640 ? innerWidth - right.left : 0,
     top: $("bar").getBoundingClientRect().bottom,
-    bottom: innerHeight - $("time").getBoundingClientRect().top,
+    bottom: foot(),
   };
 }
+
+/** Pixels of the window from the top of the timeline down; few where there is none. */
+const foot = () => ($("time").hidden ? 2 : innerHeight - $("time").getBoundingClientRect().top);
 
 function fit(box) {
   stage.fit(box, insets());
@@ -650,6 +659,12 @@ addEventListener("keydown", (event) => {
     $("only").focus();
     return;
   }
+  const arrow = /^Arrow(Up|Down|Left|Right)$/.exec(event.key)?.[1];
+  if (arrow && (event.target === document.body || event.target === $("over"))) {
+    event.preventDefault();
+    wire.press(arrow.toLowerCase());
+    return;
+  }
   const id = meant(event, focused(event.target));
   if (id) {
     event.preventDefault();
@@ -688,8 +703,8 @@ for (const button of document.querySelectorAll(".drawer")) {
 // The list of frames is as wide as a person likes it.
 function setSide(width) {
   choices.setNumber("side", width);
-  document.documentElement.style.setProperty("--side", `${choices.side}px`);
-  $("grip").setAttribute("aria-valuenow", String(choices.side));
+  if (choices.side !== undefined) document.documentElement.style.setProperty("--side", `${choices.side}px`);
+  $("grip").setAttribute("aria-valuenow", String(choices.side ?? $("left").offsetWidth));
   remember();
 }
 $("grip").setAttribute("aria-valuemin", String(LIMITS.side[0]));
@@ -700,7 +715,7 @@ $("grip").onpointermove = (event) => {
 };
 $("grip").onkeydown = (event) => {
   const by = { ArrowLeft: -20, ArrowRight: 20 }[event.key];
-  if (by) setSide(choices.side + by);
+  if (by) setSide($("left").offsetWidth + by);
 };
 
 // A frame is chosen by a click near its origin; a drag moves the camera.
@@ -749,8 +764,7 @@ new ResizeObserver(() => {
   document.documentElement.style.setProperty("--top", `${bottom + 10}px`);
 }).observe($("bar"));
 new ResizeObserver(() => {
-  const { top } = $("time").getBoundingClientRect();
-  document.documentElement.style.setProperty("--foot", `${innerHeight - top + 10}px`);
+  document.documentElement.style.setProperty("--foot", `${foot() + 10}px`);
   // Less of the picture is free, or more: until a person takes the camera all of it is to be seen.
   bounds.reset();
   redraw.picture();

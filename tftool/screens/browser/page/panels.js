@@ -173,9 +173,11 @@ export function showCounts(model, hidden) {
  * Set the slider to what the buffer holds. Never under a hand that holds it.
  * @param {import("./timeline.js").Timeline} timeline
  */
-export function showReach({ at, reach: { oldest, newest } }) {
+export function showReach({ at, ends, reach: { oldest, newest } }) {
   const line = $("scrub");
   line.disabled = newest <= oldest;
+  // What ends and lasts no time has no moments to go to.
+  $("time").hidden = ends && line.disabled;
   if (line.matches(":active")) return;
   line.min = String(oldest);
   line.max = String(newest);

@@ -30,6 +30,7 @@ import { Turtles } from "./turtles.js";
 const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
 const HEAD = "#ff3d94";
+const OVER_ALL = 100; // render order, beyond that of turtles
 const FEW = 60; // frames that are drawn in full even without a graphics card
 const FONT = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 const LINE = 22; // pixels, of a name with its halo
@@ -389,6 +390,11 @@ export class Stage {
       }
     }
     this.crowd.end();
+    // What is drawn through solids is drawn last, and finds no depth of theirs any more.
+    for (const mesh of [this.crowd.mesh, ...this.meshes]) mesh.renderOrder = look.through ? OVER_ALL : 0;
+    const first = together ? this.crowd.mesh : xs;
+    first.renderOrder -= Number(look.through);
+    first.onBeforeRender = look.through ? () => this.renderer.clearDepth() : () => {};
     for (const mesh of this.meshes) {
       mesh.visible = !together;
       if (together) continue;

@@ -80,6 +80,8 @@ export class Standalone {
 
   got() {}
 
+  press() {}
+
   /** Put a joint elsewhere, and the links that go along with it. */
   move(joint, position) {
     for (const { frame, pose } of drive(this.robot.motion, joint, position)) {

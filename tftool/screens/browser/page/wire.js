@@ -153,6 +153,11 @@ export class Wire {
     this.send(JSON.stringify({ type: "move", joint, position }));
   }
 
+  /** Drive the turtle of a world that has one: "up", "down", "left" or "right". */
+  press(key) {
+    this.send(JSON.stringify({ type: "key", key }));
+  }
+
   /** Ask for poses from all over the buffer. */
   past() {
     this.send(JSON.stringify({ type: "past" }));

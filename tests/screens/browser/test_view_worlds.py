@@ -1,0 +1,162 @@
+"""`tftool view` in a real browser: turtles left alone and driven, recordings, descriptions."""
+
+import contextlib
+import os
+import re
+import subprocess
+import sys
+from itertools import pairwise
+
+import pytest
+
+pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
+
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
+from tests.screens.browser.stage import Stage
+
+pytestmark = pytest.mark.skipif(
+    not (CHROMIUM and CHROMEDRIVER),
+    reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
+)
+
+ALONE = """\
+about: A turtle that nobody drives.
+duration: 20 s
+nodes:
+  - turtlesim
+  - broadcaster: {turtle: turtle1}
+"""
+
+ROBOT = """\
+<robot name="cube">
+  <link name="base"><visual><geometry><box size="2 2 2"/></geometry>
+    <material name="grey"><color rgba="0.5 0.5 0.5 1"/></material></visual></link>
+  <link name="inner"/>
+  <joint name="mount" type="fixed"><parent link="base"/><child link="inner"/></joint>
+</robot>
+"""
+
+
+class Address:
+    """A page that another process serves."""
+
+    def __init__(self, url):
+        self.url = url
+
+
+@contextlib.contextmanager
+def view(tmp_path, *words):
+    """Run `tftool view` in a session of its own; give what a page is opened with."""
+    sessions = tmp_path / "sessions"
+    sessions.mkdir(mode=0o700, exist_ok=True)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "tftool", "view", *map(str, words), "--port", "0"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, "TFTOOL_SESSION_DIR": str(sessions)},
+    )
+    try:
+        yield Address(re.search(r"http://\S+", process.stdout.readline())[0])
+    finally:
+        process.terminate()
+        process.communicate()
+
+
+def test_a_turtle_left_alone_draws_and_arrow_keys_drive_it(chromium, tmp_path):
+    file = tmp_path / "alone.yaml"
+    file.write_text(ALONE)
+    with view(tmp_path, file) as address:
+        page = Page(chromium, address)
+        page.until(lambda: "turtle1" in page.drawn())
+        began = page.x_of("turtle1")
+        page.until(lambda: abs(page.x_of("turtle1") - began) > 0.3)
+
+        body = page.find("body")
+        body.send_keys(Keys.ARROW_UP)
+        # A key ends the drawing: the turtle comes to rest, at the latest a second afterwards.
+        poses = [page.drawn()["turtle1"]["pose"]]
+
+        def rests():
+            page.driver.execute_async_script("setTimeout(arguments[0], 400)")
+            poses.append(page.drawn()["turtle1"]["pose"])
+            return poses[-1] == poses[-2]
+
+        page.until(rests)
+        # Its heading says where a press of the up key takes it: forwards.
+        body.send_keys(Keys.ARROW_LEFT)
+        page.until(lambda: page.drawn()["turtle1"]["pose"][3:] != poses[-1][3:])
+        assert page.complaints() == []
+
+
+def test_axes_are_seen_through_solids_until_they_are_switched_off(chromium, tmp_path):
+    file = tmp_path / "cube.urdf"
+    file.write_text(ROBOT)
+    seen = """
+        const sheet = tftool.picture();
+        const pen = sheet.getContext("2d");
+        const { data } = pen.getImageData(sheet.width / 2 - 80, sheet.height / 2 - 80, 160, 160);
+        let found = 0;
+        for (let at = 0; at < data.length; at += 4) {
+          if (data[at] > 100 && data[at] > 2 * Math.max(data[at + 1], data[at + 2])) found++;
+        }
+        return found;
+    """
+    with view(tmp_path, file) as address:
+        looks = "names=0&arrows=0&grid=0&scale=2&theme=dark&view=orbit&camera=-6,-6,5,0,0,0,1"
+        page = Page(chromium, address, looks)
+        # The red x axis of 0.4 m, in the middle of a cube of 2 m.
+        page.until(lambda: page.driver.execute_script(seen) > 10)
+        page.find("#through").click()
+        page.until(lambda: page.driver.execute_script(seen) == 0)
+
+
+def test_a_recording_is_called_recorded_and_opens_at_its_beginning(chromium, tmp_path):
+    run = tmp_path / "run.tum"
+    run.write_text("".join(f"{100 + step} {step} 0 0 0 0 0 1\n" for step in range(11)))
+    with view(tmp_path, run) as address:
+        page = Page(chromium, address)
+        page.until(lambda: page.text("#status") == "recorded")
+        page.until(lambda: page.said("tftool.moment()") == 0)
+        assert page.find("#play").get_attribute("aria-label") == "Play"
+        assert not page.find("#live").is_displayed()
+        assert page.said("tftool.reach()")["newest"] == 10
+
+
+def test_what_lasts_no_time_has_no_timeline(chromium, tmp_path):
+    file, written = tmp_path / "cube.urdf", tmp_path / "cube.html"
+    file.write_text(ROBOT)
+    subprocess.run(
+        [sys.executable, "-m", "tftool", "view", str(file), "-o", str(written)], check=True
+    )
+    page = Page(chromium, Address(written.as_uri()))
+    page.until(lambda: "inner" in page.drawn())
+    page.until(lambda: not page.find("#time").is_displayed())
+
+
+def test_of_a_deep_name_both_ends_are_seen(chromium):
+    names = ["world", *(f"a{place}_link" for place in range(9)), "camera_depth_optical_frame"]
+    with Stage() as stage:
+        stage.mount(*pairwise(names))
+        page = Page(chromium, stage)
+        page.until(lambda: len(page.texts("#tree .name")) == len(names))
+        row = page.row(names[-1])
+        name, told = (row.find_element(By.CSS_SELECTOR, f".{part}") for part in ("name", "told"))
+        head, tail = name.find_elements(By.CSS_SELECTOR, "span")
+
+        assert name.get_attribute("title") == names[-1]
+        assert tail.text == "ptical_frame"
+        assert tail.rect["width"] >= page.said("12 * 5")
+        assert head.rect["width"] > 10
+        # What is told of every frame ends in one column.
+        ends = {
+            round(one.rect["x"] + one.rect["width"])
+            for one in page.driver.find_elements(By.CSS_SELECTOR, "#tree .told")
+        }
+        assert len(ends) == 1
+        assert told.value_of_css_property("color") != page.said(
+            "getComputedStyle(document.documentElement).getPropertyValue('--still')"
+        )
