@@ -293,3 +293,9 @@ def test_plain_characters_and_no_colours_are_enough_for_a_solid(arm):
     assert "\n".join(plain).isascii()
     assert sum(line.count(sign) for line in plain for sign in "#%@*+") > 20
     assert sum(line.count(sign) for line in arm(colors=False) for sign in "░▒▓█") > 20
+
+
+def test_all_joints_are_listed_again_where_the_window_grows(shown):
+    lines = shown(*["down"] * 3, size=(80, 10), resized=(120, 40))
+
+    assert all(row(lines, name) for name in ("turn", "reach", "grip", "look"))

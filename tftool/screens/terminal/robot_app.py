@@ -189,7 +189,9 @@ class RobotApp(PanelApp):
         panel = self.panel("joints")
         columns, rows = panel.size
         place = next((n for n, one in enumerate(shown) if one.is_chosen), 0)
-        self._first = max(min(self._first, place), place - rows + 1, 0)
+        # Before the first layout there was no row, and after a resize there may be more.
+        most = max(0, len(shown) - rows)
+        self._first = min(most, max(min(self._first, place), place - rows + 1, 0))
         lines = self._rows(shown[self._first : self._first + rows], columns)
         panel.show(lines or [Text("This robot has no joint that moves.")])
         self.panel("pose").show(self._pose(*self.panel("pose").size))
