@@ -2,6 +2,7 @@
 
 import asyncio
 import errno
+import gzip
 import json
 import math
 import os
@@ -134,6 +135,19 @@ def test_the_page_and_its_files_are_served_with_a_strict_policy():
             assert headers["Content-Type"].startswith(kind)
             assert "default-src 'none'" in headers["Content-Security-Policy"]
             assert len(body) == int(headers["Content-Length"]) > 0
+
+    serve(test)
+
+
+def test_scripts_travel_compressed_to_a_browser_that_takes_it():
+    async def test(world, page):
+        accepts = {"Accept-Encoding": "gzip, deflate, br"}
+        _, headers, packed = await fetch(page.port, "/page.js", **accepts)
+        _, plain_headers, plain = await fetch(page.port, "/page.js")
+        assert headers["Content-Encoding"] == "gzip"
+        assert "Content-Encoding" not in plain_headers
+        assert gzip.decompress(packed) == plain
+        assert len(packed) < len(plain) / 3
 
     serve(test)
 

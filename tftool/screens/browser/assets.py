@@ -1,7 +1,9 @@
 """The page's files, as they lie in the package, and what a browser may do with them."""
 
+import gzip
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from importlib import resources
 
 from tftool.base.errors import TftoolError
@@ -32,12 +34,17 @@ SAFETY: Mapping[str, str] = {
 """Headers that go with every answer."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Asset:
     """A file of the page and its media type."""
 
     kind: str
     content: bytes
+
+    @cached_property
+    def compressed(self) -> bytes:
+        """The content as gzip; packed once, with the same bytes every time."""
+        return gzip.compress(self.content, 6, mtime=0)
 
 
 def load() -> dict[str, Asset]:

@@ -14,6 +14,7 @@ import errno
 import json
 import logging
 import math
+import re
 import secrets
 import threading
 from collections.abc import Callable, Sequence
@@ -363,7 +364,12 @@ class PageServer:
         found = self._files.get(path)
         if found is None:
             return _refuse(HTTPStatus.NOT_FOUND, "There is no such page here.")
-        return _answer(HTTPStatus.OK, found.kind, found.content)
+        accepted = ",".join(request.headers.get_all("Accept-Encoding"))
+        if "gzip" not in re.split(r"[,\s]+", accepted):
+            return _answer(HTTPStatus.OK, found.kind, found.content)
+        answer = _answer(HTTPStatus.OK, found.kind, found.compressed)
+        answer.headers["Content-Encoding"] = "gzip"
+        return answer
 
     def _mesh(self, path: str) -> Response:
         if self._robot is None:
