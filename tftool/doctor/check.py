@@ -21,6 +21,7 @@ NEEDS = {
     "recording": "nothing was recorded",
     "headers": "there are no messages with headers",
     "durability": "what publishers offer to late subscribers is not recorded",
+    "mounts": "only with --mounts",
     "odometry": "there are no odometry messages",
     "description": "no URDF given",
     "valid description": "the robot description has mistakes",

@@ -16,6 +16,7 @@ from tftool.buffer.buffer import Buffer
 from tftool.doctor import clock_checks as clocks
 from tftool.doctor import coverage_checks as coverage
 from tftool.doctor import description_checks as description
+from tftool.doctor import mount_checks as mounts
 from tftool.doctor import name_checks as names
 from tftool.doctor import publisher_checks as publishers
 from tftool.doctor import shape_checks as shape
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 CHECKS: Mapping[str, Check] = {
     check.id: check
-    for room in (publishers, shape, names, clocks, coverage, values, description)
+    for room in (publishers, shape, names, clocks, coverage, values, mounts, description)
     for check in room.check.checks
 }
 """Every check by its id, in the order of the report: by area, then as they are defined."""
@@ -116,6 +117,8 @@ def _has(evidence: Evidence, need: str) -> bool:
         return evidence.recorded
     if need == "headers":
         return any(len(headers) for headers in evidence.headers.values())
+    if need == "mounts":
+        return evidence.mounts is not None
     if need == "odometry":
         return evidence.odometry is not None
     if need == "description":

@@ -21,11 +21,11 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.printer import line_width, write_file
 from tftool.commands.shared.reading_bar import Bar
 from tftool.drawing import calibration_view as view
-from tftool.frames.calibration.calibrate import ANGLES, AXES, Calibration, calibrate
+from tftool.frames.calibration.calibrate import ANGLES, AXES, Calibration, calibrate, difference
 from tftool.frames.calibration.clock_offset import CalibrationRefused, clock_offset
+from tftool.frames.calibration.motion import poses_of
 from tftool.frames.frames import Frames
 from tftool.frames.pair_samples import links_between, only_chain, sample
-from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.rigid import Transform
 from tftool.opener import open_frames
 from tftool.recordings.odometry import implying
@@ -194,10 +194,7 @@ def _path(frames: Frames, word: str) -> TransformArray:
     if not edges:
         raise InputError(f"'{word}' in {frames.label} has no messages.")
     edge = max(edges, key=len)
-    order = np.argsort(edge.stamps, kind="stable")
-    poses = edge.translations[order], batch.unit(edge.rotations[order])
-    valid = np.asarray(np.isfinite(np.concatenate(poses, axis=1)).all(axis=1))
-    return TransformArray(edge.parent, edge.child, edge.stamps[order], *poses, valid)
+    return poses_of(edge)
 
 
 def _print_clocks(paths: list[TransformArray], *, for_programs: bool) -> ExitStatus:
@@ -276,16 +273,13 @@ def _compared(
         )
     if found.mount is None or found.interval95 is None:
         return [], None
-    back = found.mount.inverse()
-    shift = np.subtract(found.mount.translation, published.mount.translation)
-    both = np.array([back.rotation]), np.array([published.mount.rotation])
-    turn = -np.degrees(batch.rotation_vectors(batch.multiply(*both))[0])
+    shift, turn = difference(found.mount, published.mount)
     outside, told = [], []
     for names, values, widths, unit, factor, least in (
         (AXES, shift, found.interval95.translation, " mm", 1e3, LEAST_DIFFERENCE[0]),
         (ANGLES, turn, found.interval95.rotation_deg, "°", 1.0, LEAST_DIFFERENCE[1]),
     ):
-        for name, value, width in zip(names, values.tolist(), widths, strict=True):
+        for name, value, width in zip(names, values, widths, strict=True):
             if width is not None and abs(value) > max(width, least):
                 outside.append(name)
                 told.append(

@@ -79,6 +79,9 @@ def doctor(
         typer.Option("--to", metavar="MOMENT", parser=moment, help="Look at it up to there."),
     ] = None,
     lasting: RunFor = None,
+    mounts: Annotated[
+        bool, option("Hold mounts against recorded motion, too: seconds more.", "--mounts")
+    ] = False,
     statistics: Annotated[
         bool, option("Print rate, latency and gaps of everything, too.", "--statistics")
     ] = False,

@@ -23,6 +23,7 @@ from tftool.doctor.evidence import Scope, described_by
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
 from tftool.doctor.localisation_steps import steps_of
+from tftool.doctor.measured_mounts import MeasuredMount, measured_mounts
 from tftool.doctor.model import Model, Settings
 from tftool.drawing import finding_view as view
 from tftool.drawing import step_view
@@ -129,6 +130,7 @@ def run(
     begin: At | None,
     end: At | None,
     lasting: Duration | None,
+    mounts: bool,
     statistics: bool,
     steps: bool,
     pair: str,
@@ -164,9 +166,13 @@ def run(
     if baseline is not None and output is not None:
         raise UsageError("--baseline judges reports, and -o writes rows: leave one out.")
     accepted = None if baseline is None else Baseline.read(baseline)
+    if mounts and output is not None:
+        raise UsageError("--mounts goes with a report: leave -o out.")
     if output is not None:
         return _sweep(places or [], output, rows, selection, settings, scope, fails)
-    judged = _diagnosed(connection, places or [], lasting, settings, selection, scope)
+    judged = _diagnosed(
+        connection, places or [], lasting, settings, selection, scope, mounts=mounts
+    )
     if accepted is not None:
         judged = [(name, found if isinstance(found, str) else accepted.marked(name, found))
                   for name, found in judged]  # fmt: skip
@@ -296,10 +302,13 @@ def _diagnosed(
     settings: Settings,
     selection: CheckSelection,
     scope: Scope,
+    *,
+    mounts: bool,
 ) -> Judged:
     """Diagnose each source; of several, one that is unreadable stops none."""
     sources: list[str | None] = [*expanded(places)] if places else [None]
     judged: Judged = []
+    before: list[MeasuredMount] = []
     for word in sources:
         try:
             with fetched(word or "") as path:
@@ -313,6 +322,10 @@ def _diagnosed(
             continue
         if path != (word or ""):
             evidence = replace(evidence, name=word or "")
+        if mounts:
+            measured = measured_mounts(Model(evidence, settings), before)
+            before += measured
+            evidence = replace(evidence, mounts=measured)
         diagnosis = judge(
             evidence,
             rules.settings(settings),

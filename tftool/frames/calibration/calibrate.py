@@ -174,6 +174,18 @@ def calibrate(
         return Calibration("refused", str(refusal), *names, next_motion=refusal.next_motion or None)
 
 
+def difference(mount: Transform, published: Transform) -> tuple[list[float], list[float]]:
+    """Return by how much a mount differs from the published one.
+
+    Returns:
+        Metres along moving_a's axes, degrees about moving_b's, as in `Calibration.interval95`.
+    """
+    shift = np.subtract(mount.translation, published.translation)
+    both = np.array([mount.inverse().rotation]), np.array([published.rotation])
+    turn = -np.degrees(batch.rotation_vectors(batch.multiply(*both))[0])
+    return shift.tolist(), turn.tolist()
+
+
 Names = tuple[tuple[str, str], tuple[str, str]]
 
 

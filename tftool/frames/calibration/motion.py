@@ -10,6 +10,7 @@ from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.geometry import rigid_arrays as batch
+from tftool.recordings.contract import Edge
 
 Floats = batch.Floats
 Flags: TypeAlias = npt.NDArray[np.bool_]
@@ -117,6 +118,14 @@ class BodyMotion:
         after, last, _ = self.at(times + half)
         turned = batch.rotation_vectors(batch.multiply(batch.conjugate(first), last))
         return (after - before) / (2.0 * half), turned / (2.0 * half)
+
+
+def poses_of(edge: Edge) -> TransformArray:
+    """Return the transforms of one recorded edge as poses in the order of time."""
+    order = np.argsort(edge.stamps, kind="stable")
+    poses = edge.translations[order], batch.unit(edge.rotations[order])
+    valid = np.asarray(np.isfinite(np.concatenate(poses, axis=1)).all(axis=1))
+    return TransformArray(edge.parent, edge.child, edge.stamps[order], *poses, valid)
 
 
 _USUAL: Final = np.arange(-15, 16)

@@ -1,0 +1,125 @@
+"""Checks of mounts against recorded motion; they run on request, as they take seconds."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from tftool.doctor.check import checks_of
+from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.measured_mounts import ANGLES, AXES, Floats, MeasuredMount, apart
+from tftool.doctor.model import Limits, Model
+from tftool.doctor.wording import dated
+
+check = checks_of(Area.VALUES)
+
+_MEASURE = Fix(
+    "measure the mount: `tftool calibrate RECORDING --moving FIXED:MOVING --moving TOPIC -o FILE` "
+    "writes it"
+)
+
+
+@check(
+    "mount-contradicts-motion",
+    Severity.WARNING,
+    rule="with --mounts: two chains move one body, and a published or described mount differs from "
+    "their motion by more than {metres:g} m or {degrees:g}°, and by more than {widths:g} times the "
+    "half-width of the 95 % interval, along an axis that the motion shows",
+    headline="the mount of {child} on {parent} contradicts its motion",
+    detail="{apart}",
+    consequence="what this sensor sees is placed wrongly, by more the farther it is away",
+    fixes=(_MEASURE,),
+    causes=(
+        "the mount was measured with a ruler",
+        "a tripod or a bracket was moved",
+        "the odometry's child_frame_id names another frame than the one it moves",
+    ),
+    limits={"metres": 0.005, "degrees": 0.3, "widths": 2.0},
+    needs=("mounts",),
+)
+def mount_contradicts_motion(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A mount contradicts the motions of the two frames that it joins."""
+    for one in model.evidence.mounts or ():
+        outside = _outside(one.shift, limits["widths"] * one.widths, one.widths, limits)
+        if outside:
+            yield _hit(one, Confidence.LIKELY, apart="; ".join(outside))
+
+
+@check(
+    "mount-changed",
+    Severity.WARNING,
+    rule="with --mounts: the mount that the motion gives differs between two parts of a recording "
+    "or from the recording named before, by more than {metres:g} m or {degrees:g}° and by more "
+    "than {widths:g} times the half-width of the 95 % interval of the difference",
+    headline="{child} moved on {parent}{when}",
+    detail="{apart}",
+    consequence="one mount cannot be right before and after: what was taught or mapped with the "
+    "one is read with the other",
+    fixes=(Fix("fasten the sensor again, then measure its mount with `tftool calibrate`"),),
+    causes=("a tripod or a bracket was moved", "a screw came loose", "the robot hit something"),
+    limits={"metres": 0.005, "degrees": 0.3, "widths": 2.0},
+    needs=("mounts",),
+)
+def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
+    """A sensor moved on its robot, in the recording or since the one before."""
+    for one in model.evidence.mounts or ():
+        best: tuple[float, int, list[str]] | None = None
+        for split in range(1, len(one.windows)):
+            difference, widths = _step(one, split)
+            outside = _outside(difference, limits["widths"] * widths, widths, limits)
+            size = float(np.nanmax(np.abs(difference) / widths))
+            if outside and (best is None or size > best[0]):
+                best = size, split, outside
+        if best is not None:
+            when = one.windows[best[1]].begin
+            told = f" about {dated(when)}"
+            yield _hit(one, Confidence.LIKELY, since=when, when=told, apart="; ".join(best[2]))
+        earlier = one.earlier
+        if earlier is None:
+            continue
+        difference = apart(one.mount, earlier.mount)
+        widths = np.hypot(one.widths, earlier.widths)
+        outside = _outside(difference, limits["widths"] * widths, widths, limits)
+        if outside:
+            days = [f"{found.name} ({dated(found.begin)})" for found in (earlier, one)]
+            told = f" between {days[0]} and {days[1]}"
+            yield _hit(one, Confidence.LIKELY, when=told, apart="; ".join(outside))
+
+
+def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
+    """Return the step of the mount at a window, and the half-width of its interval, shape (6,)."""
+    shifts = np.array([window.shift for window in one.windows])
+    weights = np.array([window.widths for window in one.windows]) ** -2.0
+    means, spreads = [], []
+    for part in (slice(split), slice(split, None)):
+        share = weights[part] / weights[part].sum(axis=0)
+        mean = (share * shifts[part]).sum(axis=0)
+        scatter = np.sqrt((share**2 * (2.0 * (shifts[part] - mean)) ** 2).sum(axis=0))
+        means.append(mean)
+        spreads.append(np.maximum(weights[part].sum(axis=0) ** -0.5, scatter))
+    return means[1] - means[0], np.hypot(*spreads)
+
+
+def _outside(difference: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
+    """Name the axes along which a difference is too large; NaN is unseen, and never outside."""
+    said = []
+    for place, name in enumerate((*AXES, *ANGLES)):
+        is_length = place < len(AXES)
+        least = limits["metres" if is_length else "degrees"]
+        if abs(difference[place]) > max(bounds[place], least):
+            unit, factor = (" mm", 1e3) if is_length else ("°", 1.0)
+            said.append(
+                f"{name} differs by {difference[place] * factor:.1f}{unit} "
+                f"± {widths[place] * factor:.1f}{unit}"
+            )
+    return said
+
+
+def _hit(one: MeasuredMount, confidence: Confidence, since: int | None = None, **facts: str) -> Hit:
+    return Hit(
+        edges=((one.parent, one.child),),
+        frames=(one.child,),
+        since=since,
+        confidence=confidence,
+        facts={"parent": one.parent, "child": one.child, **facts},
+        alone=True,
+    )
