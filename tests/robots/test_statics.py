@@ -109,7 +109,7 @@ def test_a_scenario_may_speak_of_the_publisher(tmp_path):
     assert find(str(path)).kind is Kind.SCENARIO
 
 
-def test_a_launch_file_is_asked_like_any_frames(tmp_path):
+def test_a_launch_file_is_asked_like_any_frames(tmp_path, capsys):
     from tftool.app.main import main
 
     path = tmp_path / "file.launch.xml"
@@ -117,5 +117,7 @@ def test_a_launch_file_is_asked_like_any_frames(tmp_path):
 
     assert main(["echo", "base", "laser", str(path)]) == 0
     assert main(["doctor", str(path)]) == 2
-    assert main(["info", str(path)]) == 2
+    capsys.readouterr()
+    assert main(["info", str(path)]) == 0
+    assert capsys.readouterr().out == f"{path}: file of static transforms, 1 static transform\n"
     assert main(["tree", str(path), "--joint", "a=1"]) == 2

@@ -28,7 +28,6 @@ from tftool.recordings.tf_topics import transforms_on
 from tftool.robots.robot_model import Robot, load_urdf
 
 if TYPE_CHECKING:
-    from tftool.doctor.measured_mounts import MeasuredMount
     from tftool.recordings.recording import Recording
 
 ODOMETRY = "nav_msgs/Odometry"
@@ -61,7 +60,7 @@ class Evidence:
         robot: The robot's description, given or recorded; None without one that can be read.
         mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None where there are none.
-        mounts: Mounts as the motion gives them; None where they were not asked for.
+        mounts: Whether mounts are to be held against the motion.
     """
 
     name: str
@@ -82,7 +81,7 @@ class Evidence:
     robot: Robot | None = None
     mistakes: tuple[str, ...] = ()
     odometry: Transforms | None = None
-    mounts: "tuple[MeasuredMount, ...] | None" = None
+    mounts: bool = False
 
 
 # From a recording

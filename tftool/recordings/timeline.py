@@ -97,7 +97,7 @@ class Due:
 
 
 @dataclass(frozen=True, slots=True)
-class Rows:
+class TimelineRows:
     """Transforms of some messages, in the order in which they were received.
 
     Attributes:
@@ -172,15 +172,15 @@ class Timeline:
         plain[self.rows(0, len(self)).places[np.array(odd, dtype=np.bool_)[self._edges]]] = False
         return plain
 
-    def rows(self, first: int, last: int) -> "Rows":
+    def rows(self, first: int, last: int) -> "TimelineRows":
         """Return the transforms of the messages from `first` up to `last`, which is left out."""
         begin, end = int(self._firsts[first]), int(self._firsts[last])
         counts = np.diff(self._firsts[first : last + 1])
         places = np.repeat(np.arange(first, last), counts)
-        return Rows(self._edges[begin:end], self._rows[begin:end], places)
+        return TimelineRows(self._edges[begin:end], self._rows[begin:end], places)
 
     def edge(self, number: int) -> Edge:
-        """Return an edge by its number in `Rows`."""
+        """Return an edge by its number in `TimelineRows`."""
         return self._transforms.edges[number]
 
     def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
