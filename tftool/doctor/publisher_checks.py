@@ -206,7 +206,10 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     owned = (mine[differ], theirs[differ])
     sure = Confidence.LIKELY if count >= limits["samples"] else Confidence.POSSIBLE
     hit = _conflict(track, ("A", "B"), owned, sure)
-    return replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
+    hit = replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
+    if sure is Confidence.POSSIBLE:
+        hit = replace(hit, fixes=(Fix("look who publishes it: `ros2 topic info /tf --verbose`"),))
+    return hit
 
 
 def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
