@@ -157,7 +157,7 @@ def test_a_built_in_name_wins_and_a_path_is_itself(tmp_path, monkeypatch):
     ("word", "told"),
     [
         ("turtels", "no scenario is named 'turtels'; did you mean 'turtles'? A path"),
-        ("nothing_like_it", "no scenario is named 'nothing_like_it'; there are carrot, "),
+        ("nothing_like_it", "no scenario is named 'nothing_like_it'; there are calibrate, "),
         (".", "No recording"),
         ("gone.yaml", "There is no file or folder 'gone.yaml'."),
         ("\x1b[31m", "no scenario is named '␛[31m'; there are"),
@@ -190,7 +190,7 @@ def recording(outside, tmp_path):
     fixed = TransformStamped(0, "a", "laser", Transform((0.0, 0.0, 1.0)))
     buffer.set_transform_static(fixed, "description")
     # What it is is decided by its content.
-    export(buffer, tmp_path / "run.mcap")
+    export(buffer, path=tmp_path / "run.mcap")
     return str((tmp_path / "run.mcap").rename(tmp_path / "run.yaml"))
 
 

@@ -1,81 +1,154 @@
-"""Mounts against the motions that they join."""
+"""`tftool doctor --mounts`: mounts that contradict the motion, and mounts that moved."""
 
 import json
-import re
+import math
 
 import numpy as np
 import pytest
 
-import tftool as library
-from tests.frames.motions import path, product, quaternions, world
-from tftool import Quaternion, TransformArray
-from tftool.geometry.conversions import rpy_from_quaternion
+pytest.importorskip("rosbags", reason="writes the test files")
 
-MOUNT_CHECKS = "mount-contradicts-motion,mount-changed"
+from rosbags.rosbag1 import Writer
 
+from tests.frames.motions import product, quaternions, world
+from tests.recordings.writers import ROS1, TF
 
-@pytest.fixture(scope="module")
-def made():
-    return world(5, seconds=60.0, rates=(50.0, 20.0), offset=0.0)
+SECOND = 10**9
+MADE = {"seconds": 50.0, "rates": (40.0, 20.0), "offset": 0.0, "noise": (0.003, 0.3)}
 
 
-@pytest.fixture(scope="module")
-def run(made, tmp_path_factory):
-    file = tmp_path_factory.mktemp("mounts") / "run.mcap"
-    return recorded(file, named(made.a, "odom", "base_link"), named(made.b, "world", "camera"))
+def kind(name, *values):
+    return ROS1.types[name](*values)
 
 
-def described(file, mount, yaw_off=0.0):
-    """A description in which the camera's mount is turned by so many degrees."""
-    turn = mount.rotation @ Quaternion.from_rpy(0.0, 0.0, np.radians(yaw_off))
-    xyz = " ".join(f"{one:.9f}" for one in mount.translation)
-    rpy = " ".join(f"{one:.9f}" for one in rpy_from_quaternion(turn))
-    file.write_text(
-        '<robot name="rover"><link name="base_link"/><link name="camera"/>'
-        '<joint name="mount" type="fixed"><parent link="base_link"/><child link="camera"/>'
-        f'<origin xyz="{xyz}" rpy="{rpy}"/></joint></robot>',
-        encoding="utf-8",
+def header(stamp, frame):
+    time = kind("builtin_interfaces/msg/Time", stamp // SECOND, stamp % SECOND)
+    return kind("std_msgs/msg/Header", 1, time, frame)
+
+
+def pose(name, shift, turn):
+    whole = kind("geometry_msgs/msg/Quaternion", *map(float, turn))
+    part = "Vector3" if name == "Transform" else "Point"
+    return kind(
+        f"geometry_msgs/msg/{name}", kind(f"geometry_msgs/msg/{part}", *map(float, shift)), whole
     )
-    return file
 
 
-def recorded(file, *paths):
-    with library.write_recording(file) as recording:
-        for one in paths:
-            for row in one:
-                recording.transforms([row])
-    return file
+def odometry(stamp, shift, turn):
+    zero = kind("geometry_msgs/msg/Vector3", 0.0, 0.0, 0.0)
+    twist = kind("geometry_msgs/msg/Twist", zero, zero)
+    none = np.zeros(36)
+    return kind(
+        "nav_msgs/msg/Odometry",
+        header(stamp, "vo"),
+        "camera",
+        kind("geometry_msgs/msg/PoseWithCovariance", pose("Pose", shift, turn), none),
+        kind("geometry_msgs/msg/TwistWithCovariance", twist, none),
+    )
 
 
-def named(path, frame, child):
-    return TransformArray(frame, child, path.stamps, path.translations, path.rotations, path.valid)
+def transform(stamp, parent, child, shift, turn):
+    name = "geometry_msgs/msg/TransformStamped"
+    one = kind(name, header(stamp, parent), child, pose("Transform", shift, turn))
+    return kind(TF, [one])
 
 
-def findings(tftool, run, urdf, *more):
-    result = tftool("doctor", run, "--urdf", urdf, "--select", MOUNT_CHECKS, "--json", *more)
-    return {one["id"]: one for one in json.loads(result.out)["findings"]}
+def record(file, seed=5, day=0, moves=0.0, turned=0.0, **options):
+    """Record wheels on /tf, visual odometry on a topic, and the true mount on /tf_static.
+
+    The camera is turned about z by `turned` degrees, and by `moves` in the middle of the recording.
+    """
+    made = world(seed, **{**MADE, **options})
+    start = (1_750_000_000 + 86_400 * day) * SECOND - int(made.a.stamps[0])
+    rotations = made.b.rotations.copy()
+    angles = np.full(len(rotations), math.radians(turned))
+    angles[len(angles) // 2 :] += math.radians(moves)
+    rotations = product(rotations, quaternions(angles[:, None] * [0.0, 0.0, 1.0]))
+    first = int(made.a.stamps[0]) + start
+    mount = made.mount.translation, made.mount.rotation
+    rows = [(first, "/tf_static", transform(first, "base_link", "camera", *mount))]
+    rows += [
+        (at + start, "/tf", transform(at + start, "odom", "base_link", shift, turn))
+        for at, shift, turn in zip(
+            made.a.stamps.tolist(), made.a.translations, made.a.rotations, strict=True
+        )
+    ]
+    rows += [
+        (at + start, "/vo", odometry(at + start, shift, turn))
+        for at, shift, turn in zip(
+            made.b.stamps.tolist(), made.b.translations, rotations, strict=True
+        )
+    ]
+    with Writer(file) as writer:
+        topics = {}
+        for at, topic, message in sorted(rows, key=lambda row: row[0]):
+            name = message.__msgtype__
+            if topic not in topics:
+                topics[topic] = writer.add_connection(topic, name, typestore=ROS1)
+            writer.write(topics[topic], at, ROS1.serialize_ros1(message, name))
+    return file, made
 
 
-@pytest.mark.parametrize("yaw_off", [0.0, 1.0, 5.0])
-def test_a_turned_mount_is_found_and_a_right_one_is_not(tftool, made, run, tmp_path, yaw_off):
-    urdf = described(tmp_path / "robot.urdf", made.mount, yaw_off)
-
-    found = findings(tftool, run, urdf, "--mounts")
-    assert list(found) == (["mount-contradicts-motion"] if yaw_off else [])
-    if yaw_off:
-        (told, *_) = re.findall(r"yaw differs by (-?[\d.]+)", json.dumps(found))
-        assert float(told) == pytest.approx(-yaw_off, abs=0.2)
-    assert findings(tftool, run, urdf) == {}
+def mounts(tftool, *words):
+    result = tftool("doctor", *words, "--mounts", "--select", "values", "--json")
+    found = json.loads(result.out)
+    return result, found if isinstance(found, list) else [found]
 
 
-def test_a_mount_that_moves_half_way_is_found_with_its_time(tftool, made, tmp_path):
-    half = made.b.stamps > made.b.stamps[0] + 30 * 10**9
-    slip = np.tile(quaternions(np.radians([[0.0, 0.0, 4.0]])), (int(half.sum()), 1))
-    later = product(made.b.rotations[half], slip)
-    rotations = np.concatenate([made.b.rotations[~half], later])
-    moved = path(made.b.stamps, "world", "camera", made.b.translations, rotations)
-    run = recorded(tmp_path / "run.mcap", named(made.a, "odom", "base_link"), moved)
+def ids(found):
+    return [one["id"] for one in found["findings"] if one["id"].startswith("mount-c")]
 
-    found = findings(tftool, run, described(tmp_path / "robot.urdf", made.mount), "--mounts")
-    assert "mount-changed" in found
-    assert "yaw differs by" in json.dumps(found["mount-changed"])
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    return record(tmp_path_factory.mktemp("mounts") / "run.bag")
+
+
+@pytest.mark.parametrize("degrees", [0.0, 1.0, 2.0, 5.0])
+def test_a_mount_turned_by_an_edit_contradicts_the_motion(tftool, run, tmp_path, degrees):
+    file, made = run
+    half = math.radians(degrees) / 2.0
+    turn = product(
+        np.array([made.mount.rotation]), np.array([[0, 0, math.sin(half), math.cos(half)]])
+    )
+    words = ",".join(str(float(one)) for one in (*made.mount.translation, *turn[0]))
+    edited = tmp_path / "edited.bag"
+    assert tftool("edit", file, "--set", f"base_link:camera={words}", "-o", edited).status == 0
+    result, (found,) = mounts(tftool, edited)
+
+    assert ids(found) == (["mount-contradicts-motion"] if degrees else []), result.out
+    assert result.status == (1 if degrees else 0)
+    if degrees:
+        assert f"yaw differs by -{degrees:.0f}" in result.out or degrees < 2.0
+
+
+def test_without_the_option_nothing_is_measured(tftool, run):
+    result = tftool("doctor", run[0], "--verbose")
+    assert "mount-changed" in result.out
+    assert "only with --mounts" in result.out
+
+
+def test_a_mount_that_moves_in_the_recording_is_found_at_its_moment(tftool, tmp_path):
+    file, _ = record(tmp_path / "moved.bag", moves=3.0)
+    result, (found,) = mounts(tftool, file)
+
+    assert result.status == 1
+    changed = [one for one in found["findings"] if one["id"] == "mount-changed"]
+    assert len(changed) == 1
+    # A window is 25 s long: the camera moved where the second begins.
+    assert changed[0]["since"] == pytest.approx(1_750_000_025 * SECOND, abs=SECOND), changed
+
+
+def test_of_several_recordings_the_day_the_mount_moved_is_named(tftool, tmp_path):
+    days = [record(tmp_path / f"day{day}.bag", day=day, turned=3.0 if day > 1 else 0.0)[0]
+            for day in range(4)]  # fmt: skip
+    result, found = mounts(tftool, *days)
+
+    assert ["mount-changed" in ids(one) for one in found] == [False, False, True, False]
+    assert "17 June 2025" in result.out
+
+
+def test_rows_are_no_place_for_mounts(tftool, run, tmp_path):
+    result = tftool("doctor", run[0], "--mounts", "-o", tmp_path / "rows.csv")
+    assert result.status == 2
+    assert "--mounts goes with a report" in result.err

@@ -28,6 +28,7 @@ from tftool.recordings.tf_topics import transforms_on
 from tftool.robots.robot_model import Robot, load_urdf
 
 if TYPE_CHECKING:
+    from tftool.doctor.measured_mounts import MeasuredMount
     from tftool.recordings.recording import Recording
 
 ODOMETRY = "nav_msgs/Odometry"
@@ -60,7 +61,7 @@ class Evidence:
         robot: The robot's description, given or recorded; None without one that can be read.
         mistakes: Mistakes in the description, as sentences.
         odometry: Odometry messages as transforms; None where there are none.
-        mounts: Whether mounts are to be held against the motion.
+        mounts: Mounts as the motion gives them; None where they were not asked for.
     """
 
     name: str
@@ -81,7 +82,7 @@ class Evidence:
     robot: Robot | None = None
     mistakes: tuple[str, ...] = ()
     odometry: Transforms | None = None
-    mounts: bool = False
+    mounts: "tuple[MeasuredMount, ...] | None" = None
 
 
 # From a recording

@@ -118,7 +118,7 @@ def _has(evidence: Evidence, need: str) -> bool:
     if need == "headers":
         return any(len(headers) for headers in evidence.headers.values())
     if need == "mounts":
-        return evidence.mounts
+        return evidence.mounts is not None
     if need == "odometry":
         return evidence.odometry is not None
     if need == "description":

@@ -15,7 +15,7 @@ from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
 from tftool.screens.browser.protocol import (
     Got,
-    Key,
+    KeyPressed,
     MarksRequest,
     PairRequest,
     Past,
@@ -41,7 +41,7 @@ TRAILS = '{"type": "trails", "fixed": "map", "frames": %s, "from": 1, "to": 2, "
         ('{"type": "pair", "target": "a", "source": "b"}', PairRequest(("a", "b"))),
         ('{"type": "pair", "target": null, "source": null}', PairRequest(None)),
         ('{"type": "got", "sequence": 7}', Got(7)),
-        ('{"type": "key", "key": "left"}', Key("left")),
+        ('{"type": "key", "key": "left"}', KeyPressed("left")),
         ('{"type": "past"}', Past()),
         ('{"type": "marks"}', MarksRequest()),
         (

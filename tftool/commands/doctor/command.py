@@ -23,6 +23,7 @@ from tftool.doctor.evidence import Scope, described_by
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
 from tftool.doctor.localisation_steps import steps_of
+from tftool.doctor.measured_mounts import MeasuredMount, measured_mounts
 from tftool.doctor.model import Model, Settings
 from tftool.drawing import finding_view as view
 from tftool.drawing import step_view
@@ -307,6 +308,7 @@ def _diagnosed(
     """Diagnose each source; of several, one that is unreadable stops none."""
     sources: list[str | None] = [*expanded(places)] if places else [None]
     judged: Judged = []
+    before: list[MeasuredMount] = []
     for word in sources:
         try:
             with fetched(word or "") as path:
@@ -320,8 +322,12 @@ def _diagnosed(
             continue
         if path != (word or ""):
             evidence = replace(evidence, name=word or "")
+        if mounts:
+            measured = measured_mounts(Model(evidence, settings), before)
+            before += measured
+            evidence = replace(evidence, mounts=measured)
         diagnosis = judge(
-            replace(evidence, mounts=mounts),
+            evidence,
             rules.settings(settings),
             select=selection.select,
             ignore=(*selection.ignore, *rules.ignore),

@@ -107,7 +107,7 @@ class Move:
 
 
 @dataclass(frozen=True, slots=True)
-class Key:
+class KeyPressed:
     """A key that drives a turtle: "up", "down", "left" or "right"."""
 
     key: str
@@ -146,7 +146,15 @@ class MarksRequest:
 
 
 Said: TypeAlias = (
-    Show | PairRequest | Got | Move | Key | Past | SeriesRequest | TrailsRequest | MarksRequest
+    Show
+    | PairRequest
+    | Got
+    | Move
+    | KeyPressed
+    | Past
+    | SeriesRequest
+    | TrailsRequest
+    | MarksRequest
 )
 
 
@@ -187,7 +195,7 @@ def parse(message: str | bytes) -> Said:
     if kind == "key":
         if said.get("key") not in ARROWS:
             raise InputError(f"a key is one of {', '.join(ARROWS)}")
-        return Key(said["key"])
+        return KeyPressed(said["key"])
     if kind == "past":
         return Past()
     if kind == "series":

@@ -459,7 +459,7 @@ class PageServer:
                 said = protocol.parse(message)
                 if isinstance(said, protocol.Move):
                     self._move(said)
-                elif isinstance(said, protocol.Key):
+                elif isinstance(said, protocol.KeyPressed):
                     if self._press is not None:
                         self._press(said.key)
                 elif isinstance(said, protocol.SeriesRequest):
