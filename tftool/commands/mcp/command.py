@@ -22,6 +22,9 @@ MOST_CHARACTERS: Final = 4000
 TIMEOUT: Final = 120.0
 """Seconds a command may take."""
 
+MOST_POINTS = 20
+"""Points of each curve of a plot: an answer has to be short."""
+
 MOST_ENTRIES: Final = 10_000
 """Entries of a folder that are looked at."""
 
@@ -152,7 +155,9 @@ class Questions:
         end: str = "",
         only: str = "",
     ) -> str:
-        """Draw position, rotation, distance and speed of source_frame in target_frame over time.
+        """Give position, rotation, distance and speed of source_frame in target_frame over time.
+
+        Each curve has its least, greatest and last value, and some of its points.
 
         Args:
             target_frame: The frame in which the motion is given.
@@ -164,7 +169,7 @@ class Questions:
         """
         options = [*_option("from", begin), *_option("to", end), *_option("only", only)]
         frames = (target_frame, source_frame)
-        return self._asked("plot", source, "--ascii", *options, frames=frames)
+        return self._asked("plot", source, *options, frames=frames)
 
     def _asked(
         self,
@@ -181,10 +186,9 @@ class Questions:
             InputError: If the file may not be asked about, or the command cannot read it.
         """
         file = self._file(source)
-        form = [] if command == "plot" else ["--json"]
         cached = [] if file.endswith(".urdf") or command == "doctor" else ["--no-cache"]
         # Python would else import modules that are in the folder.
-        words = [sys.executable, "-P", "-m", "tftool", command, *form, *cached, *options]
+        words = [sys.executable, "-P", "-m", "tftool", command, "--json", *cached, *options]
         try:
             done = subprocess.run(
                 [*words, "--", *frames, file],
@@ -204,9 +208,12 @@ class Questions:
             if done.returncode == ExitStatus.NO_TRANSFORM:
                 return fitted(told)
             raise InputError(fitted(told["refused"]))
-        if command == "plot":
-            return fitted({"plot": done.stdout})
         answer = json.loads(done.stdout)
+        if command == "plot":
+            for curve in (one for panel in answer["panels"] for one in panel["curves"]):
+                step = -(-len(curve["values"]) // MOST_POINTS) or 1
+                curve["times_s"] = [round(one, 3) for one in curve["times_s"][::step]]
+                curve["values"] = curve["values"][::step]
         if part:
             if not isinstance(answer, dict) or part not in answer:
                 keys = ", ".join(answer) if isinstance(answer, dict) else "none"

@@ -5,6 +5,7 @@ import math
 import sys
 from pathlib import Path
 
+import numpy as np
 from rich.console import Console
 
 from tftool.base.counts import count
@@ -23,7 +24,7 @@ from tftool.drawing import figure
 from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.moment import At
 from tftool.frames.pair_samples import Trajectory, sample
-from tftool.frames.pair_series import panels, shades
+from tftool.frames.pair_series import PlotCurve, panels, shades
 from tftool.recordings.target import refuse_existing
 
 
@@ -85,6 +86,20 @@ def run(
     return ExitStatus.DONE
 
 
+def _curve(curve: PlotCurve, pair: Trajectory) -> dict[str, object]:
+    known = curve.values[np.isfinite(curve.values)]
+    return {
+        "label": curve.label,
+        "target": pair.target,
+        "source": pair.source,
+        "least": float(known.min()) if len(known) else None,
+        "greatest": float(known.max()) if len(known) else None,
+        "last": float(known[-1]) if len(known) else None,
+        "times_s": curve.times.tolist(),
+        "values": [one if math.isfinite(one) else None for one in curve.values.tolist()],
+    }
+
+
 def _as_object(found: list[Trajectory], start: Stamp, style: PlotStyle) -> dict[str, object]:
     """Return the curves for programs; null where a curve is broken."""
     return {
@@ -94,18 +109,7 @@ def _as_object(found: list[Trajectory], start: Stamp, style: PlotStyle) -> dict[
             {
                 "title": panel.title,
                 "unit": panel.unit,
-                "curves": [
-                    {
-                        "label": curve.label,
-                        "target": found[curve.place].target,
-                        "source": found[curve.place].source,
-                        "times_s": curve.times.tolist(),
-                        "values": [
-                            one if math.isfinite(one) else None for one in curve.values.tolist()
-                        ],
-                    }
-                    for curve in panel.curves
-                ],
+                "curves": [_curve(one, found[one.place]) for one in panel.curves],
             }
             for panel in panels(found, start, style.quantities)
         ],
