@@ -34,7 +34,7 @@ class Report:
         judgements: One for each thing, in order.
         lasted: Seconds it took, on its own clock.
         failure: Why it could not be looked at to the end; empty when it could.
-        warnings: What is amiss although it plays: sentences.
+        warnings: Warnings about a scenario that plays: sentences.
         why: What the doctor finds in it where it failed: sentences, the cause first.
     """
 

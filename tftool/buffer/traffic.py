@@ -146,7 +146,7 @@ class Traffic:
         self.senders: dict[str, Series] = {}
 
     def link(self, frame: str) -> FrameTraffic:
-        """Return what is known of a frame; nothing yet where it is new."""
+        """Return the counts of a frame; empty ones where it is new."""
         return self.links.setdefault(frame, FrameTraffic(frame))
 
     def receive(

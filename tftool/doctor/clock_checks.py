@@ -97,7 +97,7 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
 def _placed(model: Model) -> list[Heard]:
     """Messages that have a place, and joint states, which become transforms.
 
-    What has none, as diagnostics and logs, is looked up nowhere.
+    Messages without one, as diagnostics and logs, are looked up nowhere.
     """
     return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
 

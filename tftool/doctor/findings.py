@@ -129,7 +129,7 @@ class Finding:
 def fingerprint(
     check: str, frames: Iterable[str], edges: Iterable[Iterable[str]], topics: Iterable[str]
 ) -> str:
-    """Return what is equal for two findings of one check about the same names."""
+    """Return the key that two findings of one check about the same names share."""
     named = [check, sorted(frames), sorted(list(edge) for edge in edges), sorted(topics)]
     return hashlib.sha256(json.dumps(named).encode()).hexdigest()[:16]
 

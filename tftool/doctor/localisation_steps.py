@@ -59,7 +59,7 @@ def steps_of(model: Model, target: str = "", source: str = "") -> tuple[Localisa
     """Find the steps of every moving edge between two frames, in the order of their stamps.
 
     Args:
-        model: What is known of the frames.
+        model: Knowledge of the frames.
         target: One end of the chain; without both, the edges that place odometry in a map are
             looked at, else those from the robot's base up.
         source: The other end.
@@ -140,6 +140,6 @@ def _unexplained(changes: Floats, gaps: Floats) -> Floats:
 
 
 def _noise(lengths: Floats) -> float:
-    """Return the standard deviation of lengths, of which up to a quarter may be steps."""
-    # Three quarters of what is normally distributed lie within 1.15 standard deviations.
+    """Return the standard deviation of lengths, up to a quarter of them steps."""
+    # Three quarters of a normal distribution are within 1.15 standard deviations.
     return float(np.percentile(lengths, 75)) / 1.15

@@ -39,7 +39,7 @@ class MountWindow:
     Attributes:
         begin: First stamp of the part.
         shift: Mount less the published one, metres and degrees, shape (6,).
-        widths: Half-widths of its 95 % interval, shape (6,); NaN along what is not seen.
+        widths: Half-widths of its 95 % interval, shape (6,); NaN along unseen axes.
     """
 
     begin: Stamp
@@ -58,7 +58,7 @@ class MeasuredMount:
         begin: Its first stamp.
         mount: The mount by the motion.
         shift: It less the published one, metres and degrees, shape (6,).
-        widths: Half-widths of its 95 % interval, shape (6,); NaN along what is not seen.
+        widths: Half-widths of its 95 % interval, shape (6,); NaN along unseen axes.
         windows: The same in parts of the recording, in the order of time.
         earlier: The same frame's mount in the recording before; None without one.
     """

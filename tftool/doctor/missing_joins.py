@@ -41,7 +41,7 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
     """Propose what joins two trees; None where neither data nor description say it.
 
     Args:
-        model: What is known of the frames.
+        model: Knowledge of the frames.
         main: A tree.
         lesser: Another.
     """
@@ -66,7 +66,7 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
     """Propose what publishes a frame that no transform names; None without evidence.
 
     Args:
-        model: What is known of the frames.
+        model: Knowledge of the frames.
         name: The frame.
         kinds: Types of the messages that are in it.
     """

@@ -228,7 +228,7 @@ class Track(Stream):
 
     @property
     def last(self) -> int:
-        """Return the place of what holds at the end; of statics the last to arrive, as in tf2.
+        """Return the place of the last valid value; of statics the last to arrive, as in tf2.
 
         Raises:
             IndexError: If none is usable.

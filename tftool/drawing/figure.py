@@ -96,7 +96,7 @@ def plot(
         tftool.plot(path, ax=axes, what="yaw")
 
     Args:
-        frames: What was opened, a recording, a buffer or a robot, whose pair is asked for at
+        frames: Opened frames, a recording, a buffer or a robot, whose pair is asked for at
             the stamps of the fastest link between the two; or poses, or several of them.
         target: What the poses of a pair are expressed in.
         source: Whose poses they are.

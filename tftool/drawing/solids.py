@@ -28,7 +28,7 @@ MOST_TRIANGLES: Final = 12_000
 """About as many triangles are drawn of a robot: a cell of a terminal shows no more."""
 
 PLAIN: Final[Rgb] = (0.78, 0.80, 0.84)
-"""The colour of what has none."""
+"""Colour of shapes without one."""
 
 _AROUND: Final = 20
 """Corners of a circle."""

@@ -155,7 +155,7 @@ class OrbitCamera:
         """Return the view of a picture in columns × rows of cells.
 
         Args:
-            picture: What is shown.
+            picture: Content of the picture.
             corners: Every point that should be in sight, shape (n, 3).
             columns: Cells across.
             rows: Cells down.

@@ -73,7 +73,7 @@ class DrawnSpace:
 
     Attributes:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
-        depth: What is in front there.
+        depth: The nearest solid of every dot, and its depth.
         layers: Lines in the order in which they are drawn.
         names: Names of frames with their dots to the right and down from the corner.
         grid: Metres between two lines of the grid.
@@ -158,7 +158,7 @@ def drawn(
     """Draw a picture in columns × rows of cells.
 
     Args:
-        picture: What is shown.
+        picture: Content of the picture.
         view: From where.
         columns: Cells across; each has two dots.
         rows: Cells down; each has four dots.
@@ -288,7 +288,7 @@ def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
     places = places if len(places) else np.zeros((1, 2))
     low = np.floor(places.min(0) / step) - 2
     high = np.ceil(places.max(0) / step) + 2
-    # Of a plane that goes on for kilometres only what is near the middle.
+    # A plane may go on for kilometres: only the part near the middle is drawn.
     middle = view.middle[:2] / step
     low, high = np.maximum(low, np.floor(middle) - 60), np.minimum(high, np.ceil(middle) + 60)
     (left, near), (right, far) = low * step, high * step

@@ -192,7 +192,7 @@ def axis_number(value: float) -> str:
 
 
 def round_ticks(low: float, high: float, most: int) -> list[float]:
-    """Return multiples of 1, 2 or 5 times a power of ten, of which the outer two enclose a span.
+    """Return multiples of 1, 2 or 5 times a power of ten, the outer two of which enclose a span.
 
     Args:
         low: Where the span begins.

@@ -245,7 +245,7 @@ class ChunkedReader(File):
                 self.counts[self._numbers[channel]] += count
 
     def _scan(self, chunks: Iterator[Chunk]) -> None:
-        """Find out what is in a file without an index, up to its end or its damage.
+        """List the content of a file without an index, up to its end or its damage.
 
         A chunk is walked if its indexes do not tell all: its own records may describe channels.
 
@@ -379,7 +379,7 @@ class ChunkedReader(File):
             if (begins < ends).any():
                 return None
             for gap in np.flatnonzero(begins > ends).tolist():
-                # What is between messages was learned before, if it is no message.
+                # Records between messages were read before, unless they are messages.
                 between = data[ends[gap] : begins[gap]].tobytes()
                 if any(True for _ in self._heads(between, learns=False)):
                     return None

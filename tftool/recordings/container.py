@@ -174,7 +174,7 @@ class CopiedAttachment(NamedTuple):
         piece: Its record.
         times: Its two times, as they are packed.
         names: Its name and media type, likewise.
-        size: Bytes of what is attached.
+        size: Bytes of the attachment.
     """
 
     piece: Piece

@@ -254,7 +254,7 @@ class Source(Protocol):
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return the damage of the files, as sentences, with what was done instead."""
+        """Return the damage of the files and the remedies taken, as sentences."""
 
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None

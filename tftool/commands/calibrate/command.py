@@ -126,7 +126,7 @@ Chain = tuple[Frames, str]
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
-    """Assign the words of --moving to what was opened.
+    """Assign the words of --moving to the opened files.
 
     Raises:
         UsageError: If there are too few, or the chains share the mount.
@@ -142,7 +142,7 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
 
 
 def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
-    """Refuse two chains of one tree of which one contains the mount that is asked for.
+    """Refuse two chains of one tree if one contains the wanted mount.
 
     Raises:
         UsageError: If they do.
@@ -228,7 +228,7 @@ class _Published:
         name: The mounted frame's name there.
         parent: moving_a.
         robot: The description; None without one.
-        buffer: Frames to look up what is between.
+        buffer: Frames to look up the links between.
     """
 
     mount: Transform | None

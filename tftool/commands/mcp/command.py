@@ -265,7 +265,7 @@ def _below(folder: Path) -> Iterator[Path]:
 
 
 def _read_with(path: Path) -> list[Path]:
-    """Return what is read with a file: its folder's content, or the doctor's list beside it.
+    """Return the files read with one: its folder's content, or the doctor's list beside it.
 
     Raises:
         InputError: If a folder has too many entries to look at.
@@ -292,7 +292,7 @@ def _version() -> str:
 
 
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
-    """Return an answer as JSON of at most `most` characters; what was cut is counted in it.
+    """Return an answer as JSON of at most `most` characters; it counts the omitted rest.
 
     Lists deep in the answer are cut first: an agent wants all findings before all their evidence.
     """

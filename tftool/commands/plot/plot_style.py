@@ -43,7 +43,7 @@ class PlotStyle:
         """
         quantities = chosen([one for text in only for one in text.split(",") if one.strip()])
         if from_above and only:
-            raise UsageError("--xy draws the path, and --only what goes over time: leave one out.")
+            raise UsageError("--xy draws the path, and --only values over time: leave one out.")
         return cls(quantities, from_above, ascii_only, light, dark)
 
     def text(

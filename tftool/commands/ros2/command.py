@@ -33,7 +33,7 @@ _ELSEWHERE = {
 
 
 class _JsonLines:
-    """Print of what `ros2` writes: a line of JSON for each of its YAML documents."""
+    """Printer of JSON: a line for each YAML document that `ros2` writes."""
 
     def __init__(self, words: Sequence[str]) -> None:
         self._lines: list[str] = []

@@ -97,7 +97,7 @@ class Kinds:
 
         Args:
             layout: How the channel's messages are written.
-            learn: Changes one message, and tells what was counted of it.
+            learn: Changes one message, and returns its counts.
         """
         self._layout = layout
         self._learn = learn

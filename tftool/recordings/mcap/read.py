@@ -79,7 +79,7 @@ class Mcap(ChunkedReader):
     magic = MCAP_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open it and find out what is in it.
+        """Open it and list its content.
 
         Args:
             path: Where it is.
@@ -114,7 +114,7 @@ class Mcap(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """Find out what is in it, by its index or without."""
+        """List its content, by its index or without."""
         if not self._by_index:
             self._read_style()
         complete = False
@@ -137,7 +137,7 @@ class Mcap(ChunkedReader):
         schema = self._schema_of[number]
         return schema, self.schemas[schema] if schema else None
 
-    # What is in it
+    # Content
 
     def _read_style(self) -> None:
         """Find out by its first records how it is written."""

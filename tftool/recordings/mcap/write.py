@@ -95,7 +95,7 @@ class McapWriter:
         chunk_size: int = CHUNK_SIZE,
         with_crc: bool = True,
     ) -> None:
-        """Begin the file, in the place of what is there.
+        """Begin the file, replacing an existing one.
 
         Args:
             path: Where it is.
@@ -159,7 +159,7 @@ class McapWriter:
         """First and last log time of the messages in the file; 0 where there is none."""
         return (0 if self._low == _NOTHING_YET else self._low), self._high
 
-    # What is known
+    # State
 
     def channel(
         self, channel: Channel, number: int | None = None, schema: int | None = None
@@ -358,7 +358,7 @@ class McapWriter:
         if count:
             self._low, self._high = min(self._low, low), max(self._high, high)
 
-    # What is copied
+    # Copies
 
     def adopt(
         self, channel: Channel, number: int, origin: tuple[int, tuple[str, str, bytes] | None]
@@ -441,7 +441,7 @@ class McapWriter:
         self._put(end + summary + MCAP_MAGIC)
 
     def abandon(self) -> None:
-        """Close the file as it is; what is in it can be read up to its end."""
+        """Close the file as it is; its content can be read up to its end."""
         self._file.close()
 
     def rescue(self) -> bool:

@@ -49,7 +49,7 @@ class Rosbag1(ChunkedReader):
     magic = ROS1_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open it and find out what is in it.
+        """Open it and list its content.
 
         Args:
             path: Where it is.
@@ -72,7 +72,7 @@ class Rosbag1(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """Find out what is in it, by its index or without."""
+        """List its content, by its index or without."""
         complete = False
         try:
             complete = self._read_index()
@@ -91,7 +91,7 @@ class Rosbag1(ChunkedReader):
         """Return a connection's topic, and the header of its publisher, as recorded."""
         return self._headers[number]
 
-    # What is in it
+    # Content
 
     def _read_index(self) -> bool:
         """Take what the index at the end tells; whether there is one.

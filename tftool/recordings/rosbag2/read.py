@@ -59,7 +59,7 @@ class Sqlite:
     container = "db3"
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open it and find out what is in it.
+        """Open it and list its content.
 
         Args:
             path: Where it is.

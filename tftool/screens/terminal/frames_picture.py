@@ -165,7 +165,7 @@ FADE_EVERY = seconds(1.0)
 """How often the colours of a trail follow its age; trails of many strokes fade less often."""
 
 FADED = Color(112, 116, 130)
-"""Colour of what is as old as `REACH`; on a light ground and on a dark one it is faint."""
+"""Colour of marks as old as `REACH`; on a light ground and on a dark one it is faint."""
 
 GAP = seconds(1.0)
 """Two moments farther apart are not joined by a line."""

@@ -271,7 +271,7 @@ def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look)
 
 
 def title_bar(title: str, elapsed: float, width: int, look: Look) -> Text:
-    """One line above what is live: its title, and seconds since it began."""
+    """One line above a live picture: its title, and seconds since it began."""
     state = "* live" if look.ascii_only else "● live"
     return _bar(title, f"{elapsed:.1f} s", (state, look.palette.accent), width, look)
 

@@ -191,7 +191,7 @@ class Participant:
             self.entity, self._topic(topic, kind), qos=_qos(policies), listener=refusing
         )
         made.set_listener(Listener(on_data_available=on_data_available))
-        # Nothing was told of what came before.
+        # No callback was made for samples that came before.
         self._take(made, on_sample)
         return TopicReader(made)
 

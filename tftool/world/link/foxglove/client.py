@@ -58,7 +58,7 @@ class FoxgloveData(NamedTuple):
 
 
 class ClientReceiver(NamedTuple):
-    """Receiver of what a client hears; each function is called on the event loop.
+    """Receiver of a client's messages; each function is called on the event loop.
 
     Attributes:
         changed: Called when the server has come, gone or offers something else.
@@ -270,7 +270,7 @@ class FoxgloveClient:
         if found is not None:
             number, payload = found
             channel = self._heard.get(number)
-            # What was sent before a subscription ended is of no channel any more.
+            # Messages sent before a subscription ended have no channel any more.
             if channel is not None:
                 data = FoxgloveData(channel, payload)
                 self._inbox.put(self._receiver.data, data, len(payload))

@@ -93,7 +93,7 @@ class FoxgloveMiddleware:
         self._inbox.close()
         self._client.close()
 
-    # What is only shown or written to others
+    # Facts that are only shown or written to others
 
     def process(self, process: Process) -> Callable[[], None]:
         """Show nothing: a server does not list its clients."""

@@ -1,7 +1,7 @@
 """Messages of the Foxglove WebSocket protocol, as far as a reader needs them.
 
-A server sends JSON about what there is, and binary messages of what was subscribed. All of it
-comes from strangers: every field is checked, and what is kept has a limit.
+A server sends JSON about its channels, and binary messages of those subscribed. All of it
+comes from strangers: every field is checked, and every store has a limit.
 
 Source: the protocol's description in foxglove/ws-protocol, and foxglove-sdk.
 """
