@@ -107,3 +107,145 @@ def test_a_single_file_of_limited_length_is_recorded_with_for(tftool, tmp_path):
 
     assert result.status == 2
     assert "To stop after so long: --for SECONDS" in result.err
+
+
+NODE = """
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.node import Node
+from tf2_ros import (
+    Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformException, TransformListener
+)
+
+class Slip(Node):
+    def __init__(self):
+        super().__init__("slip")
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.sender = TransformBroadcaster(self)
+        self.fixed = StaticTransformBroadcaster(self)
+        self.create_timer(0.1, self.tick)
+        self.begin()
+
+    def begin(self):
+        pass
+
+    def send(self, parent, child, sender=None):
+        link = TransformStamped(child_frame_id=child)
+        link.header.frame_id = parent
+        link.header.stamp = self.get_clock().now().to_msg()
+        (sender or self.sender).sendTransform(link)
+
+    def look(self, target, source, time=rclpy.time.Time()):
+        try:
+            self.buffer.lookup_transform(target, source, time)
+        except TransformException as error:
+            self.get_logger().info(f"no: {error}")
+
+    def tick(self):
+        pass
+"""
+
+
+@pytest.fixture
+def slip(program):
+    """A file whose node does in `begin` and on each tick what the text says."""
+
+    def write(tick="pass", begin="pass"):
+        return program(
+            f"{NODE}\nclass Own(Slip):\n    def begin(self):\n        {begin}\n"
+            f"    def tick(self):\n        {tick}\n\nrclpy.init()\nrclpy.spin(Own())\n"
+        )
+
+    return write
+
+
+def said(result, text):
+    """How many warnings of the log say a text."""
+    return sum(text in line for line in result.err.splitlines() if line.startswith("[WARN]"))
+
+
+def test_a_broadcaster_that_never_sends_is_named_after_five_seconds(tftool, slip):
+    silent = "its TransformBroadcaster has sent nothing for 5 s: call sendTransform in"
+    file = slip(begin="self.fixed_sent = self.send('map', 'base', self.fixed)")
+
+    early = tftool("run", "--simulated", "--for", "4", file)
+    late = tftool("run", "--simulated", "--for", "20", file)
+
+    assert (said(early, silent), said(late, silent)) == (0, 1)
+    assert said(late, "StaticTransformBroadcaster has sent nothing") == 0
+
+
+def test_a_wrong_frame_name_is_named_once_with_the_near_one(tftool, slip):
+    file = slip("self.send('world', 'turtle1'); self.look('world', 'turtel1')")
+
+    result = tftool("run", "--simulated", "--for", "8", file)
+
+    assert said(result, "'turtel1' has come yet; did you mean 'turtle1'?") == 1
+
+
+def test_a_frame_that_comes_up_late_is_no_wrong_name(tftool, slip):
+    file = slip(
+        "self.look('world', 'turtle2'); self.send('world', 'turtle1'); "
+        "self.get_clock().now().nanoseconds > 1002e9 and self.send('world', 'turtle2')"
+    )
+
+    result = tftool("run", "--simulated", "--for", "8", file)
+
+    assert said(result, "turtle2") == 0
+
+
+def test_a_frame_sent_once_is_named_with_the_static_broadcaster(tftool, slip):
+    file = slip("self.look('map', 'base', self.get_clock().now())", "self.send('map', 'base')")
+
+    result = tftool("run", "--simulated", "--for", "8", file)
+
+    assert said(result, "'base' was sent once, at 1000.000 s: a transform that never changes") == 1
+
+
+def test_exchanged_ends_of_a_link_are_named_once(tftool, slip):
+    file = slip("self.send('base', 'map')", "self.send('map', 'base', self.fixed)")
+
+    result = tftool("run", "--simulated", "--for", "2", file)
+
+    assert said(result, "frame_id 'base' and child_frame_id 'map' are exchanged") == 1
+
+
+def test_links_that_turn_round_nothing_are_no_slip(tftool, slip):
+    file = slip("self.send('map', 'base'); self.send('base', 'lens')")
+
+    assert said(tftool("run", "--simulated", "--for", "2", file), "exchanged") == 0
+
+
+@pytest.mark.parametrize(
+    ("time", "told"),
+    [("self.get_clock().now()", "use Time(), the latest, or a timeout"), ("rclpy.time.Time()", "")],
+)
+def test_lookups_at_now_are_a_warning_of_check(tftool, slip, time, told):
+    file = slip(f"self.look('world', 'turtle1', {time})")
+
+    result = tftool("check", "turtles", "--run", file)
+
+    assert result.status == 0
+    assert ("ok, 1 warning" in result.out) == bool(told)
+    assert told in result.err
+    assert tftool("check", "turtles", "--strict", "--run", file).status == bool(told)
+
+
+def test_check_says_first_which_node_has_failed(tftool, slip):
+    file = slip("assert self.buffer is None, 'first of all'")
+    words = ("check", "turtles", "--run", f"follower={file}")
+
+    rows = tftool(*words).out.splitlines()
+    whole = tftool(*words, "--verbose").out
+
+    assert "'follower' failed: AssertionError: first of all" in rows[1]
+    assert whole.index("first of all") < whole.index("turtle1 in turtle2")
+
+
+def test_check_hides_no_line_of_another_name(tftool, slip):
+    told = tftool("check", "turtles", "--run", slip("self.get_logger().info('tick 3')")).err
+
+    assert "Spawning turtle [turtle1]" in told
+    assert "Spawning turtle [turtle2]" in told
+    assert told.count("] [slip]: tick 3") == 1

@@ -24,6 +24,9 @@ def render(reports: Sequence[Report]) -> Table:
         if report.ok and report.warnings:
             ok.append(f", {count(len(report.warnings), 'warning')}", "yellow")
         table.add_row(Text(visible(report.name), "bold"), ok, Text(_told(report)))
+        if report.failure and report.judgements:
+            # First: everything below it may follow from it.
+            table.add_row("", "", Text("\n".join(_lines(report.failure))))
         for number, why in enumerate(report.why):
             table.add_row("", "", Text(f"{'     ' if number else 'why: '}{visible(why)}"))
         for judgement in report.judgements:
@@ -33,8 +36,6 @@ def render(reports: Sequence[Report]) -> Table:
                 found = f"found{when}: {visible(judgement.found).rstrip()}"
                 table.add_row("", "", Text(f"{where}{visible(judgement.subject)}"))
                 table.add_row("", "", Padding(Text(found), (0, 0, 0, 2)))
-        if report.failure and report.judgements:
-            table.add_row("", "", Text("\n".join(_lines(report.failure))))
     return table
 
 
@@ -56,6 +57,10 @@ def render_all(reports: Sequence[Report]) -> Table:
     table.add_column("")
     for report in reports:
         name = Text(visible(report.name), "bold")
+        if report.failure:
+            failure = Text(_lines(report.failure)[0])
+            table.add_row(name, "", failure, Text("FAILED", "bold red"))
+            name = Text("")
         for judgement in report.judgements:
             ok = Text("ok", "green") if judgement.ok else Text("FAILED", "bold red")
             table.add_row(name, Text(visible(judgement.subject)), Text(_found(judgement)), ok)
@@ -63,9 +68,7 @@ def render_all(reports: Sequence[Report]) -> Table:
         for number, why in enumerate(report.why):
             table.add_row(name, "" if number else "why", Text(visible(why)), "")
             name = Text("")
-        if report.failure:
-            table.add_row(name, "", Text(_lines(report.failure)[0]), Text("FAILED", "bold red"))
-        elif not report.judgements:
+        if not (report.failure or report.judgements):
             table.add_row(name, Text("nothing", "dim"), "", Text("ok", "green"))
         table.add_section()
     return table

@@ -179,6 +179,7 @@ class Verdict:
             each expectation, in the order of the file.
         lasted: How long the run was, nanoseconds on its clock.
         failure: Why the run ended early; empty when it did not.
+        warnings: Slips of programs that show outside simulated time alone: sentences.
     """
 
     scenario: str
@@ -186,6 +187,7 @@ class Verdict:
     outcomes: tuple[Outcome, ...]
     lasted: Duration
     failure: str = ""
+    warnings: tuple[str, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -195,4 +197,5 @@ class Verdict:
     def report(self) -> Report:
         """Return it in a form for tables and test reports."""
         judgements = tuple(outcome.judgement() for outcome in self.outcomes)
-        return Report(self.scenario, self.file, judgements, as_seconds(self.lasted), self.failure)
+        lasted = as_seconds(self.lasted)
+        return Report(self.scenario, self.file, judgements, lasted, self.failure, self.warnings)

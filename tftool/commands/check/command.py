@@ -69,8 +69,10 @@ def _judge(
         verdict = judge(scenario, watch=heard.watching)
     else:
         verdict = _recorded(scenario, judge, kept.place(scenario.name), heard)
+    for warning in verdict.warnings:
+        notice(visible_lines(warning))
     found = () if verdict.ok else heard.findings(scenario)
-    return replace(verdict.report(), warnings=warnings, why=found), True
+    return replace(verdict.report(), warnings=warnings + verdict.warnings, why=found), True
 
 
 class _Heard:

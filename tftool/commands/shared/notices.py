@@ -19,7 +19,8 @@ _COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
 """ROS 2's: green, yellow, red; INFO keeps the terminal's own."""
 
 
-_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+# A number by itself: the digits of turtle2 are part of a name.
+_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 def notice(sentence: str) -> None:

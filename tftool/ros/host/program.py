@@ -67,6 +67,7 @@ class Program(Node):
         nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
         event_loops: Those of asyncio that it made, closed at the end.
         lines_with_angles: Lines of it whose angles were looked at: whether they are degrees.
+        advice: Functions that sum its lookups up at the end: a sentence, or "".
     """
 
     is_shown: ClassVar[bool] = False
@@ -106,6 +107,7 @@ class Program(Node):
         self.event_loops: list[asyncio.AbstractEventLoop] = []
         self.log_levels: dict[str, int] = {}
         self.lines_with_angles: set[Any] = set()
+        self.advice: list[Callable[[], str]] = []
         self._on_exit = on_exit
         self._others: set[asyncio.Task[None]] = set()
         self._loop: asyncio.AbstractEventLoop | None = None

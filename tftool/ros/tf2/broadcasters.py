@@ -6,6 +6,7 @@ A listener's transforms go straight into its buffer, whether its node spins or n
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from tftool.base.stamps import as_seconds, seconds
 from tftool.buffer.clock_jumps import Watch
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
@@ -14,10 +15,14 @@ from tftool.ros.rclpy.entities import NodeEntity, Work
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.tf2.buffer import Buffer
+from tftool.world.clock import Phase
 from tftool.world.world import TransformMessage
 
 _TOLERANCE = 10e-3
 """How far the square of a quaternion's length may be from 1 for tf2 to take it."""
+
+SILENT = seconds(5.0)
+"""How long a broadcaster may send nothing before that is said."""
 
 AUTHORITY = "default_authority"
 """Sender of earlier transforms; that of later ones is known."""
@@ -141,6 +146,25 @@ class TransformBroadcaster:
         self._told: set[str] = set()
         self._member = seat_of(node)
         self._member.program.broadcasts = True
+        self._has_sent = False
+        self._member.program.ask(self._watch_silence)
+
+    def _watch_silence(self) -> None:
+        clock = self._member.world.clock
+        timer = clock.timer(clock.now() + SILENT, Phase.WATCH)
+        timer.add_done_callback(lambda _: self._note_silence())
+
+    def _note_silence(self) -> None:
+        """Report a broadcaster that has sent nothing while its node was spun."""
+        lives = self._member in self._member.program.nodes
+        if not self._has_sent and self._member.was_served and lives:
+            kind = type(self).__name__
+            self._member.program.say(
+                "WARN",
+                self._member.authority,
+                f"its {kind} has sent nothing for {as_seconds(SILENT):g} s: call sendTransform in "
+                "the callback of a timer or a subscription, and see that this callback is called",
+            )
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802
         """Send one transform, or several."""
@@ -153,8 +177,26 @@ class TransformBroadcaster:
             sample = values.pack_transform(one)
             self._judge(sample)
             sent.append(sample)
-        seat, static = self._member, self._static
-        seat.program.ask(lambda: seat.world.broadcast(sent, seat.authority, static=static))
+        self._has_sent = True
+        self._member.program.ask(lambda: self._broadcast(sent))
+
+    def _broadcast(self, sent: list[TransformStamped]) -> None:
+        seat = self._member
+        for sample in sent:
+            self._note_exchange(sample.frame_id, sample.child_frame_id)
+        seat.world.broadcast(sent, seat.authority, static=self._static)
+
+    def _note_exchange(self, parent: str, child: str) -> None:
+        """Report once a link whose ends another transform names the other way round."""
+        link = f"{parent} {child}"
+        if link not in self._told and self._member.world.buffer.parent(parent) == child != parent:
+            self._told.add(link)
+            self._member.program.say(
+                "WARN",
+                self._member.authority,
+                f"frame_id '{parent}' and child_frame_id '{child}' are exchanged: '{child}' is "
+                f"the parent of '{parent}' already. frame_id is the parent",
+            )
 
     def _judge(self, sample: TransformStamped) -> None:
         """Report once for each child the rotation that ROS 2 would refuse."""

@@ -109,6 +109,7 @@ class Buffer(BufferCore, BufferInterface):
         """Wait as long as the answer may still come, at most for the timeout."""
         limit = length(timeout)
         if limit > 0:
+            self._hints.wait()
             self._ask(lambda: self._until(asked, limit))
 
     async def _until(self, asked: LookupRequest | FullLookupRequest, limit: int) -> None:
@@ -134,6 +135,7 @@ class Buffer(BufferCore, BufferInterface):
 
     def _promise(self, asked: LookupRequest | FullLookupRequest) -> Future:
         future = Future(executor=self._program.executor)
+        self._hints.wait()
 
         def attempt() -> bool:
             if future.cancelled():

@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
-from tftool.base.errors import LookupException
+from tftool.base.errors import TransformException
 from tftool.buffer.buffer import Buffer as Frames
+from tftool.buffer.sample import TransformStamped
 from tftool.ros.host import program, values
 from tftool.ros.rclpy.time import Duration, Time
+from tftool.ros.tf2.lookup_hints import LookupHints
 from tftool.ros.tf2.lookup_requests import (
     FullLookupRequest,
     LookupRequest,
@@ -25,9 +27,9 @@ class BufferCore:
 
     def __init__(self, cache_time: Duration | None = None) -> None:
         self._program = program.current()
-        self._has_hinted = False
         kept = 10_000_000_000 if cache_time is None else length(cache_time)
         self._frames = Frames(kept, log=self._log)
+        self._hints = LookupHints(self._program, self._frames)
 
     @property
     def frames(self) -> Frames:
@@ -60,38 +62,30 @@ class BufferCore:
     # Asking
 
     def _answer(self, asked: LookupRequest | FullLookupRequest) -> Any:
-        try:
-            found = self._ask(lambda: asked.answer(self._frames))
-        except LookupException:
-            self._hint_that_nothing_arrived()
-            raise
-        return values.unpack_transform(found)
+        return values.unpack_transform(self._ask(lambda: self._looked_up(asked)))
 
-    def _hint_that_nothing_arrived(self) -> None:
-        """Say once, where a node looks up before it is spun, why nothing can be there."""
-        owner = self._program
-        if self._has_hinted or (owner.listens and any(one.was_served for one in owner.nodes)):
-            return
-        if self._ask(self._frames.frames):
-            return
-        self._has_hinted = True
-        if not owner.listens:
-            owner.warn(
-                "a lookup was refused because nothing fills this buffer: keep a "
-                "TransformListener(buffer, node) beside it"
-            )
-        else:
-            owner.warn(
-                "a lookup was refused because nothing has arrived yet: the node is not spun so "
-                "far. Look up in a timer's callback, or give the lookup a timeout"
-            )
+    def _looked_up(self, asked: LookupRequest | FullLookupRequest) -> TransformStamped:
+        try:
+            found = asked.answer(self._frames)
+        except TransformException as error:
+            self._hints.refuse(asked.target, asked.source, error)
+            raise
+        if isinstance(asked, LookupRequest):
+            self._hints.answer(asked.target, asked.source, asked.time)
+        return found
 
     def _whether(self, asked: LookupRequest | FullLookupRequest) -> tuple[int, str]:
-        reason = self._ask(lambda: asked.why_not(self._frames))
+        reason: str = self._ask(lambda: self._why_not(asked))
         if reason:
             self._program.looked_in_vain()
-            self._hint_that_nothing_arrived()
         return int(not reason), reason
+
+    def _why_not(self, asked: LookupRequest | FullLookupRequest) -> str:
+        reason = asked.why_not(self._frames)
+        self._hints.wait()
+        if reason:
+            self._hints.look_in_vain(asked.target, asked.source)
+        return reason
 
     def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
         """The pose of source in target, as a geometry_msgs TransformStamped.

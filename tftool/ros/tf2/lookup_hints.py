@@ -1,0 +1,141 @@
+"""Hints about lookups that keep failing: what a student's node asks for, and why it is refused."""
+
+from collections.abc import Iterator
+
+from tftool.base.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    LookupException,
+    TransformException,
+)
+from tftool.base.stamps import Stamp, as_seconds, seconds
+from tftool.buffer.buffer import Buffer as Frames
+from tftool.buffer.sample import FrameInfo
+from tftool.ros.host.program import Program
+
+PATIENCE = seconds(3.0)
+"""How long one lookup is refused, without a success, before the reason is said."""
+
+MANY = 10
+"""From how many lookups on those for a moment not yet known are counted aloud."""
+
+ONCE = seconds(2.0)
+"""Age of a single sample from which its frame counts as sent once."""
+
+
+class LookupHints:
+    """The lookups of one buffer: how many asked for what, and what was said about them.
+
+    Each hint is logged once, as a warning of the program that asks.
+    """
+
+    def __init__(self, program: Program, frames: Frames) -> None:
+        self._program = program
+        self._frames = frames
+        self._said: set[str] = set()
+        self._refused_since: dict[tuple[str, str], Stamp] = {}
+        self._asked = 0
+        self._early = 0
+        self._just_in_time = 0
+        self._waits = False
+        program.advice.append(self.summary)
+
+    def wait(self) -> None:
+        """Note that the program waits for transforms, or asks first whether there is one."""
+        self._waits = True
+
+    def answer(self, target: str, source: str, time: Stamp) -> None:
+        """Note a lookup that was answered."""
+        self._asked += 1
+        self._refused_since.pop((target, source), None)
+        # Simulated time hands a transform over in the instant of its stamp; a network does not.
+        if time and not self._waits and self._program.strict and time == self._program.clock.now():
+            self._just_in_time += self._frames.newest_common(target, source) != 0
+
+    def refuse(self, target: str, source: str, error: TransformException) -> None:
+        """Note a lookup that was refused, and say why if that goes on."""
+        self._asked += 1
+        now = self._program.clock.now()
+        since = self._refused_since.setdefault((target, source), now)
+        lasts = now - since >= PATIENCE
+        if isinstance(error, LookupException | ConnectivityException):
+            self._hint_that_nothing_arrives()
+            if lasts and isinstance(error, LookupException) and error.frame is not None:
+                self._say(f"frame {error.frame}", error.remedy)
+        elif isinstance(error, ExtrapolationException):
+            once = next(self._sent_once(target, source, now), None) if lasts else None
+            if once is not None:
+                self._say(
+                    f"once {once.frame}",
+                    f"'{once.frame}' was sent once, at {as_seconds(once.newest):.3f} s: "
+                    "a transform that never changes goes to a StaticTransformBroadcaster, one "
+                    "that may change is sent again and again",
+                )
+            elif error.requested > error.available:
+                self._early += 1
+                if self._early >= MANY and not self._program.strict and self._is_early:
+                    self._say("early", self._early_text())
+
+    def look_in_vain(self, target: str, source: str) -> None:
+        """Note that the program asked whether there is a transform, and there is none."""
+        self._waits = True
+        self._hint_that_nothing_arrives()
+        now = self._program.clock.now()
+        since = self._refused_since.setdefault((target, source), now)
+        if now - since >= PATIENCE:
+            try:
+                self._frames.lookup_transform(target, source)
+            except LookupException as error:
+                if error.frame is not None:
+                    self._say(f"frame {error.frame}", error.remedy)
+            except TransformException:
+                pass
+
+    def summary(self) -> str:
+        """Return a sentence about lookups for a moment not yet known; "" if there is no need."""
+        return self._early_text() if self._is_early else ""
+
+    @property
+    def _is_early(self) -> bool:
+        early = self._early + self._just_in_time
+        return early >= 3 and 5 * early >= self._asked
+
+    def _early_text(self) -> str:
+        told = f"{self._early} of {self._asked} lookups asked for a moment not yet known"
+        if self._just_in_time:
+            told += (
+                f", {self._just_in_time} for the very moment of a transform, which arrives later "
+                "outside simulated time"
+            )
+        return f"{told}: use Time(), the latest, or a timeout"
+
+    def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
+        """Yield the links above two frames of which one old sample is all that was sent."""
+        infos = {info.frame: info for info in self._frames.snapshot(now).frames}
+        for frame in (target, source):
+            seen: set[str] = set()
+            info = infos.get(frame)
+            while info is not None and info.parent is not None and info.frame not in seen:
+                if info.samples == 1 and not info.is_static and info.age >= ONCE:
+                    yield info
+                seen.add(info.frame)
+                info = infos.get(info.parent)
+
+    def _hint_that_nothing_arrives(self) -> None:
+        """Say, where a node looks up before it is spun, why nothing can be there."""
+        owner = self._program
+        if (owner.listens and any(one.was_served for one in owner.nodes)) or self._frames.frames():
+            return
+        if not owner.listens:
+            why = "nothing fills this buffer: keep a TransformListener(buffer, node) beside it"
+        else:
+            why = (
+                "nothing has arrived yet: the node is not spun so far. Look up in a timer's "
+                "callback, or give the lookup a timeout"
+            )
+        self._say("nothing", f"a lookup was refused because {why}")
+
+    def _say(self, what: str, text: str) -> None:
+        if what not in self._said:
+            self._said.add(what)
+            self._program.say("WARN", self._program.name, text)
