@@ -32,7 +32,7 @@ from tftool.world.link.inbox import Inbox
 PAUSES: Final = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Seconds before each further attempt to connect again; the last one from then on."""
 
-STEADY: Final = 5.0
+STEADY: Final = 2.0
 """Seconds after which a connection counts as one that works, and pauses begin anew."""
 
 QUIET: Final = 0.2
