@@ -249,3 +249,52 @@ def test_check_hides_no_line_of_another_name(tftool, slip):
     assert "Spawning turtle [turtle1]" in told
     assert "Spawning turtle [turtle2]" in told
     assert told.count("] [slip]: tick 3") == 1
+
+
+@pytest.fixture
+def chase(tftool, tmp_path, monkeypatch):
+    """A package as `tftool new` makes it."""
+    monkeypatch.chdir(tmp_path)
+    tftool("new", "chase")
+    return tmp_path / "chase"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("Node(\n", "Node(pakage='chase',\n", "did you mean 'package'?"),
+        ("Node(\n", "Nod(\n", "name 'Nod' is not defined; did you mean 'Node'?"),
+        ("def generate_launch_description", "def generate_launch_descripton",
+         "it has 'generate_launch_descripton': name that so"),
+        ("LaunchDescription([", "LaunchDescription(initial_entites=[]) or ([",
+         "did you mean 'initial_entities'?"),
+    ],
+)  # fmt: skip
+def test_a_misspelt_keyword_or_function_of_a_launch_file_is_told_with_the_near_name(
+    tftool, chase, old, new, told
+):
+    file = chase / "launch" / "follower.launch.py"
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, new, 1))
+
+    result = tftool("launch", "--simulated", "--for", "1", file)
+
+    assert result.status == 3
+    assert told in result.err
+
+
+@pytest.mark.parametrize(
+    ("wrong", "near"),
+    [
+        ("chase.turtle_folower:main", "chase.turtle_follower"),
+        ("chase.turtle_follower:mian", "main"),
+    ],
+)
+def test_a_wrong_entry_point_is_refused_with_the_near_name(tftool, chase, wrong, near):
+    setup = chase / "setup.py"
+    setup.write_text(setup.read_text().replace("chase.turtle_follower:main", wrong))
+
+    result = tftool("run", "--simulated", "--for", "1", "chase", "turtle_follower")
+
+    assert result.status == 1
+    assert f"; did you mean '{near}'?" in result.err

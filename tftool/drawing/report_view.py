@@ -74,12 +74,12 @@ def render_all(reports: Sequence[Report]) -> Table:
     return table
 
 
-def summary(reports: Sequence[Report]) -> str:
-    """All of it in one sentence."""
+def summary(reports: Sequence[Report], noun: str = "scenario") -> str:
+    """All of it in one sentence; `noun` is what each report is about."""
     bad = [report for report in reports if not report.ok]
     judgements = [judgement for report in reports for judgement in report.judgements]
     held = sum(judgement.ok for judgement in judgements)
-    scenarios = count(len(reports), "scenario")
+    scenarios = count(len(reports), noun)
     whole = f"{held} of {count(len(judgements), 'expectation')} held"
     if not judgements:
         whole = "nothing was judged"

@@ -10,6 +10,7 @@ from tftool.ros.host import executables, importing, names, program, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import StuckError
 from tftool.ros.host.importing import ros_free
+from tftool.ros.host.installation import faults_about
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
@@ -132,6 +133,28 @@ def start_program(
         on_exit=on_exit,
     )
     return label
+
+
+def tell_unfound(workspace: Workspace, file: Path | None) -> str:
+    """Return a line about what ROS 2 would not find of a node or launch file; "" for nothing."""
+    for name, package in workspace.packages.items() if file is not None else ():
+        if file is not None and file.is_relative_to(package.path):
+            faults = faults_about(package, file, workspace.packages)
+            more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+            told = f"ROS 2 would not find it: {faults[0]}{more}" if faults else ""
+            return f"{told}; 'tftool check --as-ros {name}' lists all" if told else ""
+    return ""
+
+
+def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> Path | None:
+    """Return the file of a package's executable; None for other words, and for nodes of ours."""
+    package = workspace.packages.get(target)
+    if package is None or not rest or is_file(target):
+        return None
+    script = package.scripts.get(rest[0])
+    if script is None:
+        return package.script_file(rest[0])
+    return package.path.joinpath(*script.partition(":")[0].split(".")).with_suffix(".py")
 
 
 def driven_turtle(words: Sequence[str]) -> str:

@@ -12,12 +12,12 @@ from tftool.commands.shared.options import Json, Junit, option
 @declare(shares=False)
 def check(
     scenarios: Annotated[
-        list[str],
+        list[str] | None,
         typer.Argument(
             metavar="SCENARIO...",
             help="Built-in scenarios by name, or scenario files: paths, globs, folders.",
         ),
-    ],
+    ] = None,
     programs: Annotated[
         list[str] | None,
         option(
@@ -33,6 +33,14 @@ def check(
             "What follows 'tftool launch': a launch file in place of all nodes.",
             "--launch",
             metavar="WORDS",
+        ),
+    ] = None,
+    packages: Annotated[
+        list[str] | None,
+        option(
+            "A package of yours: list what ROS 2 would not find of it, once it is built.",
+            "--as-ros",
+            metavar="PACKAGE",
         ),
     ] = None,
     force: Annotated[
@@ -66,9 +74,11 @@ def check(
     finds in the frames that were played. The exit status is 0 when
     everything held, 1 when something did not, 3 when a file could not be read.
     With --run and --launch, nodes written for ROS 2 are judged in the scenario, without ROS.
+    With --as-ros, a package is judged instead: entry points, launch files, dependencies.
 
     tftool check turtles
     tftool check scenarios/*.yaml --junit report.xml
     tftool check turtles --run follower=turtle_following.py
     tftool check turtles --launch "pkg_tf turtle_following.launch.py"
+    tftool check --as-ros pkg_tf
     """

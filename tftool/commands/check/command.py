@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
-from tftool.base.errors import InputError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
 from tftool.base.report import Report
@@ -171,9 +171,10 @@ def _strictly(report: Report) -> Report:
 
 
 def run(
-    scenarios: list[str],
+    scenarios: list[str] | None,
     programs: list[str] | None,
     launched: str | None,
+    packages: list[str] | None,
     force: bool,
     junit: Path | None,
     recordings: Path | None,
@@ -182,6 +183,8 @@ def run(
     for_programs: bool,
 ) -> ExitStatus:
     """Run `tftool check`; the parameters are its options."""
+    if not scenarios and not packages:
+        raise UsageError("which scenario? Give its name or file, or a package as --as-ros PACKAGE")
     kept = None if recordings is None else _Kept(recordings)
     judging: AbstractContextManager[Callable[..., Verdict]]
     if programs or launched is not None:
@@ -194,9 +197,14 @@ def run(
     with judging as judge:
         judged = [
             _judge(word, judge, kept, own_nodes=launched is None)
-            for words in scenarios
+            for words in scenarios or ()
             for word in _unfolded(words)
         ]
+    if packages:
+        # They need all of `ros`.
+        from tftool.commands.check.packages import judge_packages
+
+        judged += [(report, True) for report in judge_packages(packages)]
     if strict:
         judged = [(_strictly(report), readable) for report, readable in judged]
     reports = [report for report, _ in judged]
@@ -213,7 +221,7 @@ def run(
             judgements.render_all(reports) if verbose else judgements.render(reports),
             is_wide=not verbose,
         )
-        sys.stdout.write(f"{judgements.summary(reports)}\n")
+        sys.stdout.write(f"{judgements.summary(reports, 'scenario' if scenarios else 'package')}\n")
     if junit is not None:
         write_file(junit, judgements.as_junit(reports))
     if not all(readable for _, readable in judged):

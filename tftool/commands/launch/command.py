@@ -3,7 +3,7 @@
 import sys
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
-from tftool.base.escaping import visible_lines
+from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.connection import Connection, Mode
 from tftool.commands.shared.hosting import open_empty_session, open_session, tell_where_to_look
@@ -34,6 +34,8 @@ def run(
     with ros_free(force=force):
         packages.use(workspace)
         path, rest = running.find_launch_file(workspace, words)
+        if unfound := running.tell_unfound(workspace, path):
+            notice(visible(unfound))
         arguments = running.arguments_of(rest)
         if show_args:
             sys.stdout.write(visible_lines(running.show_arguments(path, workspace)) + "\n")

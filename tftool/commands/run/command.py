@@ -160,6 +160,9 @@ def run(
     with ros_free(force=force) as finder:
         packages.use(workspace)
         running.check_program(workspace, target, words)
+        file = running.executable_file(workspace, target, words)
+        if unfound := running.tell_unfound(workspace, file):
+            notice(visible(unfound))
         session = _opened(connection, place, alone=alone, simulated=simulated)
         connection.tell_read_only()
         tell_where_to_look(connection, session)

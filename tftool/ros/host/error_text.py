@@ -1,10 +1,14 @@
 """Sentences about an exception from users' code."""
 
+import builtins
 import linecache
+import re
+import traceback
 
 from tftool.base.errors import InputError, UsageError
+from tftool.base.near_names import did_you_mean
 from tftool.ros.host.fibers import StuckError, user_line_of_error
-from tftool.ros.host.missing_names import missing_package
+from tftool.ros.host.missing_names import missing_package, near_keyword
 
 
 def error_sentence(error: BaseException) -> str:
@@ -17,8 +21,27 @@ def error_sentence(error: BaseException) -> str:
     if isinstance(error, ModuleNotFoundError) and error.name and str(error).endswith("'"):
         # Python's own sentence, which ends after the name.
         what += f"; {missing_package(error.name.partition('.')[0])}"
+    what += _near_name(error)
     place = user_line_of_error(error.__traceback__)
     return what if place is None else f"{what}\n    {place}"
+
+
+_UNEXPECTED = re.compile(r"([\w.]+)\(\) got an unexpected keyword argument '(\w+)'")
+
+
+def _near_name(error: BaseException) -> str:
+    """Return the known name that a misspelt one resembles, as the end of a sentence."""
+    frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+    if not frames or "did you mean" in str(error):
+        return ""
+    if isinstance(error, AttributeError) and isinstance(error.name, str):
+        return did_you_mean(error.name, dir(error.obj)) if error.obj is not None else ""
+    # A call is refused in the frame that calls: the names are known there.
+    names = {**vars(builtins), **frames[-1].f_globals, **frames[-1].f_locals}
+    if isinstance(error, NameError) and isinstance(error.name, str):
+        return did_you_mean(error.name, names)
+    found = _UNEXPECTED.search(str(error)) if isinstance(error, TypeError) else None
+    return "" if found is None else near_keyword(found[2], names.get(found[1].partition(".")[0]))
 
 
 def syntax_sentence(error: SyntaxError) -> str:

@@ -1,6 +1,8 @@
 """Sentences about a name or a module of ROS 2 that we do not answer to."""
 
+import inspect
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 from tftool.base.near_names import did_you_mean, near_names
 from tftool.messages.classes import INTERFACES
@@ -50,6 +52,18 @@ def undeclared(parameter: str, known: Iterable[str]) -> str:
     """Return a sentence about a parameter that was given and never declared."""
     hint = did_you_mean(parameter, known)
     return f"parameter '{parameter}' was given, but the node declares none of that name{hint}"
+
+
+def near_keyword(keyword: str, called: Any) -> str:
+    """Return the end of a sentence about a keyword that a function or class does not take."""
+    kinds = getattr(called, "__mro__", None)
+    known: set[str] = set()
+    for function in [called] if kinds is None else [vars(one).get("__init__") for one in kinds]:
+        try:
+            known |= set(inspect.signature(function).parameters)
+        except (TypeError, ValueError):
+            continue  # One in C, or none.
+    return did_you_mean(keyword, known - {"self", "args", "kwargs"})
 
 
 def missing_module(name: str) -> str:

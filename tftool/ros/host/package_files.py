@@ -28,6 +28,7 @@ class Package:
         installed: Files that its setup.py installs into its share directory at another place
             than the one where they lie: that place to the file.
         modules: Python packages that its CMakeLists.txt installs (`ament_python_install_package`).
+        data_files: Files that its setup.py installs; None if only running it would tell.
     """
 
     name: str
@@ -35,6 +36,7 @@ class Package:
     scripts: Mapping[str, str] = field(default_factory=dict)
     installed: Mapping[str, Path] = field(default_factory=dict)
     modules: Sequence[str] = ()
+    data_files: frozenset[str] | None = None
 
     def script_file(self, name: str) -> Path | None:
         """A node's file of that name, for packages that install scripts as they are."""
@@ -75,7 +77,7 @@ def read_package(folder: Path) -> Package | None:
     if (folder / "package.xml").is_file():
         match = re.search(r"<name>\s*([\w-]+)\s*</name>", read_text(folder / "package.xml"))
         name = match[1] if match else ""
-    installed: list[Any] = []
+    installed: Any = None
     if (folder / "setup.py").is_file():
         name_there, scripts, installed = _from_setup_py(folder / "setup.py")
         name = name or name_there
@@ -89,7 +91,22 @@ def read_package(folder: Path) -> Package | None:
             scripts.update(found)
     name = name or folder.name
     moved = dict(_moved(folder, f"share/{name}", installed))
-    return Package(name, folder, scripts, moved, _modules_of_cmake(folder / "CMakeLists.txt"))
+    modules = _modules_of_cmake(folder / "CMakeLists.txt")
+    return Package(name, folder, scripts, moved, modules, _listed_files(installed))
+
+
+def _listed_files(data_files: Any) -> frozenset[str] | None:
+    """Return the files of a setup.py's `data_files`; None if a part of them is not known."""
+    if not isinstance(data_files, list):
+        return None
+    listed: set[str] = set()
+    for entry in data_files:
+        if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
+            return None
+        if not all(isinstance(one, str) for one in entry[1]):
+            return None
+        listed.update(str(PurePosixPath(one)) for one in entry[1])
+    return frozenset(listed)
 
 
 def _modules_of_cmake(path: Path) -> list[str]:
@@ -133,7 +150,7 @@ def _from_setup_py(path: Path) -> tuple[str, dict[str, str], Any]:
         tree = ast.parse(read_text(path), str(path))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         # It says so itself when it is built; here it only names no scripts.
-        return "", {}, []
+        return "", {}, None
     literals = _Literals(path.parent)
     for call in ast.walk(tree):
         if isinstance(call, ast.Call) and _called(call.func) == "setup":
@@ -141,13 +158,13 @@ def _from_setup_py(path: Path) -> tuple[str, dict[str, str], Any]:
                 literals.assign(tree.body)
                 given = {one.arg: literals.value(one.value) for one in call.keywords if one.arg}
             except RecursionError:
-                return "", {}, []
+                return "", {}, None
             points = given.get("entry_points")
             listed = points.get("console_scripts", []) if isinstance(points, dict) else points
             name = given.get("name")
-            files = given.get("data_files")
+            files = given.get("data_files", [])
             return (name if isinstance(name, str) else "", _scripts(listed), files)
-    return "", {}, []
+    return "", {}, None
 
 
 def _called(function: ast.expr) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.named_files import open_regular
+from tftool.base.near_names import did_you_mean
 from tftool.ros.host import importing, program
 from tftool.ros.host.error_text import syntax_sentence
 from tftool.ros.host.shims import builtins_for_users
@@ -83,12 +84,21 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
     """Make the body that runs a console script as its installed wrapper would, from `root`."""
 
     def body() -> None:
-        target: Any = importing.import_fresh(module, root)
+        try:
+            target: Any = importing.import_fresh(module, root)
+        except ModuleNotFoundError as error:
+            if error.name is None or not f"{module}.".startswith(f"{error.name}."):
+                raise
+            there = [f"{one.parent.name}.{one.stem}" for one in root.glob("*/*.py")]
+            raise UsageError(
+                f"the console script names module {module}, but there is no such file in "
+                f"{root}{did_you_mean(module, there)}"
+            ) from error
         for part in function.split("."):
             if not hasattr(target, part):
                 raise UsageError(
                     f"the console script names {module}:{function}, but there is no '{part}' in "
-                    f"{getattr(target, '__file__', module)}"
+                    f"{getattr(target, '__file__', module)}{did_you_mean(part, dir(target))}"
                 )
             target = getattr(target, part)
         _end_with(target())

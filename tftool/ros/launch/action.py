@@ -4,6 +4,7 @@ import sys
 from typing import Any, ClassVar
 
 from tftool.ros.host.fibers import user_line
+from tftool.ros.host.missing_names import near_keyword
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescriptionEntity
 from tftool.ros.launch.events import ExecutionComplete
@@ -31,9 +32,9 @@ class Action(LaunchDescriptionEntity):
         place = user_line(sys._getframe(1))
         self.where = "" if place is None else f"{place.file}:{place.line}"
         if kwargs:
-            raise TypeError(
-                f"{type(self).__name__} takes no argument {', '.join(map(repr, kwargs))} here"
-            )
+            hint = near_keyword(next(iter(kwargs)), type(self))
+            named = ", ".join(map(repr, kwargs))
+            raise TypeError(f"{type(self).__name__} takes no argument {named} here{hint}")
 
     def visit(self, context: LaunchContext) -> Any:
         """Do it, if its condition holds; return the next actions."""

@@ -1,14 +1,18 @@
 """Launch files: Python, XML or YAML in, a description out."""
 
 from pathlib import Path
-from types import ModuleType
+from types import FunctionType, ModuleType
 
 from tftool.base.errors import InputError
+from tftool.base.near_names import near_names
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.elements import read
 from tftool.ros.launch.frontend import actions_of
+
+MAKES = "generate_launch_description"
+"""The function that a launch file in Python defines."""
 
 
 def load_file(path: Path) -> LaunchDescription:
@@ -28,11 +32,12 @@ def _from_python(path: Path) -> LaunchDescription:
     module.__file__ = str(path)
     try:
         exec(code, module.__dict__)
-        make = module.__dict__.get("generate_launch_description")
+        make = module.__dict__.get(MAKES)
         if make is None:
-            raise InputError(
-                f"'{path}' is no launch file: it has no function generate_launch_description()"
-            )
+            defined = [name for name, one in vars(module).items() if isinstance(one, FunctionType)]
+            near = near_names(MAKES, defined)
+            hint = f"; it has '{near[0]}': name that so" if near else ""
+            raise InputError(f"'{path}' is no launch file: it has no function {MAKES}(){hint}")
         description = make()
     except InputError:
         raise

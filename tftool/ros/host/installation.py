@@ -1,0 +1,220 @@
+"""Parts of a package that ROS 2 would not find once it is built: read, and not run."""
+
+import ast
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from tftool.base.errors import InputError
+from tftool.base.near_names import did_you_mean
+from tftool.messages.classes import INTERFACES
+from tftool.ros.host import import_table
+from tftool.ros.host.package_files import Package, read_text
+
+_LAUNCHES = ("launch", "launch_ros", "ros2launch", "launch_xml", "launch_yaml")
+_INSTEAD = {
+    "launch": _LAUNCHES,
+    "launch_ros": ("launch_ros", "ros2launch"),
+    "tf2_ros": ("tf2_ros", "tf2_ros_py"),
+}
+"""Dependencies that bring a module; a module that is not here is brought by its own name."""
+
+_DEPENDENCY = re.compile(r"<(depend|exec_depend|run_depend)\b[^>]*>\s*([\w-]+)\s*<")
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class InstalledPart:
+    """One part of a package that has to be declared for ROS 2 to find it.
+
+    Attributes:
+        subject: The part, and where it is declared: "chase/node.py: an entry point in setup.py".
+        file: The file it is about.
+        fault: Why ROS 2 would not find it, and the remedy; "" if it would.
+    """
+
+    subject: str
+    file: Path
+    fault: str
+
+
+def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[InstalledPart]:
+    """Yield what ROS 2 has to find of a package: nodes, launch files and dependencies.
+
+    Args:
+        package: The package.
+        siblings: Names of the packages of its workspace.
+
+    Raises:
+        InputError: If one of its files cannot be read.
+    """
+    others = set(siblings) - {package.name}
+    if (package.path / "setup.py").is_file():
+        yield from _marks(package)
+        yield from _entry_points(package, others)
+        yield from _nodes_without_entry_point(package)
+    yield from _launch_files(package)
+    yield from _dependencies(package, others)
+
+
+def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> list[str]:
+    """Return why ROS 2 would not find one node or launch file, or a package that it imports."""
+    try:
+        parts = list(installed_parts(package, siblings))
+    except InputError:
+        return []  # Its own reader says so.
+    return [part.fault for part in parts if part.fault and part.file == file]
+
+
+def entry_point_fault(package: Package, name: str) -> str:
+    """Return why a console script cannot begin, with the near name; "" if it can."""
+    module, _, function = package.scripts[name].partition(":")
+    path = package.path.joinpath(*module.split("."))
+    if not path.with_suffix(".py").is_file() and not (path / "__init__.py").is_file():
+        hint = did_you_mean(module, [_module(package, file) for file in _sources(package)])
+        return f"entry point '{name}' names module '{module}', which is not there{hint}"
+    file = path.with_suffix(".py")
+    names = _globals(file) if file.is_file() else set()
+    first = function.partition(".")[0]
+    if names and first not in names:
+        hint = did_you_mean(first, names)
+        return f"entry point '{name}' names function '{first}', which {file.name} lacks{hint}"
+    return ""
+
+
+def _marks(package: Package) -> Iterator[InstalledPart]:
+    mark = package.path / "resource" / package.name
+    missing = not mark.is_file() or (
+        package.data_files is not None and f"resource/{package.name}" not in package.data_files
+    )
+    fault = (
+        f"ROS 2 finds packages by an empty file 'resource/{package.name}' that setup.py installs "
+        "into share/ament_index/resource_index/packages"
+    )
+    yield InstalledPart("the package itself: a mark in setup.py", mark, fault if missing else "")
+    config = package.path / "setup.cfg"
+    text = read_text(config) if config.is_file() else ""
+    fault = (
+        "ros2 run finds executables in lib/"
+        f"{package.name}: write '[install]' and 'install_scripts=$base/lib/{package.name}'"
+    )
+    found = f"lib/{package.name}" in text
+    yield InstalledPart(
+        "its executables: install_scripts in setup.cfg", config, "" if found else fault
+    )
+
+
+def _entry_points(package: Package, others: set[str]) -> Iterator[InstalledPart]:
+    for name, target in package.scripts.items():
+        if target.partition(".")[0] in others:
+            continue
+        file = package.path.joinpath(*target.partition(":")[0].split(".")).with_suffix(".py")
+        yield InstalledPart(
+            f"entry point {name} = {target}", file, entry_point_fault(package, name)
+        )
+
+
+def _nodes_without_entry_point(package: Package) -> Iterator[InstalledPart]:
+    begun = {target.partition(":")[0] for target in package.scripts.values()}
+    for file in _sources(package):
+        module = _module(package, file)
+        if module in begun or not {"main"} <= _globals(file) or "rclpy" not in _imports(file):
+            continue
+        yield InstalledPart(
+            f"{file.relative_to(package.path)}: an entry point in setup.py",
+            file,
+            f"no entry point begins {file.name}: add '{file.stem} = {module}:main' to "
+            "console_scripts in setup.py",
+        )
+
+
+def _launch_files(package: Package) -> Iterator[InstalledPart]:
+    for file in sorted((package.path / "launch").glob("*launch.*")):
+        if file.suffix not in (".py", ".xml", ".yaml", ".yml"):
+            continue
+        inside = f"launch/{file.name}"
+        fault = ""
+        if package.data_files is not None and inside not in package.data_files:
+            fault = (
+                f"setup.py does not install {inside}: add ('share/{package.name}/launch', "
+                f"['{inside}']) to data_files"
+            )
+        elif not (package.path / "setup.py").is_file() and not _is_installed_by_cmake(package):
+            fault = (
+                f"CMakeLists.txt does not install {inside}: add install(DIRECTORY launch "
+                "DESTINATION share/${PROJECT_NAME})"
+            )
+        yield InstalledPart(f"{inside}: installed", file, fault)
+
+
+def _is_installed_by_cmake(package: Package) -> bool:
+    path = package.path / "CMakeLists.txt"
+    if not path.is_file():
+        return True  # Nothing builds it: ROS 2 is given the file itself.
+    calls = re.findall(r"\binstall\s*\((.*?)\)", read_text(path), re.DOTALL | re.IGNORECASE)
+    return any("launch" in call for call in calls)
+
+
+def _dependencies(package: Package, others: set[str]) -> Iterator[InstalledPart]:
+    if not (package.path / "package.xml").is_file():
+        return
+    text = _COMMENT.sub("", read_text(package.path / "package.xml"))
+    declared = {name for _, name in _DEPENDENCY.findall(text)}
+    ours = {name.partition(".")[0] for name in import_table.table()}
+    known = (ours | set(INTERFACES.packages()) | others) - {package.name}
+    launches = sorted((package.path / "launch").glob("*.py"))
+    for file in (*_sources(package), *launches):
+        for module in sorted(_imports(file) & known):
+            found = declared.intersection(_INSTEAD.get(module, (module,)))
+            shown = file.relative_to(package.path)
+            fault = (
+                f"package.xml names no dependency on {module}, which {shown} imports: add "
+                f"<exec_depend>{module}</exec_depend>"
+            )
+            yield InstalledPart(f"dependency {module} in package.xml", file, "" if found else fault)
+
+
+def _sources(package: Package) -> list[Path]:
+    return sorted((package.path / package.name).rglob("*.py"))
+
+
+def _module(package: Package, file: Path) -> str:
+    return ".".join(file.relative_to(package.path).with_suffix("").parts)
+
+
+def _tree(file: Path) -> ast.Module:
+    """Parse a file; one that is no Python says so itself when it runs."""
+    try:
+        return ast.parse(read_text(file), str(file))
+    except (InputError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.Module([], [])
+
+
+def _globals(file: Path) -> set[str]:
+    """Return the functions, classes and imported names of a module."""
+    found: set[str] = set()
+    for statement in ast.walk(_tree(file)):
+        match statement:
+            case (
+                ast.FunctionDef(name=name)
+                | ast.AsyncFunctionDef(name=name)
+                | ast.ClassDef(name=name)
+            ):
+                found.add(name)
+            case ast.Import(names=names) | ast.ImportFrom(names=names):
+                found.update(one.asname or one.name for one in names)
+            case ast.Name(id=name, ctx=ast.Store()):
+                found.add(name)
+    return set() if "*" in found else found
+
+
+def _imports(file: Path) -> set[str]:
+    found: set[str] = set()
+    for statement in ast.walk(_tree(file)):
+        match statement:
+            case ast.Import(names=names):
+                found.update(one.name.partition(".")[0] for one in names)
+            case ast.ImportFrom(module=str(module), level=0):
+                found.add(module.partition(".")[0])
+    return found
