@@ -65,7 +65,7 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
 def test_a_clean_report_counts_the_checks():
     diagnosis = robot().judged()
     last = shown(findings.render(diagnosis)).splitlines()[-1]
-    assert last == f"nothing found; {diagnosis.ran} checks ran, 6 skipped (--verbose says why)"
+    assert last == f"nothing found; {diagnosis.ran} checks ran, 8 skipped (--verbose says why)"
     assert "skipped: static-not-latched: what publishers offer" in shown(
         findings.render(diagnosis, verbose=True)
     )

@@ -50,12 +50,13 @@ def test_a_scenario_is_one_line_and_only_what_failed_is_told_in_full():
     assert brief(GOOD, BAD, EMPTY) == [
         "turtles  ok      1 of 1 expectation held",
         "own      FAILED  0 of 2 expectations held",
+        # The cause comes first: what was expected fails because of it.
+        "                 node 'script' failed: TftoolError: no node serves 'clear'",
+        "                 and more",
         "                 line 4: by 9 s: distance from a to b below 1 m",
         "                   found at 9 s: 2 m",
         "                 line 5: at 50 s: number of trees is 1",
         "                   found: not reached",
-        "                 node 'script' failed: TftoolError: no node serves 'clear'",
-        "                 and more",
         "empty    ok      nothing is expected",
         "",
     ]
@@ -82,9 +83,9 @@ def test_the_table_shows_what_was_expected_found_and_when():
     assert cells[2:] == [
         ["turtles", "at 3 s: number of trees is 1", "1 at 3 s", "ok"],
         [],
-        ["own", "by 9 s: distance from a to b below 1 m", "2 m at 9 s", "FAILED"],
+        ["own", "node 'script' failed: TftoolError: no node serves 'clear'", "FAILED"],
+        ["by 9 s: distance from a to b below 1 m", "2 m at 9 s", "FAILED"],
         ["at 50 s: number of trees is 1", "not reached", "FAILED"],
-        ["node 'script' failed: TftoolError: no node serves 'clear'", "FAILED"],
         [],
         ["empty", "nothing", "ok"],
     ]
