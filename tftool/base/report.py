@@ -12,7 +12,7 @@ class Judgement:
         ok: Whether it is as it should be.
         expected: What should have been: "below 0.5 m".
         found: The result.
-        at: Seconds from the start to the look; None when there was none.
+        at: Time of the check in seconds from the start; None if it was not reached.
         line: Line of the file that asked for it; 0 when there is none.
     """
 

@@ -95,7 +95,7 @@ def alike_frames(model: Model, name: str) -> list[str]:
 
 
 def _fitting(model: Model, kind: str) -> list[str]:
-    """Frames without children that no message is in, and that are named like such a sensor's."""
+    """Return leaf frames that no message uses, with a name that fits this kind of sensor."""
     used = {heard.frame for heard in model.heard}
     parents = {track.parent for track in model.tracks}
     words = _KINDS.get(last_part(kind), ())

@@ -90,7 +90,7 @@ def _message(finding: Finding) -> str:
 
 
 def _location(source: str, finding: Finding | None = None) -> dict[str, Any]:
-    """Return the file, at its beginning, and the frames, edges and topics in it."""
+    """Return a SARIF location: the file's start, and the frames, edges and topics concerned."""
     path = Path(source)
     if "://" in source:
         address = quote(source, safe=":/?#[]@!$&'()*+,;=%", errors="surrogateescape")

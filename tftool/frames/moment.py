@@ -34,9 +34,9 @@ def checked_moment(at: At, title: str, epoch: Stamp, duration: Duration | None) 
 
     Args:
         at: The moment.
-        title: What it is a moment of, as the beginning of a sentence.
-        epoch: When that began.
-        duration: How long it lasts; None for no end.
+        title: Name of the recording or session, as the beginning of a sentence.
+        epoch: Its start.
+        duration: Its length; None for no end.
 
     Raises:
         UsageError: If the moment lies outside.

@@ -1,4 +1,4 @@
-"""Recordings elsewhere: what `fsspec` opens, fetched for as long as it is read."""
+"""Remote recordings: opened by `fsspec`, and kept as a local copy while they are read."""
 
 import os
 import re

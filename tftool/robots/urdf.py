@@ -1,7 +1,7 @@
 """Robot descriptions: URDF text to links and joints, or every mistake in it with its place.
 
 Read as `urdfdom`, ROS's own reader, reads it: namespaces and unknown elements are
-ignored, an origin is zero and an axis x unless given, rpy are turns about fixed axes.
+ignored; a missing origin is zero, a missing axis is x; rpy turns about fixed axes.
 Refused beyond that: a document type (it could expand without bound), numbers that are
 not finite, an axis of no length on a joint that moves.
 """
@@ -131,7 +131,7 @@ def _without_declaration(text: str) -> str:
 
 
 class UnexpandedXacro(InputError):
-    """A description with elements of xacro where a URDF is due; nothing of it is run."""
+    """Error of a URDF that contains xacro elements; nothing of it is executed."""
 
 
 def parse_description(text: str, name: str = "robot_description") -> RobotDescription:

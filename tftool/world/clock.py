@@ -426,7 +426,7 @@ class FollowedClock(WallClock):
             self._set_alarm()
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that holds up the loop; only in real time is that known."""
+        """End a node that blocks the loop, which only a clock in real time can detect."""
         super().limit(None if self.is_told else until)
 
     def _shift(self, change: Duration) -> None:

@@ -241,7 +241,7 @@ class Inventory:
 
 
 def _told(task: FleetTask, source: str, place: str, work: Callable[[str], list[Row]]) -> list[Row]:
-    """Run a task on a recording, wherever it is; an unreadable one becomes a row as well."""
+    """Run a task on a local or remote recording; return a row also if it cannot be read."""
     from tftool.recordings.remote_files import fetched
 
     try:

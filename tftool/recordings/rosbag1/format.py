@@ -190,6 +190,6 @@ def fields_of(header: bytes) -> dict[bytes, bytes]:
 
 
 def time_of(raw: bytes) -> Stamp:
-    """A moment as a header has it."""
+    """Return the stamp that eight bytes of a header mean, nanoseconds."""
     sec, nanosec = _TIME.unpack(raw)
     return int(sec) * NANOSECONDS + int(nanosec)

@@ -133,13 +133,13 @@ class Fiber:
             name: Whose code it is, for messages.
             body: What to run.
             strict: Whether the loop stands still while the thread runs.
-            on_busy: Told once, on the loop's thread, when the code has not come to rest for
-                `patience` real seconds (`PATIENCE` unless told).
+            on_busy: Called once, on the loop's thread, when the code has not paused for
+                `patience` real seconds (by default `PATIENCE`).
             patience: See `on_busy`.
             give_up: In strict mode, after how many real seconds the code is stopped (`GIVE_UP`
                 unless told).
-            told_to_end: In strict mode, whether a signal has come meanwhile: the loop, which
-                stands still, learns of it only afterwards.
+            told_to_end: In strict mode, a function that says whether a signal has come: the
+                loop is blocked and learns of it only afterwards.
         """
         self.name = name
         self.interrupted = False

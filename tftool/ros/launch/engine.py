@@ -227,7 +227,7 @@ class Launch(Node):
             self.emit(ExecutionComplete(action=action))
 
     def interrupt(self) -> None:
-        """Say that the user ends the launch; who ends the world ends it too."""
+        """Begin the shutdown of the launch, as on the first Ctrl-C."""
         self._closing = True
         self._say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
         event = Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True)

@@ -276,7 +276,7 @@ class FrameTrails:
     def _between(
         self, frame: str, fixed: str, start: Stamp, end: Stamp, before: tuple[Stamp, Point] | None
     ) -> tuple[list[tuple[Stamp, Stroke]], tuple[Stamp, Point] | None]:
-        """The strokes of one frame after `start`, and the last moment and place there was."""
+        """Return the strokes of one frame after `start`, and its last known time and position."""
         import numpy as np
 
         stamps = np.arange(start // PERIOD + 1, end // PERIOD + 1, dtype=np.int64) * PERIOD

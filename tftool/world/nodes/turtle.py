@@ -116,8 +116,8 @@ class Turtle:
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
         """Take over a velocity command; it replaces the whole previous one.
 
-        The sideways speed alone survives where the simulator is not holonomic, as in
-        turtlesim: only the timeout and the rotate action clear it.
+        One exception: a simulator that is not holonomic, as turtlesim is not, keeps the
+        sideways speed of before until the timeout or the rotate action clears it.
         """
         self._settled = False
         self._commanded = now
