@@ -13,7 +13,7 @@ from select import select
 from tests.patience import PATIENCE
 
 ROOT = Path(__file__).parents[1]
-LOOKS = 20_000
+LOOKS = 3_000
 """Looks at a screen until it is given up; after each one the terminal has to be written to."""
 UNHEARD = 0.5
 """Seconds until another key is pressed where the one before had no effect, or another look is
