@@ -68,7 +68,7 @@ Offer = tuple[str, str]
 
 
 def complete(words: Sequence[str], shell: str) -> None:
-    """Print what fits behind the words typed so far, as a shell's script takes it.
+    """Print the completions of the words typed so far, in the form the shell's script reads.
 
     Args:
         words: The words after `tftool`; the last is the one that is being typed.
@@ -91,7 +91,7 @@ def _line(word: str, about: str, shell: str) -> str:
 
 
 def offers(words: Sequence[str]) -> list[Offer]:
-    """Return the words that fit behind those typed so far, in the order to show them.
+    """Return the completions of the words typed so far, in the order to show them.
 
     Args:
         words: The words after `tftool`; the last is the one that is being typed.
@@ -112,12 +112,13 @@ def offers(words: Sequence[str]) -> list[Offer]:
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Options are offered when a dash is typed, and not before."""
+    """Whether an option is offered without a dash typed before it; most are only offered after one.
+    """
     return word.startswith("-") == current.startswith("-")
 
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
-    """Return the words that one command takes next."""
+    """Return the completions that one command offers at this place."""
     from tftool.app.help_layout import made
 
     params = made(name).params
@@ -161,12 +162,12 @@ def _count(before: Sequence[str], options: dict[str, Any]) -> int:
 
 
 def _called(param: Any) -> str:
-    """Return the help's name for the value of an option or argument."""
+    """Return the name that the help shows for the value of an option or argument."""
     return str(param.metavar or "")
 
 
 def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
-    """Words for a value that the help calls so."""
+    """Return completions for a value with this name in the help."""
     bare = called.strip("[]{}<>.…")
     choices = getattr(kind, "choices", None)
     if choices is not None:
@@ -188,7 +189,8 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _frames(before: Sequence[str]) -> list[str]:
-    """Frames of the recording or description that is named, else of the session that runs here."""
+    """Return the frames of the recording or description on the line, else of the running session.
+    """
     named = _frames_of_a_file([*_words_behind(), *before])
     if named is not None:
         return named
@@ -201,12 +203,12 @@ def _frames(before: Sequence[str]) -> list[str]:
 
 
 def _words_behind() -> list[str]:
-    """Return the words behind the one that is being typed: FROM is often among them."""
+    """Return the words after the one being typed, as FROM is often among them."""
     return os.environ.get(BEHIND, "").split("\n")
 
 
 def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
-    """Frames of the first of some words that names a file with frames; None where none does."""
+    """Return the frames of the first word that names a file with frames; None if no word does."""
     for word in words:
         # Unlike `Path.expanduser` it leaves a user alone that is none.
         path = Path(os.path.expanduser(word))
@@ -218,7 +220,8 @@ def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
 
 
 def _read_frames(word: str) -> list[str]:
-    """Frames by a recording's kept columns; a short one is read once, a description always."""
+    """Read frames from a recording's column cache, from a short recording, or from a description.
+    """
     from tftool.recordings.cache_heads import default_folder, frames_kept, key_of
     from tftool.recordings.find import Kind, find
 
@@ -243,14 +246,14 @@ def _read_frames(word: str) -> list[str]:
 
 
 def _workspace_here() -> "Workspace":
-    """The packages below this folder and those of the workspace it belongs to."""
+    """Return the packages below this folder and in the workspace that contains it."""
     from tftool.ros.host.workspace import Workspace
 
     return Workspace(Path.cwd())
 
 
 def _packages(before: Sequence[str]) -> Iterator[Offer]:
-    """Packages below this folder, then the executables of the one that is named."""
+    """Return the packages below this folder; after a package, its executables."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -259,7 +262,7 @@ def _packages(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _launches(before: Sequence[str]) -> Iterator[Offer]:
-    """Packages below this folder, then the launch files of the one that is named."""
+    """Return the packages below this folder; after a package, its launch files."""
     packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
@@ -269,7 +272,7 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
-    """The commands of ROS 2's own command line, then the verbs of the one that is named."""
+    """Return the commands of ROS 2's command line; after a command, its verbs."""
     from tftool.ros.host.ros2_words import verbs
 
     if len(before) < 2:
@@ -286,7 +289,7 @@ _WORDS: Final[dict[str, Callable[[Sequence[str]], Iterator[Offer]]]] = {
 
 
 def shell_here() -> str:
-    """The user's shell, by its variable.
+    """Return the name of the user's shell, from $SHELL.
 
     Raises:
         UsageError: If it is none that has a script.
@@ -301,7 +304,7 @@ def shell_here() -> str:
 
 
 def install(shell: str) -> list[Path]:
-    """Put a shell's script where it is found; existing text stays as it is.
+    """Install the completion script for a shell; text already in its start-up file is kept.
 
     Returns:
         The files that were written or changed.

@@ -24,13 +24,13 @@ _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
 
 
 class Shown:
-    """Help that is coloured on a terminal, and goes through a pager where it is longer than that.
+    """Base of commands whose help is coloured on a terminal and paged if longer than the screen.
 
     A command and the list of commands share it.
     """
 
     def get_help(self, ctx: Any) -> str:
-        """Return the help; where a pager shows it, end instead."""
+        """Return the help text, or show it in a pager and end the command."""
         # The class beside this one in a base list makes the text.
         text: str = super().get_help(ctx)  # type: ignore[misc]
         if not sys.stdout.isatty() or os.environ.get("TERM") == "dumb":
@@ -45,7 +45,7 @@ class Shown:
 
 
 def _page(text: str) -> None:
-    """Show a text in the user's pager, else in less; write it where there is neither."""
+    """Show a text in the user's pager or in less; print it if neither exists."""
     import shlex
     import signal
     import subprocess
@@ -71,7 +71,7 @@ _EXAMPLE = re.compile(r"^(  tftool .*)$", re.MULTILINE)
 
 
 def painted(text: str) -> str:
-    """Paint headings, the names of options and commands, and examples."""
+    """Colour headings, names of options and commands, and examples."""
     head, colon, lists = text.partition("\n\nArguments:")
     for title in ("Options", *GROUPS):
         if not colon:
@@ -89,11 +89,11 @@ class Commands(Shown, TyperGroup):
     """
 
     def list_commands(self, ctx: Any) -> list[str]:
-        """Give the names of the commands."""
+        """List the names of the commands."""
         return list(COMMANDS)
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        """Make a command; None if there is none of that name."""
+        """Build a command by name; return None for an unknown name."""
         return made(cmd_name, ctx.obj) if cmd_name in COMMANDS else None
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
@@ -105,7 +105,7 @@ class Commands(Shown, TyperGroup):
 
 
 def made(name: str, providers: "Providers | None" = None) -> Any:
-    """Make one of the commands, with all its options."""
+    """Build one command with all its options."""
     declaration = load(name)
     command = declaration.with_options(providers)
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
@@ -115,14 +115,14 @@ def made(name: str, providers: "Providers | None" = None) -> Any:
 
 
 def _laid_out(command: Callable[..., Any]) -> str:
-    """The docstring of a command as its help; examples keep their lines."""
+    """Format a command's docstring as its help; examples keep their line breaks."""
     paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
     # The mark by which click leaves a paragraph as it is.
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
 class Command(Shown, TyperCommand):
-    """A command whose options are listed by what they are about, those of sessions when asked."""
+    """A command that groups its options by subject, and lists session options only on request."""
 
     def __init__(self, name: str | None, **words: Any) -> None:
         super().__init__(name, **words)
@@ -130,7 +130,7 @@ class Command(Shown, TyperCommand):
             self.params.append(_help_session())
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
-        """Read the command line; a word NAME:=VALUE is an argument of a robot description."""
+        """Parse the command line; a word NAME:=VALUE is an argument of a robot description."""
         if any(param.name == "argument" for param in self.params):
             args = [
                 part
@@ -145,7 +145,9 @@ class Command(Shown, TyperCommand):
         return super().parse_args(ctx, args)
 
     def _pose_options(self, args: list[str]) -> "Iterator[tuple[str | None, str, Any]]":
-        """Give each option of pose files with the file before it, its name and its value."""
+        """Collect the options of each pose file: the file before the option, its name and its
+        value.
+        """
         from tftool.commands.shared.declaration import POSE_OPTIONS
         from tftool.recordings.poses.pose_options import names_file
 
@@ -165,7 +167,7 @@ class Command(Shown, TyperCommand):
                 file = word
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; each pose file is read with the options behind it."""
+        """Run the command, with the options that follow each pose file applied to that file."""
         given = ctx.meta.get(_POSES)
         if not given:
             return super().invoke(ctx)
@@ -193,7 +195,8 @@ class Command(Shown, TyperCommand):
 
 
 def _number(word: str) -> float:
-    """Read a number; other text is refused where all options are read."""
+    """Parse a number; invalid text is left to the parser, which refuses it with the other options.
+    """
     try:
         return float(word)
     except ValueError:
@@ -207,7 +210,7 @@ SESSION = "Session and network"
 
 
 def _title(param: Any) -> str:
-    """Under which heading a parameter is listed."""
+    """Return the heading under which a parameter is listed."""
     if param.param_type_name == "argument":
         return "Arguments"
     if _is_of_session(param):
@@ -227,7 +230,7 @@ def _is_of_session(param: Any) -> bool:
 
 
 def _help_session() -> Any:
-    """The option that shows the help with the options of sessions."""
+    """Return the option that shows the help including the options of sessions."""
 
     def show(ctx: Any, param: Any, value: bool) -> None:
         if value:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def build() -> "Commands":
-    """Give the app; a command is made when it is asked for, and imports what it needs.
+    """Return the app; each command is built on first use, and imports only what it needs.
 
     The `obj` of its context says where clocks and links come from; the real ones when None.
     """
@@ -80,7 +80,7 @@ def build() -> "Commands":
 
 
 def _set_up_completion(*, show: bool) -> None:
-    """Have this shell complete, or show the script that it runs for it."""
+    """Install completion for this shell, or print the script that would be installed."""
     from tftool.app import completion
 
     shell = completion.shell_here()
@@ -92,7 +92,7 @@ def _set_up_completion(*, show: bool) -> None:
 
 
 def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:
-    """Run the command and give its exit status; never raises for what a user did.
+    """Run the command and return its exit status; never raises for what a user typed.
 
     Args:
         argv: The words after `tftool`; those of the process when None.
@@ -146,7 +146,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
 
 def _complete(argv: list[str]) -> int:
-    """Print what the shell may offer behind these words."""
+    """Print the completions of these words."""
     from tftool.app import completion
 
     completion.complete(argv, os.environ[completion.VARIABLE])
@@ -155,7 +155,7 @@ def _complete(argv: list[str]) -> int:
 
 
 def _leave_on_signals() -> None:
-    """Let SIGINT and SIGTERM end the process at once while no event loop runs.
+    """End the process at once on SIGINT and SIGTERM while no event loop runs.
 
     There is nothing to clean up then, and a KeyboardInterrupt that strikes inside an
     import may be swallowed there, or shown as a traceback. A loop brings its own

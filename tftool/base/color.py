@@ -1,4 +1,4 @@
-"""Colours, as screens and pens have them."""
+"""Colours as 8-bit channels, used by screens and turtles' pens."""
 
 from typing import Final, NamedTuple
 

@@ -1,4 +1,4 @@
-"""The way from one frame to another, up the edges above both: of transforms, or of joints."""
+"""Path between two nodes of a tree through their common ancestor; for frames and for joints."""
 
 from collections.abc import Callable
 from typing import Protocol, TypeVar
@@ -9,14 +9,14 @@ class Above(Protocol):
 
     @property
     def parent(self) -> str:
-        """The parent's name."""
+        """Return the parent's name."""
 
 
 EdgeT = TypeVar("EdgeT", bound=Above)
 
 
 def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
-    """The edges from a frame up to its root, lowest first; in a loop, each once.
+    """Return the edges from a frame up to its root, lowest first; in a loop, each edge once.
 
     Args:
         frame: Where to begin.
@@ -36,7 +36,7 @@ def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
 def up_to_join(
     frame: str, other: str, above: Callable[[str], list[EdgeT]]
 ) -> tuple[list[EdgeT], list[EdgeT]] | None:
-    """The edges from each of two frames up to where they meet; None where they do not.
+    """Return each frame's edges up to their common ancestor; None if they have none.
 
     Args:
         frame: One frame.

@@ -17,7 +17,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 
 class TftoolError(Exception):
-    """Something a user can act on; its text is a sentence that says what and what to do.
+    """Base of all exceptions here; the text names the fault and what to do about it.
 
     Its text, and its remedy where it has one, are settled when it is made. It can be pickled
     and copied with all its facts, whatever arguments its class takes.
@@ -27,7 +27,7 @@ class TftoolError(Exception):
         return _made_again, (type(self), self.args), self._facts()
 
     def _facts(self) -> dict[str, object]:
-        """The attributes, as they are pickled."""
+        """Return the attributes that are pickled."""
         return dict(self.__dict__)
 
 
@@ -37,11 +37,11 @@ def _made_again(kind: type[TftoolError], args: tuple[object, ...]) -> TftoolErro
 
 
 class UsageError(TftoolError):
-    """The command was asked for something it does not do (exit status 2)."""
+    """Error for a command line that the command does not accept (exit status 2)."""
 
 
 class NodeArgumentsError(UsageError):
-    """A node's program was started with arguments it does not take.
+    """Error for arguments that a node's program does not accept.
 
     Attributes:
         status: The exit status of the original program, where it is run as such.
@@ -53,12 +53,12 @@ class NodeArgumentsError(UsageError):
 
 
 class InputError(TftoolError):
-    """Something given cannot be read: a file, a scenario, a number in it (exit status 3)."""
+    """Error for input that cannot be read: a file, a scenario, a number in it (exit status 3)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """One thing wrong in a text file, and where.
+    """One mistake in a text file, with its position.
 
     Attributes:
         file: Name of the file as it was given.
@@ -86,7 +86,7 @@ class Mistake:
     def at(
         cls, file: str, lines: Sequence[str], line: int, column: int, text: str, *, width: int = 1
     ) -> "Mistake":
-        """A mistake with the line it stands in, cut to fit a terminal, and carets under it.
+        """Format a mistake with its source line, cut to the terminal's width, and carets below it.
 
         Args:
             file: Name of the file.
@@ -106,21 +106,21 @@ class Mistake:
 
 
 def showable(text: str) -> str:
-    """Replace what a terminal might obey, one character for one."""
+    """Replace control characters that a terminal might execute, one character for one."""
     return "".join(
         char if char.isprintable() else (" " if char == "\t" else "\ufffd") for char in text
     )
 
 
 def _cells(char: str) -> int:
-    """Return the columns of a terminal that a character takes."""
+    """Return the number of terminal columns that a character fills."""
     if unicodedata.combining(char):
         return 0
     return 2 if unicodedata.east_asian_width(char) in "WF" else 1
 
 
 class DocumentError(InputError):
-    """A text file has mistakes, all reported at once (exit status 3).
+    """Error that lists all mistakes of a text file at once (exit status 3).
 
     Attributes:
         name: The file, as it was given.
@@ -142,15 +142,15 @@ class DocumentError(InputError):
 
 
 class ScenarioError(DocumentError):
-    """A scenario has mistakes."""
+    """Error that lists the mistakes of a scenario."""
 
 
 class DescriptionError(DocumentError):
-    """A robot description has mistakes."""
+    """Error that lists the mistakes of a robot description."""
 
 
 def failure_text(error: BaseException) -> str:
-    """An exception in one line: its type, its text, and the file and line it comes from.
+    """Format an exception in one line: its type, text, and the file and line that raised it.
 
     That is the innermost line of a user's code. Where there is none, the innermost line of
     all: but not for an exception of ours, whose text is complete.
@@ -161,7 +161,7 @@ def failure_text(error: BaseException) -> str:
 
 
 def line_of(error: BaseException, *, users_only: bool = False) -> str:
-    """The innermost line of a user's code that led to an exception, as "busy.py:10".
+    """Return the innermost line of a user's code in a traceback, as "busy.py:10".
 
     Where there is none the innermost line of all, or "" for `users_only`.
     """
@@ -176,7 +176,8 @@ def line_of(error: BaseException, *, users_only: bool = False) -> str:
 
 
 def is_users_file(file: str) -> bool:
-    """Whether code is neither of this package nor of Python's own library."""
+    """Whether a code object belongs to the user: neither to this package nor to Python's library.
+    """
     if file.startswith((_PACKAGE, "<frozen")):
         return False
     return "site-packages" in file or not file.startswith(_LIBRARY)
@@ -187,20 +188,20 @@ _LIBRARY = os.path.dirname(os.path.realpath(os.__file__))
 
 
 class NodeFailed(TftoolError):
-    """A node raised; the run is over. The original error is the cause.
+    """Error raised by a node, which ends the run. The original error is the cause.
 
     Attributes:
         node: Name of the node that raised.
     """
 
     def __init__(self, node: str, error: BaseException, what: str = "") -> None:
-        """Say that a node failed by `error`; `what` says it in other words."""
+        """Make the error of a node that failed by `error`; `what` replaces its text."""
         super().__init__(f"node '{node}' {what or f'failed: {failure_text(error)}'}")
         self.node = node
 
 
 class TransformException(TftoolError):
-    """The transform asked for cannot be given (exit status 4); tf2's base class.
+    """Error for a transform that cannot be given (exit status 4); tf2's base class.
 
     Its text is tf2's own, to the letter; what to do about it is said apart, in `remedy`.
 
@@ -218,12 +219,12 @@ class TransformException(TftoolError):
 
     @property
     def remedy(self) -> str:
-        """Return the fault in our words, by how much, and what to do; may be empty."""
+        """Return the size of the fault and what to do; may be empty."""
         return ""
 
 
 class LookupException(TransformException):
-    """A frame is not known, or the tree has a loop.
+    """Error for an unknown frame, or a tree with a loop.
 
     Attributes:
         frame: The unknown frame, where that is the reason.
@@ -240,7 +241,7 @@ class LookupException(TransformException):
         known: Collection[str] = (),
         looped: bool = False,
     ) -> None:
-        """Say that a frame is unknown.
+        """Make the error of an unknown frame.
 
         Args:
             message: tf2's sentence.
@@ -258,7 +259,7 @@ class LookupException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """The names that look like the unknown one, or that none has come up yet."""
+        """Return similar names, or say that no frame is known yet."""
         if self.looped:
             return "Some frame hangs from one of its own children: see who sends the links named."
         if self.frame is None:
@@ -274,7 +275,7 @@ class LookupException(TransformException):
         return f"No transform of '{self.frame}' has come yet; {len(known)} other frames are known."
 
     def _names(self) -> list[str]:
-        """The names that were known when this was made."""
+        """Return the frame names known when the error was made."""
         return list(islice(self._known, self._count))
 
     def _facts(self) -> dict[str, object]:
@@ -282,11 +283,11 @@ class LookupException(TransformException):
 
 
 class ConnectivityException(TransformException):
-    """The two frames hang in different trees."""
+    """Error for two frames in different trees."""
 
     @property
     def remedy(self) -> str:
-        """That a link is missing."""
+        """Return the sentence about the missing link."""
         return (
             f"No chain of links joins '{self.source}' to '{self.target}' at that moment: "
             "the tree shows which root each hangs from."
@@ -294,7 +295,7 @@ class ConnectivityException(TransformException):
 
 
 class InvalidArgumentException(TransformException):
-    """A frame name that can never be asked for: empty, or with a leading slash.
+    """Error for an invalid frame name: empty, or with a leading slash.
 
     Attributes:
         frame: The name.
@@ -313,13 +314,13 @@ class InvalidArgumentException(TransformException):
 
     @property
     def remedy(self) -> str:
-        """The name without its slash."""
+        """Return the name without its slash."""
         plain = (self.frame or "").lstrip("/")
         return f"Ask for '{plain}'." if plain else "Name a frame."
 
 
 class TimeoutException(TransformException):
-    """Waiting for a transform took longer than allowed; the last refusal is the cause.
+    """Error for a wait that exceeded its timeout; the last refusal is the cause.
 
     Attributes:
         refusal: The last refusal, where there was one.
@@ -347,7 +348,7 @@ _FEW_NANOSECONDS = 100_000
 
 
 class ExtrapolationException(TransformException):
-    """The moment asked for lies outside what a link of the chain remembers.
+    """Error for a time outside the samples that a link of the chain holds.
 
     Attributes:
         requested: The moment asked for.
@@ -374,7 +375,9 @@ class ExtrapolationException(TransformException):
             self.add_note(hint)
 
     def _hint(self) -> str:
-        """Return what a moment of a few nanoseconds means; "" for any other."""
+        """Return a hint if the time is a few nanoseconds, where seconds were probably meant; else
+        "".
+        """
         if not 0 < self.requested < _FEW_NANOSECONDS or self.missed < NANOSECONDS // 1000:
             return ""
         asked = self.requested
@@ -384,7 +387,7 @@ class ExtrapolationException(TransformException):
 
     @property
     def missed(self) -> Duration:
-        """Return the distance of the moment asked for from the stored one, in nanoseconds."""
+        """Return the distance from the requested time to the nearest sample, in nanoseconds."""
         return abs(self.requested - self.available)
 
     def _by(self) -> str:
@@ -393,11 +396,11 @@ class ExtrapolationException(TransformException):
 
 
 class BackwardExtrapolationException(ExtrapolationException):
-    """The moment lies before the oldest sample of a link."""
+    """Error for a time before a link's oldest sample."""
 
     @property
     def remedy(self) -> str:
-        """By how much, and what helps."""
+        """Return the size of the gap and a remedy."""
         return self._hint() or (
             f"That is {self._by()} before the oldest sample of '{self.frame}': ask for a later "
             "moment, or for time 0 (the latest), or give the buffer a longer cache_time."
@@ -405,11 +408,11 @@ class BackwardExtrapolationException(ExtrapolationException):
 
 
 class ForwardExtrapolationException(ExtrapolationException):
-    """The moment lies after the newest sample of a link."""
+    """Error for a time after a link's newest sample."""
 
     @property
     def remedy(self) -> str:
-        """By how much, and what helps."""
+        """Return the size of the gap and a remedy."""
         return (
             f"That is {self._by()} after the newest sample of '{self.frame}': ask for time 0 "
             "(the latest), or wait until it has come."
@@ -417,11 +420,11 @@ class ForwardExtrapolationException(ExtrapolationException):
 
 
 class NoDataForExtrapolationException(ExtrapolationException):
-    """A link holds no sample, or a single one at another moment."""
+    """Error for a link without samples, or with a single sample at another time."""
 
     @property
     def remedy(self) -> str:
-        """By how much, and what helps."""
+        """Return the size of the gap and a remedy."""
         if self.available == 0:
             return f"Nothing is remembered of '{self.frame}': wait until it is sent."
         side = "after" if self.requested > self.available else "before"
@@ -432,7 +435,7 @@ class NoDataForExtrapolationException(ExtrapolationException):
 
 
 class MalformedMessage(InputError):
-    """Bytes that came in are not the message they should be, or one cannot be written.
+    """Error for bytes that are no valid message, or for a message that cannot be serialised.
 
     Attributes:
         kind: The type it should be.
@@ -446,11 +449,11 @@ class MalformedMessage(InputError):
 
 
 class LinkError(InputError):
-    """A session with other processes cannot be opened, or one of them does not answer."""
+    """Error for a session that cannot be opened, or a process in it that does not answer."""
 
 
 def without_frames(given: object) -> TypeError:
-    """Return the error for something given where a recording or a buffer is wanted."""
+    """Return the error for an argument that is neither a recording nor a buffer."""
     hint = ""
     if isinstance(given, str | os.PathLike):
         hint = f": tftool.open_recording({os.fspath(given)!r}) opens one"

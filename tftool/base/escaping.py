@@ -1,4 +1,4 @@
-"""Names from strangers, made harmless and still recognisable.
+"""Escape control characters in names from outside, and keep the names recognisable.
 
 Every drawing first passes a name through `visible`, which leaves nothing that acts on
 its own (no control, no change of writing direction, nothing XML forbids), and then
@@ -13,7 +13,7 @@ _JOINERS = frozenset("\u200c\u200d")
 
 
 def visible(name: str) -> str:
-    """Write a name so that every character of it can be seen.
+    """Escape a name so that every character is visible.
 
     Control characters become their Unicode pictures (ESC is ␛), and what else has no
     shape of its own, or turns the writing direction, becomes its number, as in ⟨U+202E⟩.
@@ -24,7 +24,7 @@ def visible(name: str) -> str:
 
 
 def visible_lines(text: str) -> str:
-    """Write a text of several lines so that every character can be seen; its lines stay.
+    """Escape a text so that every character is visible; line breaks are kept.
 
     Beyond 400 lines the middle is counted: tf2's sentence about a loop names every frame.
     """
@@ -54,7 +54,7 @@ _SHAPELESS = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
 def distinct(names: Iterable[str]) -> dict[str, str]:
-    """Pair every name with its visible writing; no two names are written alike."""
+    """Pair every name with its escaped form; no two names get the same form."""
     shown: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:
@@ -69,7 +69,7 @@ def distinct(names: Iterable[str]) -> dict[str, str]:
 
 
 def shorten(text: str, most: int) -> str:
-    """Cut a long text in its middle, where names of frames differ least, to `most` characters."""
+    """Shorten a text to `most` characters by cutting its middle, where frame names differ least."""
     if len(text) <= most:
         return text
     tail = (most - 1) // 2

@@ -1,4 +1,4 @@
-"""Strangers' names in a given number of cells, the same number in every terminal."""
+"""Text of other people in a fixed number of cells, the same in every terminal."""
 
 from collections.abc import Iterable
 
@@ -12,14 +12,14 @@ _SWITCHES = dict.fromkeys((0x200C, 0x200D, *range(0xFE00, 0xFE10)))
 
 
 def plain(text: str) -> str:
-    """Give `text` as one line that is only ever shown, and whose width is known."""
+    """Escape `text` to one line for display, whose width in cells is known."""
     if text.isascii() and text.isprintable():
         return text
     return visible(text).translate(_SWITCHES)
 
 
 def fitted(text: str, width: int, *, more: str = "…") -> str:
-    """Give `plain(text)` in at most `width` cells; omitted text shows as `more`."""
+    """Fit `plain(text)` into at most `width` cells; `more` marks omitted text."""
     # No sign is narrower than nothing: a long text need not be measured to its end.
     shown = plain(text[: 4 * max(0, width) + 4])
     if cell_len(shown) <= width:
@@ -37,7 +37,7 @@ def fitted(text: str, width: int, *, more: str = "…") -> str:
 
 
 def middle_cut(text: str, width: int, *, more: str = "…") -> str:
-    """Give `plain(text)` in at most `width` cells, cut where names of frames differ least.
+    """Fit `plain(text)` into at most `width` cells by cutting the middle.
 
     The beginning and the end stay; the omitted middle shows as `more`.
     """
@@ -53,7 +53,7 @@ def middle_cut(text: str, width: int, *, more: str = "…") -> str:
 
 
 def _within(signs: Iterable[str], room: int) -> list[str]:
-    """The first signs, in at most `room` cells."""
+    """Return the longest beginning that fits into `room` cells."""
     kept = []
     for sign in signs:
         room -= cell_len(sign)
@@ -64,7 +64,7 @@ def _within(signs: Iterable[str], room: int) -> list[str]:
 
 
 def wrap_words(sentence: str, width: int) -> list[str]:
-    """Break a sentence at its blanks, and nowhere else, into lines of at most `width` cells.
+    """Wrap a sentence at spaces only, into lines of at most `width` cells.
 
     A word that is longer than a line stands alone in one, and sticks out.
     """
@@ -79,6 +79,6 @@ def wrap_words(sentence: str, width: int) -> list[str]:
 
 
 def padded(text: str, width: int, *, more: str = "…") -> str:
-    """Give `fitted(text, width)` filled up with blanks to exactly `width` cells."""
+    """Fit `text` and pad it with spaces to exactly `width` cells."""
     shown = fitted(text, width, more=more)
     return shown + " " * (width - cell_len(shown))

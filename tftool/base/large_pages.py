@@ -1,4 +1,4 @@
-"""Memory that the system maps in large pages: of much that is read here and there.
+"""Memory in large pages, for data that is read at random.
 
 Only whole large pages can be such; what Python and numpy ask for begins and ends anywhere.
 """
@@ -13,7 +13,7 @@ _HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
 
 
 def large_pages(size: int, end: int) -> "mmap.mmap | None":
-    """New memory, in large pages up to one of its bytes; None if the system has no such.
+    """Allocate memory in large pages, rounded up to a whole page; None if unsupported.
 
     Args:
         size: How many bytes it has at least. Those that are never written cost nothing.

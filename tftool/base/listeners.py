@@ -1,4 +1,4 @@
-"""Callbacks that others registered, called one after the other.
+"""Registered callbacks, called one after the other.
 
 One rule for the buffer, topics, the log and the world: each registration stands alone, and a
 listener that raises is reported under the name of its owner. It keeps no other listener from
@@ -30,7 +30,7 @@ class Listeners(Generic[*Values]):
     __slots__ = ("_report", "registered")
 
     def __init__(self, report: Report | None = None) -> None:
-        """Begin with none.
+        """Make an empty list of listeners.
 
         Args:
             report: Takes what a listener raises, after all others were called; Python's own
@@ -59,7 +59,7 @@ class Listeners(Generic[*Values]):
         return stop
 
     def call(self, *values: *Values) -> None:
-        """Call every listener, those included that are withdrawn meanwhile."""
+        """Call every listener, including any removed during the call."""
         failures: tuple[tuple[str, Exception], ...] = ()
         for callback, owner in self.registered:
             try:
@@ -81,5 +81,5 @@ def _report_to_logging(owner: str, error: Exception) -> None:
 
 
 def listener_text(owner: str, error: Exception) -> str:
-    """The sentence about a listener that raised."""
+    """Return the log line for a listener that raised."""
     return f"a listener{f' of {owner!r}' if owner else ''} failed: {failure_text(error)}"

@@ -1,4 +1,4 @@
-"""Files that people name, and files that should be there: opened so that nothing hangs.
+"""Opening files that users name, without blocking on pipes or devices.
 
 Opening a pipe waits for a process that writes into it, for ever where none does.
 """
@@ -18,7 +18,7 @@ _HOW: Final = os.O_RDONLY | _AT_ONCE | getattr(os, "O_BINARY", 0)
 
 
 def open_regular(path: Path) -> io.BufferedReader:
-    """A file for reading.
+    """Open a regular file for reading.
 
     Raises:
         OSError: If it cannot be opened, or is no regular file but a pipe, say.
@@ -31,7 +31,7 @@ def open_regular(path: Path) -> io.BufferedReader:
 
 
 def open_named(path: Path) -> BinaryIO:
-    """A file, or all that comes through a pipe, as of a shell's `<(command)`.
+    """Open a file, or read a pipe to its end, such as a shell's `<(command)`.
 
     Raises:
         OSError: If it cannot be opened, no process writes into the pipe, or too much comes.
@@ -54,7 +54,7 @@ def open_named(path: Path) -> BinaryIO:
 
 
 def read_named(path: Path) -> bytes:
-    """Read all of a file, or all that comes through a pipe.
+    """Read a whole file, or a pipe to its end.
 
     Raises:
         OSError: As of `open_named`.
@@ -64,7 +64,7 @@ def read_named(path: Path) -> bytes:
 
 
 def read_named_text(path: Path) -> str:
-    """Read all of a file or pipe as UTF-8 text, with Python's line ends.
+    """Read a whole file or pipe as UTF-8 text, with universal newlines.
 
     Raises:
         OSError: As of `open_named`.
@@ -75,7 +75,7 @@ def read_named_text(path: Path) -> str:
 
 
 def reader_there(path: str, flags: int) -> int:
-    """An `opener` of files that are written: a pipe has to have its reader already.
+    """An `opener` for writing that fails at once on a pipe without a reader.
 
     Raises:
         OSError: If it cannot be opened, or no process reads from it.
@@ -92,7 +92,7 @@ def reader_there(path: str, flags: int) -> int:
 
 
 def _opened(path: Path) -> tuple[io.FileIO, int]:
-    """A file that was opened without waiting for anyone, and its mode; a folder is refused."""
+    """Open a file without blocking; return its descriptor and mode. Folders are refused."""
     number = os.open(path, _HOW)
     try:
         mode = os.fstat(number).st_mode

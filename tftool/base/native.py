@@ -1,4 +1,4 @@
-"""Native modules: imported where they were built and are wanted.
+"""Import of the native modules, if built and not switched off.
 
 Each is built with the package where there is a C compiler. Without it everything runs in plain
 Python and means the same; `TFTOOL_PURE=1` has it so even where the kernel is there.
@@ -16,7 +16,7 @@ SWITCH = "TFTOOL_PURE"
 
 
 def built(name: str, interface: int) -> "ModuleType | None":
-    """A native module, where it was built and is wanted.
+    """Import a native module; return None if it is not built, or switched off.
 
     Args:
         name: Its full name.

@@ -7,7 +7,7 @@ LONGEST = 100
 
 
 def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float = 0.6) -> list[str]:
-    """The known names that look most like a word, whatever their case; the likest first.
+    """Return the known names most similar to a word, ignoring case, most similar first.
 
     Args:
         word: The word as it was written.
@@ -23,6 +23,6 @@ def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float =
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The end of a sentence about an unknown name: the likest one; empty where none is like it."""
+    """Return the "did you mean" ending of a sentence; empty if no name is similar."""
     near = near_names(word, known)
     return f"; did you mean '{near[0]}'?" if near else ""

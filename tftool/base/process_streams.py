@@ -1,4 +1,4 @@
-"""Streams of the process: any text can be written to them, and failures are reported."""
+"""Standard streams that can print any text, and report failed writes."""
 
 import codecs
 import errno
@@ -23,7 +23,7 @@ DESCRIPTORS = 32
 
 
 def prepare() -> None:
-    """See to it that there is a stdout and a stderr, and that they take any text."""
+    """Ensure that stdout and stderr exist and accept any text."""
     codecs.register_error(_WRITTEN_PLAINLY, _written_plainly)
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
@@ -34,7 +34,7 @@ def prepare() -> None:
 
 
 def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
-    """Write what an encoding lacks: signs of tftool in plain ones, parts of names as escapes."""
+    """Encode what an encoding lacks: our own signs as ASCII, parts of names as escapes."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     char = error.object[error.start]
@@ -44,7 +44,7 @@ def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
 
 
 def require_descriptors() -> None:
-    """See that enough files and sockets can be opened; libraries panic where one cannot.
+    """Raise the limit of open files if needed; some libraries crash when it is reached.
 
     Raises:
         OSError: If not; it says what to do.
@@ -68,7 +68,7 @@ def require_descriptors() -> None:
 
 
 def has_no_reader() -> bool:
-    """Whether stdout is a pipe whose reader has gone."""
+    """Whether stdout is a pipe without a reader."""
     import select
 
     if not hasattr(select, "poll"):
@@ -82,6 +82,6 @@ def has_no_reader() -> bool:
 
 
 def forget_output() -> None:
-    """Discard the rest of stdout's buffer."""
+    """Discard the text buffered for stdout."""
     with suppress(OSError, ValueError):  # a stdout that is no file has no number
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,11 +1,11 @@
-"""Judgements and their outcome: one report for scenarios, comparisons and checks."""
+"""Judgements and their report, shared by scenarios, comparisons and checks."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """One thing that was looked at, and what came of it.
+    """One judged thing and the outcome.
 
     Attributes:
         subject: The subject, a sentence: "by 20 s: distance from a to b below 0.5 m".
@@ -26,7 +26,7 @@ class Judgement:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """Outcome of all judgements made in one place.
+    """Outcome of all judgements of one run.
 
     Attributes:
         name: Name of the scenario.
@@ -48,5 +48,5 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether everything is as it should be."""
+        """Whether every judgement passed."""
         return not self.failure and all(judgement.ok for judgement in self.judgements)

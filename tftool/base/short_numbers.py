@@ -1,4 +1,4 @@
-"""Durations, rates and sizes in few cells, for people; and numbers as JSON has them."""
+"""Short text for durations, rates and sizes, and JSON-safe numbers."""
 
 import math
 
@@ -35,5 +35,5 @@ def short_size(size: int) -> str:
 
 
 def finite(number: float) -> float | None:
-    """The number, or None, which JSON writes as null, for NaN and infinities."""
+    """Return the number, or None (null in JSON) for NaN and infinities."""
     return number if math.isfinite(number) else None

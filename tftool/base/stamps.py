@@ -62,7 +62,7 @@ def seconds(value: float) -> int:
 
 
 def whole(stamp: object) -> Stamp:
-    """A moment or a duration as an `int`, whatever kind of whole number it comes as.
+    """Return a time or duration as an `int`, from any type of integer.
 
     Raises:
         TypeError: If it is a float, or nothing like a whole number.

@@ -1,4 +1,4 @@
-"""Reading YAML of strangers: nothing in it is constructed but plain values, and it stays small.
+"""Safe YAML: plain values only, and limits on size, depth and expansion.
 
 A few lines of YAML can stand for billions of values, by aliases of aliases and by merge
 keys. Whatever reads YAML reads it through here, where every alias counts as often as it
@@ -21,7 +21,7 @@ MOST_VALUES = 200_000
 
 
 class TooMuch(yaml.MarkedYAMLError):
-    """A text is too large, too deep, or stands for too much."""
+    """Error for a YAML text that is too large, too deep, or expands to too much."""
 
     def __init__(self, problem: str, mark: Any = None) -> None:
         super().__init__(problem=problem, problem_mark=mark)
@@ -35,7 +35,7 @@ def events(
     deepest: int = DEEPEST,
     most_values: int = MOST_VALUES,
 ) -> Iterator[yaml.Event]:
-    """Give the events of a YAML text, as long as what it stands for is within bounds.
+    """Yield the events of a YAML text, within the limits.
 
     Args:
         text: The YAML.
@@ -80,7 +80,7 @@ def events(
 
 
 def compose(text: str, loader: Any = yaml.SafeLoader) -> yaml.Node | None:
-    """Give the tree of nodes of a YAML text; None of an empty one.
+    """Return the node tree of a YAML text; None if it is empty.
 
     Raises:
         yaml.YAMLError: If it is no YAML, or out of bounds.
@@ -91,7 +91,7 @@ def compose(text: str, loader: Any = yaml.SafeLoader) -> yaml.Node | None:
 
 
 def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
-    """Give the plain value of a node.
+    """Construct the plain value of a node.
 
     Raises:
         yaml.YAMLError: If it is none that YAML knows by itself.
@@ -111,7 +111,7 @@ def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
 
 
 def load(text: str, loader: Any = yaml.SafeLoader) -> Any:
-    """Give the plain value of a YAML text.
+    """Load the plain value of a YAML text.
 
     Raises:
         yaml.YAMLError: If it is no YAML, out of bounds, or tagged as what it is not.

@@ -1,4 +1,4 @@
-"""The buffer: remembers transforms over time and answers how frames lie to each other."""
+"""Buffer of transforms over time, which answers lookups between any two frames."""
 
 import struct
 from collections.abc import Callable, Iterable
@@ -64,7 +64,7 @@ _new: Final = tuple.__new__
 
 
 class Shortened(NamedTuple):
-    """A link that was cut short.
+    """Record of a link whose oldest samples were dropped.
 
     Attributes:
         child: Its frame.
@@ -80,7 +80,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """Return the samples each link may have for all of them to have room; at least two."""
+    """Return the number of samples each link may keep for all to fit; at least two."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:
@@ -91,7 +91,7 @@ def _share(sizes: list[int], room: int) -> int:
 
 
 class Buffer(Door):
-    """Named frames over time, as tf2 keeps them.
+    """Transforms of named frames over time, with tf2's semantics.
 
     It knows no clock and waits for nothing: time comes in with the samples and with
     the questions, in nanoseconds, and 0 in a question means the latest.
@@ -156,7 +156,7 @@ class Buffer(Door):
 
     @native_first
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Remember a sample of a link that moves.
+        """Insert a sample of a moving link.
 
         Args:
             transform: The pose of a child in its parent. One leading slash is taken off
@@ -196,7 +196,9 @@ class Buffer(Door):
         return True
 
     def _tell_of(self, transform: TransformStamped, authority: str) -> None:
-        """Notify of a stored sample, unchanged but for its quaternion's length and sign."""
+        """Notify listeners of a stored sample; only its quaternion's length and sign may have
+        changed.
+        """
         stamp, parent, child, pose = transform
         kept: tuple[TransformStamped, ...] = ()
         if self._listening:
@@ -204,7 +206,7 @@ class Buffer(Door):
         self._tell(kept, False, authority, (child,))
 
     def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Set a link that holds at all times; it takes the place of all the child had before.
+        """Set a static link, valid at all times; it replaces the child's previous samples.
 
         Returns:
             Whether it was taken. If not, the log was told why, and nothing is lost.
@@ -215,7 +217,8 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Set a new, unusual or static sample: every check, each with its own line in the log."""
+        """Insert a new, unusual or static sample with every check; each rejection has its log line.
+        """
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
@@ -279,7 +282,7 @@ class Buffer(Door):
         rotations: "npt.ArrayLike",
         authority: str = "",
     ) -> "Insertion":
-        """Remember many samples of one link that moves, as if set one by one in their order.
+        """Insert many samples of one moving link, as if one by one in their order.
 
         Listeners are called with each of them, and pending requests are tried again, once all
         are in.
@@ -322,7 +325,7 @@ class Buffer(Door):
     def set_records(
         self, parent: str, child: str, records: "npt.NDArray[np.int64]", authority: str = ""
     ) -> "Insertion | None":
-        """As `set_transforms`, of samples that lie in memory as the buffer keeps them.
+        """Insert samples that are already in the buffer's own memory layout.
 
         Where nothing speaks against it they are not copied: the buffer reads them where they
         are, and copies them before it inserts or prunes.
@@ -350,7 +353,7 @@ class Buffer(Door):
         )
 
     def shorten(self, limit: int) -> "list[Shortened]":
-        """Forget the oldest samples of the longest links, until all take no more than `limit`.
+        """Drop the oldest samples of the longest links until all fit into `limit`.
 
         The newest two of a link always stay. Where something must go, a quarter more does, so
         that it need not be done again at once.
@@ -379,14 +382,14 @@ class Buffer(Door):
         return cut
 
     def clear(self) -> None:
-        """Forget all that moves; names, statics and pending requests stay."""
+        """Drop all moving samples; names, static links and pending requests are kept."""
         for frame in self._tree.frames:
             if frame.link is not None and not frame.link.is_static:
                 frame.link.clear()
         self._solver.drop_paths()
 
     def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
-        """Have `callback` called after each accepted sample; call the returned function to stop.
+        """Register `callback` for each accepted sample; return a function that removes it.
 
         What it raises is reported under the name of its `owner`; the sample stays, and the
         code that set it goes on.
@@ -406,7 +409,7 @@ class Buffer(Door):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Stamp = 0
     ) -> TransformStamped:
-        """The pose of source in target: moves points given in source into target.
+        """Return the pose of source in target, which maps points from source to target.
 
         Args:
             target_frame: What the answer is expressed in.
@@ -453,7 +456,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> TransformStamped:
-        """Return source's pose at its time, in target as target is at its own time.
+        """Return source's pose at its time in target at target's time, through a fixed frame.
 
         Both are looked up against `fixed_frame`, which is taken not to move in between.
 
@@ -492,7 +495,7 @@ class Buffer(Door):
         missing: Literal["raise", "nan"] = "raise",
         threads: int | None = None,
     ) -> "TransformArray":
-        """Row by row what `lookup_transform` gives, for many moments at once, in numpy.
+        """Return `lookup_transform` for many times at once, in numpy.
 
         Args:
             target_frame: What the answers are expressed in.
@@ -526,7 +529,7 @@ class Buffer(Door):
         missing: Literal["raise", "nan"] = "raise",
         threads: int | None = None,
     ) -> "TransformArray":
-        """Row by row what `lookup_transform_full` gives.
+        """Return `lookup_transform_full` for many times at once, in numpy.
 
         One of the two kinds of times may be a single moment; see `lookup_transforms`.
 
@@ -552,7 +555,8 @@ class Buffer(Door):
         )
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Stamp:
-        """The newest moment for which every link between two frames has data; 0 if none moves.
+        """Return the newest time for which every link between two frames has data; 0 if all are
+        static.
 
         Raises:
             TransformException: If a name is unknown or invalid, or nothing joins the two.
@@ -569,7 +573,7 @@ class Buffer(Door):
         )
 
     def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
-        """As `get_latest_common_time`, but 0 where that would refuse."""
+        """Return `get_latest_common_time`, but 0 instead of an error."""
         try:
             return self.get_latest_common_time(target_frame, source_frame)
         except TransformException:
@@ -603,7 +607,8 @@ class Buffer(Door):
         time: Stamp,
         interval: Duration,
     ) -> velocity.Velocity:
-        """Return `tracking_frame`'s velocity in `observation_frame`, given in `reference_frame`.
+        """Return `tracking_frame`'s velocity in `observation_frame`, expressed in
+        `reference_frame`.
 
         tf2's formula to the letter; see `velocity.full`.
         """
@@ -621,7 +626,7 @@ class Buffer(Door):
     def lookup_twist(
         self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
     ) -> velocity.Velocity:
-        """The velocity of the origin of `tracking_frame`, and how it turns, in `observation_frame`.
+        """Return linear and angular velocity of `tracking_frame` in `observation_frame`.
 
         Raises:
             TransformException: As `lookup_transform`.
@@ -634,7 +639,7 @@ class Buffer(Door):
 
     @native_first
     def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
-        """Whether `lookup_transform` would answer; it never raises for a name or a time."""
+        """Whether `lookup_transform` would succeed; never raises for a name or a time."""
         if type(time) is not int:
             time = whole(time)
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
@@ -651,13 +656,13 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> bool:
-        """Whether `lookup_transform_full` would answer."""
+        """Whether `lookup_transform_full` would succeed."""
         return not self.why_not_full(
             target_frame, target_time, source_frame, source_time, fixed_frame
         )
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
-        """Return why `can_transform` says no, in tf2's words; empty if it says yes."""
+        """Return why `can_transform` is false, in tf2's words; empty if it is true."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         reason = self._solver.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
@@ -670,7 +675,7 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> str:
-        """Return why `can_transform_full` says no, in tf2's words; empty if it says yes."""
+        """Return why `can_transform_full` is false, in tf2's words; empty if it is true."""
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         fixed_frame = tree.plain(fixed_frame)
         for frame, argument in (
@@ -690,7 +695,7 @@ class Buffer(Door):
     def request(
         self, callback: Callback, target_frame: str, source_frame: str, time: Stamp = 0
     ) -> int:
-        """Be told once the transform can be looked up.
+        """Call `callback` once the transform can be looked up.
 
         Args:
             callback: Called from inside the set that makes it possible, in the order of the
@@ -708,13 +713,13 @@ class Buffer(Door):
         return self._requests.add(callback, (target_frame, source_frame, whole(time)))
 
     def cancel(self, handle: int) -> None:
-        """Let go of a request; its callback is not called any more."""
+        """Cancel a request; its callback is not called any more."""
         self._requests.cancel(handle)
 
     # Looking at the whole
 
     def snapshot(self, now: Stamp, at: Stamp = 0) -> Snapshot:
-        """All frames at one moment.
+        """Return all frames at one time.
 
         Args:
             now: What the clock reads; ages are told against it.
@@ -723,7 +728,7 @@ class Buffer(Door):
         return snapshot.snapshot(self._tree, whole(now), whole(at))
 
     def samples(self, child: str) -> "SampleColumns":
-        """Everything remembered of one frame's link, oldest first, in numpy; a copy.
+        """Return a copy of all samples of one link, oldest first, in numpy.
 
         Args:
             child: The frame; of a root, which hangs from nothing, there are no samples.
@@ -739,11 +744,11 @@ class Buffer(Door):
         return columns.samples(self._tree, self._tree.frames[number])
 
     def frames(self) -> list[str]:
-        """Every name that ever came up, in that order; of one sample the child first."""
+        """Return every frame name ever seen, in order; of one sample, the child first."""
         return [frame.name for frame in self._tree.frames]
 
     def frame_exists(self, frame: str) -> bool:
-        """Whether a name ever came up; tf2's own NO_PARENT always did."""
+        """Whether a frame name was ever seen; tf2's own NO_PARENT always was."""
         frame = tree.plain(frame)
         return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
 
@@ -763,14 +768,14 @@ class Buffer(Door):
         return None if above < 0 else self._tree.frames[above].name
 
     def parents(self, frame: str) -> set[str]:
-        """Every parent that a remembered sample of a frame names; none of a root."""
+        """Return every parent in a frame's samples; empty for a root."""
         frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)
         above = () if number is None else self._tree.parents(number)
         return {self._tree.frames[one].name for one in above}
 
     def rivals(self, frame: str) -> tuple[str, ...]:
-        """Return the senders that publish a frame's transforms in turns; empty where only one does.
+        """Return the publishers that alternate in a frame's samples; empty if there is only one.
 
         One who took over from another once is no rival.
         """
@@ -788,7 +793,7 @@ class Buffer(Door):
         return tuple(self._tree.authorities[one] for one in dict.fromkeys(turns))
 
     def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
-        """The frames from source to target, both included; empty if they are the same.
+        """Return the frames from source to target, both included; empty if they are the same.
 
         Raises:
             TransformException: As `lookup_transform`.
@@ -797,15 +802,15 @@ class Buffer(Door):
         return self._solver.chain(target_frame, source_frame, whole(time))
 
     def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:
-        """tf2's YAML of all frames; see `snapshot.as_yaml`."""
+        """Return all frames as tf2's YAML; see `snapshot.as_yaml`."""
         return snapshot.as_yaml(self._infos(), current_time)
 
     def all_frames_as_string(self) -> str:
-        """tf2's sentences about all frames; see `snapshot.as_string`."""
+        """Return all frames as tf2's sentences; see `snapshot.as_string`."""
         return snapshot.as_string(self._infos())
 
     def all_frames_as_dot(self, current_time: Stamp = 0) -> str:
-        """tf2's dot of all frames; see `snapshot.as_dot`."""
+        """Return all frames as tf2's dot graph; see `snapshot.as_dot`."""
         return snapshot.as_dot(self._infos(), current_time)
 
     def _infos(self) -> tuple[FrameInfo, ...]:
@@ -813,7 +818,7 @@ class Buffer(Door):
 
 
 def _parts(transform: TransformStamped) -> tuple[Stamp, str, str, Transform]:
-    """The four parts of a sample.
+    """Return the four parts of a sample.
 
     Raises:
         TypeError: If it is none.
@@ -843,7 +848,7 @@ def adopt_records(
     authority: str = "",
     kept: int = 0,
 ) -> bool:
-    """Set records as `Buffer.set_records` does, if each is newer than the one before.
+    """Insert records as `Buffer.set_records` does, if their stamps increase.
 
     Args:
         buffer: The buffer that takes them.
@@ -874,7 +879,7 @@ def adopt_records(
 
 
 def lend(buffer: Buffer, child: str, other: Buffer, until: Stamp) -> bool:
-    """Have another buffer know what moves of one frame's link up to a stamp, uncopied.
+    """Share one frame's samples up to a stamp with another buffer, without a copy.
 
     Args:
         buffer: The lender.

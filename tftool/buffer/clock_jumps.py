@@ -1,4 +1,4 @@
-"""Jumps of a clock, after which a buffer's samples belong to another time."""
+"""Backward jumps of a clock, after which a buffer's samples are obsolete."""
 
 from collections.abc import Callable
 
@@ -16,7 +16,7 @@ FELL_BACK = "Detected jump back in time. Clearing tf buffer."
 def must_clear(
     change: Duration, *, source_changed: bool = False, least_fall: Duration = LEAST_FALL
 ) -> bool:
-    """Whether a jump of the clock makes all that moves obsolete.
+    """Whether a jump of the clock makes all moving samples obsolete.
 
     Args:
         change: How far the clock jumped; negative backward. Forward never clears.
@@ -27,7 +27,7 @@ def must_clear(
 
 
 class Watch:
-    """Watches readings of a clock, and has a buffer cleared when they fall back.
+    """Watcher of a clock's readings that clears a buffer when they jump back.
 
     A buffer knows no clock, so code that feeds it from a recording or a simulation that may
     start over shows each new reading here first.
@@ -46,7 +46,7 @@ class Watch:
         self._last: Stamp | None = None
 
     def read(self, now: Stamp) -> bool:
-        """Note what the clock reads; says whether the buffer was cleared."""
+        """Check a clock reading; return whether the buffer was cleared."""
         last, self._last = self._last, now
         if last is None or not must_clear(now - last, least_fall=self._least_fall):
             return False

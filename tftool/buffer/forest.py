@@ -1,4 +1,4 @@
-"""Frames by name and number, and what each hangs by: trees that change over time.
+"""Frames by name and number, each with its link to a parent, which may change over time.
 
 Here questions are answered by parents alone: which links lead from one frame to another at
 one moment, and which moment is the latest that all of them have. `path` works out poses.
@@ -34,7 +34,7 @@ MAX_AUTHORITIES = 65_536
 
 
 def stripped(name: str) -> str:
-    """Return a name as it is remembered: a plain `str` without one leading slash.
+    """Return a name as stored: a plain `str` without one leading slash.
 
     Raises:
         TypeError: If it is not a string.
@@ -59,7 +59,7 @@ def plain(name: str) -> str:
 
 
 def fault(name: str) -> str:
-    """Return why a name can never be asked for, in tf2's words; empty if it can.
+    """Return why a frame name is invalid, in tf2's words; empty if it is valid.
 
     Raises:
         TypeError: If it is not a string.
@@ -73,7 +73,7 @@ def fault(name: str) -> str:
 
 
 def require_text(*names: object) -> None:
-    """See that names of frames are texts.
+    """Raise an error unless all frame names are strings.
 
     Raises:
         TypeError: If one is not a string.
@@ -84,7 +84,7 @@ def require_text(*names: object) -> None:
 
 
 class Frame:
-    """One named frame, and what it hangs by.
+    """One named frame and its link to its parent.
 
     Attributes:
         name: Its name.
@@ -112,7 +112,7 @@ which the native kernel reads as well: see `native`.
 
 
 class Walk:
-    """Course of a question about two frames, by parents alone.
+    """Path between two frames as found by following parents.
 
     Attributes:
         ended: ARRIVED, UNCONNECTED, REFUSED or LOOP.
@@ -139,7 +139,7 @@ class Walk:
         self.above: list[int] = []
 
     def close(self, ended: int) -> "Walk":
-        """Note how it ended; cut off the upper part that both sides share."""
+        """Finish the walk: record its outcome, and cut the edges above the common ancestor."""
         self.ended = ended
         if ended == ARRIVED:
             up, down = self.up, self.down
@@ -149,12 +149,12 @@ class Walk:
         return self
 
     def visited(self) -> list[int]:
-        """Every frame that was looked at, but those above the meeting point."""
+        """Return every visited frame except those above the common ancestor."""
         return [*self.up, *self.down, self.top, self.end]
 
 
 class FrameTree:
-    """All frames, by name and by number, of however many trees.
+    """All frames by name and by number, in any number of trees.
 
     Attributes:
         frames: In the order in which they were first registered.
@@ -187,7 +187,7 @@ class FrameTree:
     # Growing
 
     def register(self, name: str) -> Frame:
-        """The frame of that name, made when it first comes up."""
+        """Return the frame with that name, created if it is new."""
         number = self.numbers.get(name)
         if number is not None:
             return self.frames[number]
@@ -197,12 +197,12 @@ class FrameTree:
         return frame
 
     def has_room(self, child: str, parent: str, limit: int) -> bool:
-        """Whether both names are known, or fit in without there being more than `limit`."""
+        """Whether both names are known, or can be added without exceeding `limit`."""
         new = (child not in self.numbers) + (parent not in self.numbers)
         return new == 0 or len(self.frames) + new <= limit
 
     def hang(self, child: str, parent: str, static: bool) -> tuple[Frame, Link, bool]:
-        """Register both names, and make sure that the child has a link of this kind.
+        """Register both names, and give the child a link of this kind.
 
         A link of the other kind is replaced by an empty one, and all it held is gone.
 
@@ -224,13 +224,13 @@ class FrameTree:
         return frame, link, fresh
 
     def note(self, frame: Frame, parent: str, authority: str, origin: int) -> None:
-        """Note where an accepted sample of a frame came from."""
+        """Record the parent and authority of an accepted sample."""
         frame.authority = authority
         if isinstance(frame.link, History):
             self.senders[frame.name] = (parent, authority, origin, frame.link)
 
     def origin(self, parent: str, authority: str) -> int:
-        """A registered parent's and an authority's number in one word; see `history`."""
+        """Pack the numbers of a parent and an authority into one word; see `history`."""
         number = self._authority_numbers.get(authority)
         if number is None:
             number = 0
@@ -242,12 +242,12 @@ class FrameTree:
     # Asking
 
     def newest_stamp(self, number: int) -> Stamp:
-        """Stamp of a frame's newest sample; 0 if it has none, or holds at all times."""
+        """Return the stamp of a frame's newest sample; 0 if it has none or is static."""
         link = self.frames[number].link
         return 0 if link is None else link.newest_stamp
 
     def walk(self, target: int, source: int, time: Stamp) -> Walk:
-        """Look for the way from source to target at one moment (0: by each newest sample).
+        """Find the path from source to target at one time (0: by each newest sample).
 
         As tf2 does it: up from the source, to the root unless it meets the target or a
         link that has nothing for the moment; then up from the target until it meets
@@ -311,7 +311,7 @@ class FrameTree:
         return walk.close(UNCONNECTED)
 
     def is_steady(self, walk: Walk) -> bool:
-        """Whether a walk by newest parents goes the same way at any moment it has data for.
+        """Whether the path by newest parents is the same at every time it has data for.
 
         Above the meeting point links may lead elsewhere at times, as long as no way up from
         there can run in a circle, or be too long.
@@ -337,7 +337,7 @@ class FrameTree:
         return not self._may_circle(reached)
 
     def parents(self, number: int) -> list[int]:
-        """Every parent that the remembered samples of a frame have."""
+        """Return every parent in a frame's samples."""
         link = self.frames[number].link
         if link is None:
             return []
@@ -346,7 +346,7 @@ class FrameTree:
         return [] if link.parent < 0 else [link.parent]
 
     def _may_circle(self, numbers: Iterable[int]) -> bool:
-        """Whether some ways up among these frames, at whatever moments, form a circle."""
+        """Whether the parents of these frames, at any times, form a cycle."""
         above = {number: self.parents(number) for number in numbers}
         while above:
             # Those that only lead to frames that lead nowhere any more.
@@ -358,7 +358,7 @@ class FrameTree:
         return False
 
     def latest_common(self, target: int, source: int) -> tuple[int, Stamp]:
-        """The newest moment for which every link between two frames has data.
+        """Return the newest time for which every link between two frames has data.
 
         Stamps of 0 do not count: that is how links that hold at all times drop out.
 

@@ -1,4 +1,4 @@
-"""Links of a child to its parent over time: one that never changes, and one that moves.
+"""Links of a child to its parent over time: static or moving.
 
 How a moving link's samples lie in memory, which the batch path and `Buffer.samples` read too:
 
@@ -99,7 +99,7 @@ LONGEST: Final = 1.0 + quaternions.ROUNDING
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Fields:
-        """Fields of either kind of link; natively the same, where C code can read it."""
+        """Fields shared by both kinds of link, in native form where C code reads them."""
 
         __slots__ = (
             "_newest",
@@ -120,7 +120,7 @@ else:
 
 
 class StaticLink(Fields):
-    """A link that holds at all times: one sample, overwritten.
+    """A static link: one sample, overwritten by the next.
 
     Attributes:
         is_static: True, of any of them.
@@ -148,19 +148,19 @@ class StaticLink(Fields):
 
     @property
     def newest(self) -> Sample | None:
-        """The sample; None before there is one."""
+        """The newest sample; None if there is none."""
         return self._newest
 
     def at(self, time: Stamp) -> Sample:
-        """The one pose, whatever the moment; NO_POSE before there is one."""
+        """Return the pose, the same for every time; NO_POSE if there is none."""
         return self._newest or NO_POSE
 
     def parent_at(self, time: Stamp) -> int:
-        """The one parent, whatever the moment."""
+        """Return the parent, the same for every time."""
         return self.parent
 
     def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = True) -> int:
-        """Put a sample in place of the one that was there; KNOWN or PARENT_CHANGED."""
+        """Replace the sample; return KNOWN or PARENT_CHANGED."""
         parent = origin & PARENT_MASK
         sample = (*pose[0], *pose[1])
         known = parent == self.parent and sample == self._newest
@@ -170,12 +170,12 @@ class StaticLink(Fields):
         return KNOWN if known else PARENT_CHANGED
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
-        """The one sample, at stamp 0: stamp, parent's number, pose."""
+        """Return the one sample at stamp 0: stamp, parent's number, pose."""
         return [] if self._newest is None else [(0, self.parent, self._newest)]
 
 
 class History(Fields):
-    """A link that moves: its samples of the last `limit` nanoseconds, as tf2 keeps them.
+    """A moving link: its samples of the last `limit` nanoseconds, as in tf2.
 
     Pruning is lazy: only an insert prunes, and before it adds. Among equal stamps the last
     one inserted is the newest.
@@ -208,7 +208,7 @@ class History(Fields):
         self.clear()
 
     def clear(self) -> None:
-        """Forget everything; afterwards any stamp is taken again."""
+        """Drop all samples; afterwards any stamp is accepted again."""
         self.records: array[int] = array("q")
         self.start: int = 0
         self.count: int = 0
@@ -235,13 +235,13 @@ class History(Fields):
 
     @property
     def newest(self) -> Sample | None:
-        """The newest sample itself; None when there is none."""
+        """The newest sample; None if there is none."""
         if self._newest is None and self.count:
             self._newest = self._sample(self.count - 1)
         return self._newest
 
     def at(self, time: Stamp) -> Sample:
-        """The pose at that moment (0: the newest), interpolated; NO_POSE if there is none.
+        """Return the pose at that time (0: the newest), interpolated; NO_POSE if there is none.
 
         Between two samples with different parents it is the older one, as it is.
         """
@@ -272,7 +272,8 @@ class History(Fields):
         return poses.interpolate(pair, time)
 
     def parent_at(self, time: Stamp) -> int:
-        """Number of the parent at that moment: the older neighbour's; NO_PARENT if there is none.
+        """Return the parent's number at that time, from the older neighbour; NO_PARENT if there is
+        none.
 
         At 0 it is the newest sample's.
         """
@@ -285,13 +286,13 @@ class History(Fields):
         return self._parent(self.start if time == self.oldest_stamp else self.index(time))
 
     def stamp_at(self, time: Stamp) -> Stamp:
-        """Stamp of the sample that answers for that moment, the older of the two."""
+        """Return the stamp of the older of the two samples used for that time."""
         if time == self.newest_stamp or time == 0:
             return self.newest_stamp
         return self._stamp(self.index(time)) if time > self.oldest_stamp else self.oldest_stamp
 
     def refusal(self, time: Stamp) -> Refusal:
-        """Return why there is no pose at that moment, and the stamp nearest to it."""
+        """Return why there is no pose at that time, and the stamp nearest to it."""
         if len(self) <= 1:
             return NO_DATA, self.newest_stamp
         if time > self.newest_stamp:
@@ -299,14 +300,14 @@ class History(Fields):
         return BACKWARD, self.oldest_stamp
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
-        """Every sample remembered, newest first: stamp, parent's number, pose."""
+        """Return every sample, newest first: stamp, parent's number, pose."""
         return [
             (self._stamp(index), self._parent(index), self._sample(index))
             for index in range(self.count - 1, self.start - 1, -1)
         ]
 
     def columns(self) -> "Columns":
-        """Records and origins, oldest first; see `Columns`.
+        """Return records and origins, oldest first; see `Columns`.
 
         The records are not copied, and do not change while that view of them is held: what
         would have the array grow is done to a copy. They are of one moment, even if another
@@ -329,13 +330,13 @@ class History(Fields):
                 return view, origins, origin
 
     def parents(self) -> set[int]:
-        """The number of every parent that a remembered sample has."""
+        """Return the numbers of all parents in the samples."""
         if not self.mixed or self.origins is None:
             return {self.parent} if self.count else set()
         return {origin & PARENT_MASK for origin in set(self.origins[self.start :])}
 
     def parent_changes_after(self, time: Stamp) -> bool:
-        """Whether the two samples that enclose a moment have different parents."""
+        """Whether the two samples around a time have different parents."""
         index = self.index(time)
         return self._parent(index) != self._parent(index + 1)
 
@@ -350,7 +351,7 @@ class History(Fields):
         return self.parent if self.origins is None else self.origins[index] & PARENT_MASK
 
     def _after(self, time: Stamp) -> int:
-        """Return the index of the first sample after a moment; the end if there is none."""
+        """Return the index of the first sample after a time; the end if there is none."""
         if time < self.oldest_stamp:
             return self.start
         if time < self.newest_stamp:
@@ -388,7 +389,7 @@ class History(Fields):
     # Inserting
 
     def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = False) -> int:
-        """Prune samples that are too old by now, then insert one.
+        """Insert one sample, and prune those that are now too old.
 
         Args:
             stamp: Nanoseconds.
@@ -452,7 +453,7 @@ class History(Fields):
         return self._append_origin(origin)
 
     def _insert_scaled(self, stamp: Any, origin: int, pose: Any) -> int:
-        """Insert a sample whose quaternion is to be scaled, if nothing else is to be checked."""
+        """Insert a sample whose quaternion needs scaling, if no other check is needed."""
         (x, y, z), turn = pose
         turn = quaternions.canonical(quaternions.unit(turn))
         if type(stamp) is not int or x + y + z != x + y + z or turn[3] != turn[3]:
@@ -460,7 +461,7 @@ class History(Fields):
         return self.insert(stamp, origin, ((x, y, z), turn), True)
 
     def _append_origin(self, origin: int) -> int:
-        """Note the origin of the sample just appended."""
+        """Record the origin of the sample just appended."""
         if origin == self.origin and self.origins is None:
             return STORED
         count = self.count
@@ -481,7 +482,8 @@ class History(Fields):
         return PARENT_CHANGED
 
     def _note_origins(self, count: int) -> "array[int]":
-        """The origin of each record; begun for the first `count` samples if there was but one."""
+        """Return the origin of each record; until now one origin served the first `count` samples.
+        """
         origins = self.origins
         if origins is None:
             origins = self.origins = array("q", [self.origin]) * count
@@ -549,7 +551,8 @@ class History(Fields):
         return PARENT_CHANGED if changes else STORED
 
     def _make_room_in_front(self) -> int:
-        """The free place before the oldest sample; samples that arrive backwards go there."""
+        """Return the free slot before the oldest sample, for samples that arrive in reverse order.
+        """
         if self.start == 0:
             room = max(_LEAST_SLACK, self.count >> _SLACK)
             self._splice(0, 0, array("q", bytes(RECORD * room)))
@@ -564,7 +567,7 @@ class History(Fields):
         return self.start - 1
 
     def _splice(self, start: int, stop: int, words: "array[int]") -> None:
-        """Put records in place of those from `start` up to, but not including, `stop`."""
+        """Replace the records from `start` up to, but not including, `stop`."""
         where = slice(WORDS * start, WORDS * stop)
         try:
             self.records[where] = words
@@ -576,7 +579,7 @@ class History(Fields):
             self.records = copy
 
     def _is_read(self) -> bool:
-        """Whether the array must stay as it is: a batch reads it, or it is borrowed."""
+        """Whether the array must not change: a batch reads it, or it is borrowed."""
         try:
             self.records.append(0)
             self.records.pop()
@@ -585,7 +588,7 @@ class History(Fields):
         return False
 
     def _have_room(self) -> None:
-        """Have room behind the newest sample, for those that the kernel is to put in."""
+        """Reserve space behind the newest sample, for those that the kernel inserts."""
         if self.count == len(self.records) // WORDS:
             room = max(_LEAST_ROOM, min(self.count, _MOST_ROOM), self.count >> _ROOM)
             self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
@@ -593,7 +596,7 @@ class History(Fields):
     # Many at once
 
     def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
-        """Append records, each newer than the one before, and prune those before a stamp.
+        """Append records with increasing stamps, and prune those before a stamp.
 
         They have the one origin that all samples have; one there is already, and they reach
         beyond the pruned ones.
@@ -609,7 +612,7 @@ class History(Fields):
             self._prune(oldest_kept)
 
     def replace(self, records: "Words", origins: "array[int]") -> None:
-        """Remember these instead: not none, oldest first, of equal stamps the newest last."""
+        """Replace all samples; at least one, oldest first, of equal stamps the newest last."""
         # Borrowed records are only used in ways that a read-only view supports.
         self.records = cast("array[int]", records)
         self.count = len(records) // WORDS
@@ -623,7 +626,7 @@ class History(Fields):
         self.mixed = self._newest_parent_start > 0
 
     def borrow(self, records: "Words", origin: int) -> None:
-        """Remember these instead, each newer than the one before, all of one origin.
+        """Replace all samples by borrowed ones with increasing stamps and one origin.
 
         They are copied only when something is inserted or pruned: until then they may lie in
         memory of others, and `records` is a view that cannot be written to.
@@ -631,7 +634,7 @@ class History(Fields):
         self.replace(memoryview(records).toreadonly(), array("q", [origin]))
 
     def lend(self, other: "History", origin: int, until: Stamp) -> bool:
-        """Let another history remember the samples up to a stamp as well, uncopied.
+        """Share the samples up to a stamp with another history, without a copy.
 
         Args:
             other: An empty one.
@@ -667,13 +670,13 @@ class History(Fields):
         return first
 
     def _note_newest(self) -> None:
-        """Keep the newest sample at hand."""
+        """Update the cached newest sample."""
         last = self.count - 1
         self.newest_stamp = self._stamp(last)
         self._newest = self._newest_pair = None
 
     def use_large_pages(self) -> None:
-        """Have many samples where the system maps memory in large pages, if it has such.
+        """Move many samples into large pages, if the system has them.
 
         Lookups all over five links of 100 000 samples take a quarter less. A sample
         without room makes the array grow again; the next move to large pages waits until the
@@ -707,7 +710,7 @@ class History(Fields):
             self._let_go(self.count - number)
 
     def _prune(self, oldest_kept: Stamp) -> None:
-        """Let go of samples before that stamp; the newest is not one of them."""
+        """Drop the samples before that stamp; the newest always stays."""
         start = self.start + 1
         if self._stamp(start) < oldest_kept:
             # Where equal stamps are the oldest, all of them stay.
@@ -715,7 +718,7 @@ class History(Fields):
         self._let_go(start)
 
     def _let_go(self, start: int) -> None:
-        """Let go of the samples before a record, which is not beyond the newest."""
+        """Drop the samples before a record."""
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:
@@ -739,13 +742,13 @@ class History(Fields):
         self._begin(start)
 
     def _begin(self, start: int) -> None:
-        """Have the samples begin at a record."""
+        """Make the samples begin at a record."""
         self.start = start
         self.oldest_stamp = self._stamp(start)
 
 
 def _copied(records: Words, start: int, stop: int) -> "array[int]":
-    """Some of the records, in an array of their own."""
+    """Copy some of the records into a new array."""
     words = records[WORDS * start : WORDS * stop]
     if isinstance(words, array):
         return words

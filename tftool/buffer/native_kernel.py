@@ -21,7 +21,7 @@ BUILD: Final = "native" if IS_NATIVE else "pure Python"
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Door:
-        """Fields that a buffer's methods read first; natively the same, where C code can read it.
+        """Fields that a buffer's methods read first, in native form where C code reads them.
 
         Attributes:
             _paths: The solver's.
@@ -42,7 +42,7 @@ else:
 
 
 class _NativeFirst:
-    """A method in a class body, which the class replaces by the kernel's of the same name."""
+    """Decorator's result that the class replaces by the kernel's method of the same name."""
 
     def __init__(self, plain: Any) -> None:
         self._plain = plain

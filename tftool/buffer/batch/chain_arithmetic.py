@@ -1,4 +1,4 @@
-"""The arithmetic of a batch: one chain of links, many moments.
+"""Arithmetic of a batch lookup: one chain of links at many times.
 
 Everything happens in blocks of a few thousand moments, in arrays made once that stay in
 the processor's cache.
@@ -43,7 +43,7 @@ _WXYZ = [6, 3, 4, 5]
 
 
 class Intervals:
-    """Intervals between neighbouring samples of one link, or of some of its rows.
+    """Intervals between neighbouring samples of one link, with what interpolation needs.
 
     Worked out once for all moments that fall there: at the share f of the way the position is
     P + f·D, and the rotation as `soa.Arcs` has it. Quaternions are in wxyz order here. Four
@@ -76,7 +76,7 @@ class Intervals:
     )
 
     def __init__(self, column: Column, first: npt.NDArray[np.intp] | slice) -> None:
-        """Work out some intervals of a column.
+        """Compute the intervals of some samples of a column.
 
         Args:
             column: The samples.
@@ -113,7 +113,7 @@ class Intervals:
     def fetch(
         self, table: npt.NDArray[T], index: npt.NDArray[np.intp], out: npt.NDArray[T]
     ) -> None:
-        """Write what one of these tables has for each moment.
+        """Gather one table's entries for each time.
 
         Args:
             table: Shape (k,) or (k, 4).
@@ -127,12 +127,12 @@ class Intervals:
 
 
 class MovingEdge:
-    """A link that moves, made ready for a batch."""
+    """A moving link prepared for a batch."""
 
     __slots__ = ("_buckets", "column", "intervals")
 
     def __init__(self, column: Column, count: int) -> None:
-        """Prepare a link for a batch of `count` moments."""
+        """Prepare a link for a batch of `count` times."""
         self.column = column
         k = len(column.stamps)
         self.intervals = (
@@ -142,14 +142,14 @@ class MovingEdge:
 
     @property
     def buckets(self) -> Buckets:
-        """Made when moments first come in no order."""
+        """Buckets of the samples, built when unsorted times first occur."""
         if self._buckets is None:
             self._buckets = Buckets(self.column.stamps)
         return self._buckets
 
 
 class StaticEdge:
-    """A link that does not move: one column that stands for all."""
+    """A static link prepared for a batch: one column, used for every time."""
 
     __slots__ = ("place", "turn")
 
@@ -163,20 +163,20 @@ Edge: TypeAlias = "MovingEdge | StaticEdge"
 
 
 class _RowAllocator:
-    """Hands out rows of a block of memory, one after the other."""
+    """Allocator of consecutive rows of one block of memory."""
 
     def __init__(self, room: Floats, count: int) -> None:
         self._rows = room[: ROWS * count].reshape(ROWS, count)
         self._taken = 0
 
     def __call__(self, number: int) -> Floats:
-        """The next `number` rows, with one column for each moment."""
+        """Return the next `number` rows, with one column per time."""
         self._taken += number
         return self._rows[self._taken - number : self._taken]
 
 
 class _Side:
-    """The product of the links on one side, from the source or from the target upward."""
+    """Product of the links on one side of the chain: from source or target up to the ancestor."""
 
     __slots__ = ("empty", "place", "turn", "unused")
 
@@ -196,7 +196,7 @@ _LINE = 8
 
 
 def blocks(count: int, most: int) -> Iterator[slice]:
-    """Split `count` moments into blocks of equal size, at most `most`; the last may be shorter."""
+    """Split `count` times into equal blocks of at most `most`; the last may be shorter."""
     # Equal blocks: a short last one would cost as many numpy calls as a full one.
     size = -(-count // -(-count // most))
     # Rows of whole lines: an operation that crosses them at each step takes longer.
@@ -206,7 +206,7 @@ def blocks(count: int, most: int) -> Iterator[slice]:
 
 
 def room(count: int) -> Floats:
-    """Allocate working memory for blocks of at most `count` moments.
+    """Allocate working memory for blocks of at most `count` times.
 
     In one piece, because the system maps a large one by large pages: it is made and
     reached more quickly than many small ones.
@@ -217,10 +217,10 @@ def room(count: int) -> Floats:
 
 
 class BlockArrays:
-    """Work arrays for a block of moments, and the arithmetic on them."""
+    """Work arrays for one block of times, and the arithmetic on them."""
 
     def __init__(self, room: Floats, count: int) -> None:
-        """Lay out memory from `room` for blocks of exactly `count` moments."""
+        """Divide memory from `room` into arrays for blocks of exactly `count` times."""
         self.count = count
         rows = _RowAllocator(room, count)
         self._flags = rows(1)[0].view(np.bool_)[:count]
@@ -246,7 +246,7 @@ class BlockArrays:
         translations: Floats,
         rotations: Floats,
     ) -> None:
-        """Write the pose of source in target at each moment.
+        """Write the pose of source in target at each time.
 
         Args:
             up: Links from the source to where both sides meet.
@@ -263,7 +263,7 @@ class BlockArrays:
             self._join(translations, rotations)
 
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
-        """Chain the links of one side."""
+        """Multiply the links of one side."""
         side.empty = not edges
         # Links in groups: one numpy call serves several of them, as long as the arrays fit the
         # cache.
@@ -291,7 +291,7 @@ class BlockArrays:
     def _prepare(
         self, edges: Sequence[MovingEdge], times: Stamps, in_order: bool
     ) -> list[tuple[Intervals, Indices, Floats, Floats, Floats]]:
-        """Find each moment's interval in some links.
+        """Find the interval of each time in some links.
 
         Returns:
             For each link its intervals, and rows: the interval of each moment, the share of
@@ -328,7 +328,7 @@ class BlockArrays:
         return list(zip(found, self._index, shares, ratios, squares, strict=False))
 
     def _find(self, edge: MovingEdge, times: Stamps, in_order: bool, index: Indices) -> Intervals:
-        """The intervals to use, with each moment's number in `index`."""
+        """Return the intervals used, and for each time the index of its interval."""
         column = edge.column
         if in_order:
             find_sorted(column.stamps, times, index)
@@ -353,7 +353,7 @@ class BlockArrays:
         place: VectorRows,
         turn: QuaternionRows,
     ) -> None:
-        """Write a link's pose at each moment, given the shares of the way and of the turn."""
+        """Interpolate a link's pose at each time, given the linear and the slerp weights."""
         some, more = self._some, self._more
         intervals.fetch(intervals.places, index, some)
         intervals.fetch(intervals.paths, index, more)
@@ -370,7 +370,7 @@ class BlockArrays:
         turn.close()
 
     def _join(self, translations: Floats, rotations: Floats) -> None:
-        """Put the two sides together, and write the answers."""
+        """Combine the two sides, and write the results."""
         up, down, scale = self._up, self._down, self._squares[0]
         place, turn = up.place, up.turn
         if not down.empty:
@@ -397,7 +397,9 @@ class BlockArrays:
         multiply(turn.w, scale, rotations.T[3])
 
     def _square(self, turn: QuaternionRows) -> Floats:
-        """The squares of quaternions' lengths; 1 where rounding is all they differ from it by."""
+        """Return the squared lengths of quaternions; exactly 1 if they differ from it by rounding
+        only.
+        """
         square: Floats = self._shares[0]
         off, spare, near = self._ratios[0], self._spare, self._flags
         multiply(turn.xyz, turn.xyz, spare)
@@ -412,7 +414,7 @@ class BlockArrays:
         return square
 
     def _lead(self, turn: QuaternionRows) -> Floats:
-        """The numbers whose sign tf2 makes positive; see `quaternions.canonical`."""
+        """Return the components whose sign tf2 makes positive; see `quaternions.canonical`."""
         small, large, size = self._ratios[0], self._flags, self._spare
         lead: Floats = self._shares[0]
         multiply(turn.w, turn.w, small)

@@ -1,4 +1,4 @@
-"""A link's history as numpy columns, moments as int64, and where moments lie among samples."""
+"""Columns of a link's history in numpy, and the search for times among its stamps."""
 
 import numpy as np
 import numpy.typing as npt
@@ -21,7 +21,7 @@ _MOST_STEPS = 3
 
 
 class Column:
-    """Samples of a moving link when it was asked, oldest first.
+    """Samples of a moving link at the time of the question, oldest first.
 
     As long as it lives, the records it was made of stay as they are; see `History.columns`.
 
@@ -70,16 +70,16 @@ class Column:
 
     @property
     def oldest(self) -> int:
-        """The first stamp; later than every stamp when there is none."""
+        """Return the first stamp; if there is none, a value later than every stamp."""
         return int(self.records[0, 0]) if len(self.records) else 2**63 - 1
 
     @property
     def newest(self) -> int:
-        """The last stamp; earlier than every stamp when there is none."""
+        """Return the last stamp; if there is none, a value earlier than every stamp."""
         return int(self.records[-1, 0]) if len(self.records) else -(2**63)
 
     def changes(self) -> Stamps:
-        """Return the rows where the parent may differ from the last: both ends, and each change."""
+        """Return the rows at which the parent may change, including the first and the last."""
         ends = self.stamps[[0, -1]] if len(self.stamps) else self.stamps
         if self.parents is None:
             return ends
@@ -88,7 +88,7 @@ class Column:
 
 
 class Columns:
-    """The columns of every link that a question touches, each copied once."""
+    """Columns of every link that a batch touches, each copied once."""
 
     __slots__ = ("_held",)
 
@@ -97,7 +97,7 @@ class Columns:
         self._held: dict[int, tuple[Link, Column | Sample | None]] = {}
 
     def of(self, link: Link) -> "Column | Sample | None":
-        """A moving link's column, a static one's sample."""
+        """Return the column of a moving link, or the sample of a static one."""
         held = self._held.get(id(link))
         if held is None:
             held = (link, Column(link) if isinstance(link, History) else link.newest)
@@ -139,7 +139,7 @@ def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
 
 
 def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
-    """Moments as a contiguous, aligned int64 array, whatever whole numbers they come as.
+    """Return times as a contiguous, aligned int64 array, from any integer type.
 
     Args:
         times: Shape (n,).
@@ -177,7 +177,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
 
 
 class Buckets:
-    """Finds samples by cutting a history's time into short spans of equal length.
+    """Index that divides a history's time into short, equal spans to find samples quickly.
 
     For moments in no order: two fetches and a comparison instead of a binary search.
     Spans are a power of two of nanoseconds long, and at most half as long as the samples
@@ -204,7 +204,7 @@ class Buckets:
     def find(
         self, times: Stamps, index: Indices, spare: Stamps, later: npt.NDArray[np.bool_]
     ) -> None:
-        """Write into `index` the last sample at or before each moment."""
+        """Write into `index` the last sample at or before each time."""
         # Samples in bursts fill some buckets: there a binary search is quicker.
         if self._steps > _MOST_STEPS:
             index[:] = np.searchsorted(self._stamps, times, "right") - 1
@@ -219,7 +219,7 @@ class Buckets:
 
 
 def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
-    """Write into `index` the last sample at or before each moment; moments in order.
+    """Write into `index` the last sample at or before each time; the times are sorted.
 
     Where samples are fewer than moments, it is the samples that are searched for.
     """
@@ -235,7 +235,7 @@ def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
 
 
 def settle_oldest(column: Column, times: Stamps, index: Indices) -> None:
-    """Of several samples at the oldest stamp, take the first that came."""
+    """Choose, among samples with the oldest stamp, the one inserted first."""
     stamps = column.stamps
     if len(stamps) > 2 and stamps[0] == stamps[1] and stamps[0] != stamps[-1]:
         index[times == stamps[0]] = 0

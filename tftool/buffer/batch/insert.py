@@ -1,4 +1,4 @@
-"""Many samples of one link at once, in numpy: `Buffer.set_transforms`."""
+"""Insertion of many samples of one link in numpy: `Buffer.set_transforms`."""
 
 from array import array
 from collections import deque
@@ -37,7 +37,7 @@ _BLOCK = 8192  # rows per chunk, so that a chunk fits the processor's cache
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Insertion:
-    """Outcome of samples that were set together; true if all were taken.
+    """Outcome of a bulk insertion; true if every sample was accepted.
 
     Attributes:
         accepted: For each row whether it was taken, shape (n,). A row that was known already
@@ -57,12 +57,12 @@ class Insertion:
 
     @property
     def refused(self) -> npt.NDArray[np.intp]:
-        """The numbers of the rows that were not taken, in order."""
+        """Return the indices of the rejected rows, in order."""
         return np.flatnonzero(~self.accepted)
 
 
 class CheckedRows:
-    """Samples as they came, checked row by row.
+    """Samples of a bulk insertion, checked row by row.
 
     Attributes:
         stamps: Nanoseconds, shape (n,).
@@ -105,13 +105,13 @@ class CheckedRows:
         self.validated: Flags = ~np.any(list(self.reasons.values()), axis=0)
 
     def taken(self, accepted: Flags) -> Iterator[tuple[int, Sample]]:
-        """Stamp and pose of those rows, in the order in which they came."""
+        """Return stamps and poses of those rows, in the order of insertion."""
         for row in np.flatnonzero(accepted).tolist():
             x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
             yield int(self.stamps[row]), (x, y, z, qx, qy, qz, qw)
 
     def lines(self, row: int) -> list[str]:
-        """Return the log's lines for a refused row."""
+        """Return the log lines for a rejected row."""
         child, parent, authority = self._rest
         x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
         stamp = int(self.stamps[row])
@@ -127,7 +127,7 @@ def insert(
     translations: npt.ArrayLike,
     rotations: npt.ArrayLike,
 ) -> tuple[Insertion, CheckedRows]:
-    """Set many samples of one link.
+    """Insert many samples of one link.
 
     Args:
         tree: Where to.
@@ -193,7 +193,7 @@ def adopt(
     records: npt.NDArray[np.int64],
     kept: int = 0,
 ) -> bool:
-    """Have a child that is not known yet keep recorded samples as its history, uncopied.
+    """Give a new child a history that shares recorded samples, without a copy.
 
     Args:
         tree: Where to.
@@ -254,14 +254,14 @@ def adopt(
 
 
 def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
-    """The records as flat words: where they are, as far as they lie one behind the other."""
+    """Return the records' memory as flat words, as far as it is contiguous."""
     if not records.flags.c_contiguous:
         return _words(records)
     return records.data.cast("B").cast("q")
 
 
 def _is_canonical(turns: Floats) -> bool:
-    """Whether finite quaternions are as a history keeps them: of length one, of tf2's sign."""
+    """Whether finite quaternions are in stored form: unit length and tf2's sign."""
     x, y, z, w = np.moveaxis(turns, -1, 0)
     # Added in the order in which it is done one by one: it decides about the last bit.
     with np.errstate(over="ignore", under="ignore"):
@@ -273,7 +273,7 @@ def _is_canonical(turns: Floats) -> bool:
 
 
 def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Flags:
-    """Insert validated samples as if one by one in their order; says which were too old."""
+    """Insert validated samples in their order; return which were too old."""
     n = len(stamps)
     limit = min(history.limit, 2**63 - 1)
     # The newest stamp there was before each row: what it is too old for, and what it prunes by.
@@ -316,7 +316,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return the rows that repeat none of the last samples before them with the same stamp."""
+    """Return the rows that differ from the previous samples with the same stamp."""
     # tf2 ignores a sample that equals one at the same stamp; only runs of equal stamps matter.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]

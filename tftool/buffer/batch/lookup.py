@@ -1,4 +1,4 @@
-"""One question for many moments: `Buffer.lookup_transforms`, natively or in numpy."""
+"""Batch lookup, native or in numpy: `Buffer.lookup_transforms`."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -119,7 +119,7 @@ def lookup_transforms_full(
 
 
 class _Batch:
-    """One question under way: what it reads, and the answers as they come in."""
+    """A batch lookup in progress: its inputs and the results so far."""
 
     def __init__(
         self,
@@ -160,7 +160,7 @@ class _Batch:
         self.valid = np.empty(n, dtype=np.bool_)
 
     def run(self, complete: bool, workers: int) -> None:
-        """Answer every row; if they must be complete, the first that is refused raises."""
+        """Solve every row; if all must be valid, raise for the first that is refused."""
         n = len(self.times)
         # More threads than two share the memory that two take.
         crowd = max(workers / 2, 1)
@@ -185,7 +185,7 @@ class _Batch:
                 raise
 
     def fill(self, start: int, complete: bool) -> None:
-        """Answer one chunk of rows."""
+        """Solve one chunk of rows."""
         rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
@@ -232,12 +232,12 @@ class _Batch:
         return rest
 
     def has_all(self, times: Stamps) -> bool:
-        """Whether the steady path has data for all moments, and none asks for the latest."""
+        """Whether the steady path has data for all times, and no row asks for the latest."""
         least, most = int(times.min()), int(times.max())
         return self.first <= least and most <= self.last and (least > 0 or bool(times.all()))
 
     def solve(self, path: Path, rows: "slice | Indices") -> None:
-        """Answer rows that a path has data for."""
+        """Solve rows with a path that has data for them."""
         times = self.times[rows]
         if not len(times):
             return
@@ -270,7 +270,7 @@ class _Batch:
         self.rooms.append(room)
 
     def solve_natively(self, path: Path, times: Stamps, rows: "slice | Indices") -> int | None:
-        """Answer rows by a path; those that it has no data for are NaN.
+        """Solve rows natively with one path; rows without data become NaN.
 
         Returns:
             How many these are; None, and nothing was done, if the kernel cannot go this way.
@@ -287,7 +287,7 @@ class _Batch:
         return missing
 
     def held(self, links: Iterable[Link]) -> tuple[Link, ...]:
-        """Links as they were when they were asked for, which stay so."""
+        """Return the links' samples as of the question; later insertions do not change them."""
         found: list[Link] = []
         for link in links:
             held = self.columns.of(link)
@@ -304,7 +304,7 @@ class _Batch:
         return tuple(found)
 
     def room(self) -> Floats:
-        """Arrays that no thread uses at the moment."""
+        """Return work arrays that no other thread uses now."""
         try:
             # `pop` of a list is atomic: no two threads get the same arrays.
             return self.rooms.pop()
@@ -312,7 +312,7 @@ class _Batch:
             return kernel.room(min(len(self.times), self.block))
 
     def edges(self, links: Iterable[Link]) -> list[kernel.Edge]:
-        """Links made ready for the arithmetic, each once."""
+        """Return the links prepared for the arithmetic, each once."""
         ready: list[kernel.Edge] = []
         for link in links:
             edge = self.ready.get(id(link))
@@ -329,7 +329,7 @@ class _Batch:
         return ready
 
     def fill_latest(self, rows: Indices) -> None:
-        """Answer the rows that ask for the latest; all get the same answer."""
+        """Solve the rows that ask for the latest; all get the same result."""
         if not len(rows):
             return
         if self.latest is None:
@@ -341,7 +341,7 @@ class _Batch:
             self.put(rows, self.latest)
 
     def put(self, rows: "Indices | int", answer: tuple[Stamp, Sample]) -> None:
-        """Write one answer into one or more rows."""
+        """Write one result into one or more rows."""
         stamp, sample = answer
         self.stamps[rows] = stamp
         self.translations[rows] = sample[:3]
@@ -350,7 +350,7 @@ class _Batch:
 
 
 def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
-    """The one path that serves all moments it has data for; None if there is no such path."""
+    """Return the path valid for all times it has data for; None if the path changes."""
     walk = tree.walk(target, source, 0)
     if walk.ended != ARRIVED or not tree.is_steady(walk):
         return None
@@ -360,7 +360,7 @@ def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
 def _paths_by_moment(
     tree: FrameTree, columns: Columns, target: int, source: int, times: Stamps
 ) -> Iterator[tuple[Path, Indices]]:
-    """Each path that some of the moments need, and the rows that need it.
+    """Yield each path that some times need, with their rows.
 
     Between two stamps at which a link begins, ends or changes its parent, all moments
     share one walk. Indices that no path is given for are refused.
@@ -386,7 +386,7 @@ def _paths_by_moment(
 
 
 def _covered(path: Path, columns: Columns, times: Stamps) -> npt.NDArray[np.bool_]:
-    """For which moments every link of a path has data."""
+    """Return a mask of the times for which every link of a path has data."""
     result = np.ones(len(times), dtype=np.bool_)
     for link in path.moving:
         column = columns.of(link)
@@ -396,7 +396,7 @@ def _covered(path: Path, columns: Columns, times: Stamps) -> npt.NDArray[np.bool
 
 
 def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps:
-    """Every stamp at which a walk up from one of the frames may change."""
+    """Return every stamp at which the path up from one of the frames may change."""
     marks: list[Stamps] = [np.zeros(0, dtype=np.int64)]
     waiting, seen = list(frames), set(frames)
     while waiting:
@@ -417,7 +417,7 @@ def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps
 
 
 def _identities(tree: FrameTree, frame: str, times: Stamps) -> TransformArray:
-    """A frame in itself; as for a single lookup, the name may be any."""
+    """Return identities, for a frame in itself; as in a single lookup, any name is accepted."""
     number = tree.numbers.get(frame)
     newest = 0 if number is None else tree.newest_stamp(number)
     n = len(times)
@@ -434,7 +434,7 @@ def _identities(tree: FrameTree, frame: str, times: Stamps) -> TransformArray:
 
 
 def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[Stamps, Stamps]:
-    """Two arrays of moments of one length; a single moment stands for as many as needed."""
+    """Return two arrays of times of equal length; a single time is repeated."""
     theirs, ours = np.asarray(target_times), np.asarray(source_times)
     if theirs.ndim == 0 and ours.ndim == 1:
         theirs = np.broadcast_to(theirs, ours.shape)
@@ -450,7 +450,7 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
 
 
 def _workers(threads: int | None) -> int:
-    """Return the number of threads: the number asked for, else one for each core we may use."""
+    """Return the number of threads: as requested, else one per available core."""
     if threads is None:
         # Where the system tells, those it allows us; a container may have more.
         allowed = getattr(os, "sched_getaffinity", None)

@@ -1,4 +1,4 @@
-"""Many transforms at once, in numpy: what `Buffer.lookup_transforms` gives."""
+"""Many transforms in numpy arrays: the result of `Buffer.lookup_transforms`."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ class Velocities(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SampleColumns:
-    """Samples of one frame's link, oldest first: `Buffer.samples`.
+    """Samples of one link, oldest first: the result of `Buffer.samples`.
 
     The arrays are read-only copies. Of equal stamps the one that was set last comes last.
 
@@ -59,7 +59,7 @@ class SampleColumns:
 
     @property
     def translations(self) -> Floats:
-        """Metres, shape (n, 3)."""
+        """Translations in metres, shape (n, 3)."""
         return self.poses[:, :3]
 
     @property
@@ -70,7 +70,7 @@ class SampleColumns:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TransformArray:
-    """The poses of one frame in another at many moments.
+    """Poses of one frame in another at many times.
 
     Row i holds the pose of `child_frame_id` in `frame_id` at `stamps[i]`: it moves points
     given in the child into the other. An index gives a `TransformStamped`; a slice, a mask
@@ -126,11 +126,11 @@ class TransformArray:
         )
 
     def matrices(self) -> Floats:
-        """Homogeneous matrices, shape (n, 4, 4); NaN in rows that are not valid."""
+        """Homogeneous matrices, shape (n, 4, 4); NaN in invalid rows."""
         return batch.matrices(self.translations, self.rotations)
 
     def apply(self, points: npt.ArrayLike) -> Floats:
-        """Move points: given in the child, they come out in the other frame.
+        """Transform points from `child_frame_id` to `frame_id`.
 
         Args:
             points: Shape (3,): one point, moved by each row. Shape (n, 3): point i moved by
@@ -156,7 +156,7 @@ class TransformArray:
         return batch.rotate(self.rotations, given) + self.translations
 
     def inverse(self) -> "TransformArray":
-        """The poses of `frame_id` in `child_frame_id`."""
+        """Return the poses of `frame_id` in `child_frame_id`."""
         back = batch.conjugate(self.rotations)
         return TransformArray(
             self.child_frame_id,
@@ -204,7 +204,8 @@ class TransformArray:
         return TransformArray(self.frame_id, child, self.stamps, moved, turned, valid)
 
     def velocities(self) -> Velocities:
-        """Return the velocity of the child's origin and the child's turn rate, given in `frame_id`.
+        """Return the velocity of the child's origin and its angular velocity, expressed in
+        `frame_id`.
 
         The mean from the row before to the row after; at either end, to the one neighbour.
         NaN where one of the two is not valid, or both have the same stamp.
@@ -219,7 +220,7 @@ class TransformArray:
         return Velocities(moved / lasted, batch.rotation_vectors(turned) / lasted)
 
     def to_scipy(self) -> "tuple[RigidTransform, Rotation]":
-        """Return scipy's `RigidTransform`, and its `Rotation` by itself.
+        """Return scipy's `RigidTransform`, and its `Rotation` separately.
 
         Raises:
             UsageError: If scipy is not installed, or older than 1.16.
