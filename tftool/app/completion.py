@@ -112,8 +112,7 @@ def offers(words: Sequence[str]) -> list[Offer]:
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Whether an option is offered without a dash typed before it; most are only offered after one.
-    """
+    """Whether an option is offered without a dash typed before it; most are not."""
     return word.startswith("-") == current.startswith("-")
 
 
@@ -189,8 +188,7 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _frames(before: Sequence[str]) -> list[str]:
-    """Return the frames of the recording or description on the line, else of the running session.
-    """
+    """Return the frames of the file on the command line, else of the running session."""
     named = _frames_of_a_file([*_words_behind(), *before])
     if named is not None:
         return named
@@ -220,8 +218,7 @@ def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
 
 
 def _read_frames(word: str) -> list[str]:
-    """Read frames from a recording's column cache, from a short recording, or from a description.
-    """
+    """Read frames from a column cache, a short recording, or a description."""
     from tftool.recordings.cache_heads import default_folder, frames_kept, key_of
     from tftool.recordings.find import Kind, find
 

@@ -195,8 +195,7 @@ class Command(Shown, TyperCommand):
 
 
 def _number(word: str) -> float:
-    """Parse a number; invalid text is left to the parser, which refuses it with the other options.
-    """
+    """Parse a number; leave invalid text to the parser, which refuses it."""
     try:
         return float(word)
     except ValueError:

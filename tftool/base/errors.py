@@ -176,8 +176,7 @@ def line_of(error: BaseException, *, users_only: bool = False) -> str:
 
 
 def is_users_file(file: str) -> bool:
-    """Whether a code object belongs to the user: neither to this package nor to Python's library.
-    """
+    """Whether code belongs to the user: neither to this package nor to Python's library."""
     if file.startswith((_PACKAGE, "<frozen")):
         return False
     return "site-packages" in file or not file.startswith(_LIBRARY)

@@ -217,8 +217,7 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Insert a new, unusual or static sample with every check; each rejection has its log line.
-        """
+        """Insert a new, unusual or static sample with every check and its log line."""
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)

@@ -482,8 +482,7 @@ class History(Fields):
         return PARENT_CHANGED
 
     def _note_origins(self, count: int) -> "array[int]":
-        """Return the origin of each record; until now one origin served the first `count` samples.
-        """
+        """Return the origin of each record; the first `count` shared one until now."""
         origins = self.origins
         if origins is None:
             origins = self.origins = array("q", [self.origin]) * count
@@ -551,8 +550,7 @@ class History(Fields):
         return PARENT_CHANGED if changes else STORED
 
     def _make_room_in_front(self) -> int:
-        """Return the free slot before the oldest sample, for samples that arrive in reverse order.
-        """
+        """Return the free slot before the oldest sample, for samples in reverse order."""
         if self.start == 0:
             room = max(_LEAST_SLACK, self.count >> _SLACK)
             self._splice(0, 0, array("q", bytes(RECORD * room)))

@@ -1,4 +1,4 @@
-"""The way from one frame to another, worked out once and evaluated many times.
+"""Path between two frames: found once, evaluated at many times.
 
 A path holds while no link changes whom it leads to. Where a link has nothing for a moment, a
 path answers nothing: the tree's walk then says why, or finds a way that a path cannot know.
@@ -17,7 +17,7 @@ _new: Final = tuple.__new__
 
 
 class Path(NamedTuple):
-    """The links from source up to where the two sides meet, and from target up to there.
+    """Links from the source and from the target up to their common ancestor.
 
     A plain tuple, which the native kernel reads as well: see `native`.
 
@@ -32,7 +32,7 @@ class Path(NamedTuple):
     moving: tuple[History, ...]
 
     def latest(self) -> Stamp:
-        """The newest moment for which every link has data; 0 if none of them moves."""
+        """Return the newest time for which every link has data; 0 if all are static."""
         # The smallest of the links' newest stamps; a stamp of 0 is "no sample yet".
         latest = 0
         for link in self.moving:
@@ -42,7 +42,7 @@ class Path(NamedTuple):
         return latest
 
     def covers(self, time: Stamp) -> bool:
-        """Whether every link has data at that moment."""
+        """Whether every link has data at that time."""
         for link in self.moving:
             # The newest stamp is asked for most, so it is compared first.
             if time != link.newest_stamp and (
@@ -52,7 +52,7 @@ class Path(NamedTuple):
         return True
 
     def solve(self, time: Stamp) -> Transform | None:
-        """The pose of source in target at that moment, or None if a link has none for it."""
+        """Return the pose of source in target at that time; None if a link has no data."""
         pose = chain(self.up, time)
         if self.down:
             pose = poses.between(chain(self.down, time), pose)
@@ -67,7 +67,7 @@ class Path(NamedTuple):
 
 
 def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
-    """The poses of several links one after the other, lowest first; NO_POSE if one has none.
+    """Multiply the poses of several links, lowest first; NO_POSE if one has none.
 
     Args:
         links: Each one's parent is the next one's child.
@@ -84,7 +84,7 @@ def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
 
 
 def folded(links: Iterable[Link]) -> tuple[Link, ...]:
-    """Return the links with each run of static ones merged into one."""
+    """Merge each run of static links into one."""
     result: list[Link] = []
     run: list[Link] = []
     for link in links:
@@ -103,7 +103,7 @@ def _folded_run(run: list[Link]) -> list[Link]:
 
 
 def path_of(tree: FrameTree, walk: Walk) -> Path:
-    """The path of a walk that arrived."""
+    """Return the path of a successful walk."""
     frames = tree.frames
     up = folded([link for number in walk.up if (link := frames[number].link) is not None])
     down = folded([link for number in walk.down if (link := frames[number].link) is not None])

@@ -1,4 +1,4 @@
-"""Sentences with which the buffer refuses, in tf2's words."""
+"""The buffer's error messages, in tf2's words."""
 
 from collections.abc import Callable, Collection, Iterable
 from typing import Final
@@ -25,7 +25,7 @@ _NAME_SHOWN: Final = 32
 def unknown(
     frame: str, argument: str, call: str, known: Collection[str], *, target: str, source: str
 ) -> LookupException:
-    """For a name that never came up; `known` is walked only when the remedy is read."""
+    """Return the error for an unknown frame; `known` is only iterated when the remedy is read."""
     return LookupException(
         f'"{frame}" passed to {call} argument {argument} does not exist. ',
         frame=frame,
@@ -38,7 +38,7 @@ def unknown(
 def invalid(
     frame: str, argument: str, call: str, why: str, *, target: str, source: str
 ) -> InvalidArgumentException:
-    """For a name that can never be asked for."""
+    """Return the error for an invalid frame name."""
     return InvalidArgumentException(
         f'Invalid argument "{frame}" passed to {call} argument {argument} - {why}',
         target=target,
@@ -48,12 +48,12 @@ def invalid(
 
 
 def invalid_frame(frame: str, argument: str, why: str) -> str:
-    """The sentence `can_transform` has for a name."""
+    """Return `can_transform`'s sentence about an invalid name."""
     return f'Invalid frame ID "{frame}" passed to canTransform argument {argument} - {why}'
 
 
 def unconnected(target: str, source: str) -> ConnectivityException:
-    """For two frames of different trees."""
+    """Return the error for two frames in different trees."""
     return ConnectivityException(
         f"Could not find a connection between '{target}' and '{source}' because they are not "
         "part of the same tree.Tf has two or more unconnected trees.",
@@ -63,7 +63,7 @@ def unconnected(target: str, source: str) -> ConnectivityException:
 
 
 def loop(frames: str, target: str, source: str) -> LookupException:
-    """For a chain that does not end; `frames` is the list of all of them."""
+    """Return the error for a chain with a loop; `frames` lists all frames."""
     return LookupException(
         f"The tf tree is invalid because it contains a loop.\n{frames}\n",
         target=target,
@@ -73,7 +73,7 @@ def loop(frames: str, target: str, source: str) -> LookupException:
 
 
 def shortfall(refusal: Refusal, time: Stamp) -> str:
-    """Return the sentence of a link that has no data for a moment."""
+    """Return the sentence about a link without data for a time."""
     kind, available = refusal
     asked, has = display(time), display(available)
     if kind == NO_DATA:
@@ -102,7 +102,7 @@ _EXTRAPOLATIONS: dict[int, type[ExtrapolationException]] = {
 def extrapolation(
     refusal: Refusal, frame: str, time: Stamp, target: str, source: str
 ) -> ExtrapolationException:
-    """For a link, that of `frame`, which has nothing for the moment."""
+    """Return the error for a link, that of `frame`, without data for the time."""
     kind, available = refusal
     return _EXTRAPOLATIONS[kind](
         f"{shortfall(refusal, time)}, when looking up transform from frame [{source}] "
@@ -116,7 +116,7 @@ def extrapolation(
 
 
 def fits(stamp: Stamp) -> bool:
-    """Whether a stamp can be kept."""
+    """Whether a stamp fits into 64 bits."""
     return -_LONGEST <= stamp < _LONGEST
 
 
@@ -131,7 +131,7 @@ def objections(
     rotation: tuple[float, float, float, float],
     authority: str,
 ) -> list[str]:
-    """Everything that is wrong with a sample, a line each; none if it can be taken.
+    """Return everything wrong with a sample, a line each; empty if it is valid.
 
     Args:
         child: Without its leading slash.
@@ -158,7 +158,7 @@ def objections(
 
 
 def self_transform(child: str, authority: str) -> str:
-    """Child and parent are one."""
+    """Return the line for a child that is its own parent."""
     return (
         f'TF_SELF_TRANSFORM: Ignoring transform from authority "{authority}" with frame_id and  '
         f'child_frame_id "{child}" because they are the same'
@@ -166,7 +166,7 @@ def self_transform(child: str, authority: str) -> str:
 
 
 def no_child(authority: str) -> str:
-    """No child named."""
+    """Return the line for an empty child name."""
     return (
         f'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "{authority}" because '
         "child_frame_id not set "
@@ -174,7 +174,7 @@ def no_child(authority: str) -> str:
 
 
 def no_parent(child: str, authority: str) -> str:
-    """No parent named."""
+    """Return the line for an empty parent name."""
     return (
         f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  from authority '
         f'"{authority}" because frame_id not set'
@@ -184,7 +184,7 @@ def no_parent(child: str, authority: str) -> str:
 def nan_input(
     child: str, authority: str, translation: Iterable[float], rotation: Iterable[float]
 ) -> str:
-    """A number that is none."""
+    """Return the line for a number that is NaN."""
     return (
         f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority '
         f'"{authority}" because of a nan value in the transform ({_plain(translation)}) '
@@ -193,7 +193,7 @@ def nan_input(
 
 
 def denormalized(child: str, authority: str, rotation: Iterable[float]) -> str:
-    """A quaternion without a direction."""
+    """Return the line for a quaternion that is not of unit length."""
     return (
         f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from '
         f'authority "{authority}" because of an invalid quaternion in the transform '
@@ -202,7 +202,7 @@ def denormalized(child: str, authority: str, rotation: Iterable[float]) -> str:
 
 
 def old_data(child: str, stamp: Stamp, authority: str) -> str:
-    """A sample from before everything that is remembered."""
+    """Return the line for a sample older than everything remembered."""
     return (
         f"TF_OLD_DATA ignoring data from the past for frame {child} at time {display(stamp)} "
         f"according to authority {authority}\nPossible reasons are listed at "
@@ -211,7 +211,7 @@ def old_data(child: str, stamp: Stamp, authority: str) -> str:
 
 
 def and_more(child: str, count: int, authority: str) -> str:
-    """For what else was refused of many samples that were set together."""
+    """Return the line that counts the further rejected samples of a bulk insertion."""
     samples, were = ("sample", "was") if count == 1 else ("samples", "were")
     return (
         f"and {count} more {samples} for frame {child} according to authority {authority} {were} "
@@ -220,7 +220,7 @@ def and_more(child: str, count: int, authority: str) -> str:
 
 
 def bad_stamp(child: str, stamp: Stamp, authority: str) -> str:
-    """A stamp beyond 64 bits."""
+    """Return the line for a stamp beyond 64 bits."""
     return (
         f'TF_BAD_STAMP: Ignoring transform for child_frame_id "{child}" from authority '
         f'"{authority}" because its stamp, {stamp} ns, does not fit 64 bits'
@@ -228,7 +228,7 @@ def bad_stamp(child: str, stamp: Stamp, authority: str) -> str:
 
 
 def too_many_frames(child: str, authority: str, limit: int) -> str:
-    """More names than the buffer takes."""
+    """Return the line for more names than the buffer allows."""
     return (
         f'TF_TOO_MANY_FRAMES: Ignoring transform for child_frame_id "{child}" from authority '
         f'"{authority}" because the buffer holds {limit} frame names, as many as it takes; '
@@ -237,7 +237,7 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
 
 
 def long_name(child: str, parent: str, authority: str, limit: int) -> str:
-    """Name the one of two names that is longer than the buffer takes; empty if neither is."""
+    """Return the name that is longer than the buffer allows; empty if neither is."""
     for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
         # In UTF-8 no character takes more than four bytes: a short name is not written out.
         if 4 * len(name) <= limit:
@@ -253,7 +253,7 @@ def long_name(child: str, parent: str, authority: str, limit: int) -> str:
 
 
 def short_cache(cache_time: Duration) -> str:
-    """A memory so short that its unit was probably mistaken."""
+    """Return the warning for a cache so short that the unit is probably wrong."""
     return (
         f"a cache_time of {cache_time} ns forgets nearly everything at once: it is given in "
         f"nanoseconds, and seconds({cache_time}) makes one of {cache_time} s"
@@ -269,7 +269,7 @@ Log = Callable[[str, str], None]
 
 
 def log_to_logging(level: str, text: str) -> None:
-    """Log why a buffer refused, where it was given no log of its own."""
+    """Log a rejection to `logging`, for a buffer without a log of its own."""
     # Costs 10 ms at start-up, and most programs never get here.
     import logging
 

@@ -1,4 +1,4 @@
-"""Questions that wait for their answer, asked again only when something they saw changes."""
+"""Pending requests, checked again only when a frame they depend on changes."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -42,7 +42,7 @@ class Request:
 
 
 class Requests:
-    """Pending requests, found by the frames they wait for.
+    """Pending requests, indexed by the frames they wait for.
 
     However many wait, a change costs nothing to those that wait for other frames.
 
@@ -60,7 +60,7 @@ class Requests:
         self._watchers: dict[str, dict[int, None]] = {}
 
     def add(self, callback: Callback, lookup: Lookup) -> int:
-        """Ask now; a question without an answer waits.
+        """Ask at once; keep the request pending if there is no answer yet.
 
         Returns:
             NOW if it can be answered, NEVER if it no longer can, else a handle.
@@ -76,13 +76,13 @@ class Requests:
         return request.handle
 
     def cancel(self, handle: int) -> None:
-        """Drop a request; do nothing for a handle that is not pending."""
+        """Cancel a request; ignore a handle that is not pending."""
         request = self.pending.pop(handle, None)
         if request is not None:
             self._unwatch(request)
 
     def changed(self, *frames: str) -> list[Exception]:
-        """Ask again whatever waits for one of these frames, oldest request first.
+        """Check every request that waits for one of these frames again, oldest first.
 
         Returns:
             What callbacks raised; it kept no other from being called.
@@ -107,7 +107,7 @@ class Requests:
         return failures
 
     def _ask(self, request: Request, first: bool) -> int:
-        """Ask; while there is no answer, watch what keeps it from being one."""
+        """Ask; without an answer, wait for the frames that prevent it."""
         status, blocked = self._examine(request.lookup, first)
         if status == PENDING:
             self._watch(request, blocked)

@@ -1,4 +1,4 @@
-"""Values the buffer takes and returns: samples, and all frames at one moment."""
+"""Values the buffer accepts and returns: samples, and snapshots of all frames."""
 
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -9,7 +9,7 @@ from tftool.geometry.rigid import Transform, refuses_arithmetic
 
 @refuses_arithmetic
 class TransformStamped(NamedTuple):
-    """The pose of `child_frame_id` in `frame_id` at one moment.
+    """Pose of `child_frame_id` in `frame_id` at one time.
 
     The answer of `lookup_transform(target, source)` is one of these too: the pose of
     the source (`child_frame_id`) in the target (`frame_id`).
@@ -29,7 +29,7 @@ class TransformStamped(NamedTuple):
 
 @refuses_arithmetic
 class FrameInfo(NamedTuple):
-    """One frame, and the link it hangs by.
+    """One frame and its link to its parent.
 
     Attributes:
         frame: Its name.
@@ -65,7 +65,7 @@ class FrameInfo(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Snapshot:
-    """All frames at one moment, frozen.
+    """All frames at one time, immutable.
 
     Attributes:
         now: What the clock read.
@@ -91,15 +91,15 @@ class Snapshot:
         return frame in self._by_name
 
     def roots(self) -> tuple[str, ...]:
-        """Every frame that hangs from nothing: one for each tree."""
+        """Return every frame without a parent: one for each tree."""
         return tuple(info.frame for info in self.frames if info.parent is None)
 
     def children(self, name: str) -> tuple[str, ...]:
-        """The frames that hang from `name` directly."""
+        """Return the direct children of `name`."""
         return tuple(self._children.get(name, ()))
 
     def frame(self, name: str) -> FrameInfo:
-        """All about one frame.
+        """Return the entry of one frame.
 
         Raises:
             KeyError: If there is none of that name.
@@ -107,5 +107,5 @@ class Snapshot:
         return self._by_name[name]
 
     def loops(self) -> tuple[str, ...]:
-        """The frames whose chain never ends; no root reaches them."""
+        """Return the frames in or below a loop, from which no root is reached."""
         return tuple(info.frame for info in self.frames if info.root is None)

@@ -1,4 +1,4 @@
-"""All frames at one moment, in one sweep; and as text: tf2's YAML, sentences and dot."""
+"""All frames at one time, computed in one sweep; also as tf2's YAML, sentences and dot."""
 
 from collections.abc import Iterable
 from typing import TypeAlias
@@ -18,23 +18,23 @@ _Located: TypeAlias = tuple[int, Sample | None, Sample | None]
 
 
 def snapshot(tree: FrameTree, now: Stamp, at: Stamp) -> Snapshot:
-    """Every frame at one moment; 0 for each at the latest moment its chain has data for."""
+    """Return every frame at one time; 0: each at the latest time for which its chain has data."""
     sweep = _Sweep(tree, at)
     return Snapshot(now, at, tuple(sweep.info(frame, now) for frame in tree.frames))
 
 
 def rate(link: Link) -> float:
-    """Samples per second by tf2's formula, in hertz: 10000 for a single one and for constants."""
+    """Return hertz by tf2's formula; 10000 for a single sample and for static links."""
     return rate_of(len(link), link.newest_stamp - link.oldest_stamp)
 
 
 def rate_of(samples: int, span: Duration) -> float:
-    """Samples per second by tf2's formula, in hertz, of some samples from first to last."""
+    """Return hertz by tf2's formula, for some samples from first to last."""
     return samples * 1e9 / max(span, _SHORTEST)
 
 
 class _Sweep:
-    """The poses found so far; each chain is walked once for each moment it is needed at."""
+    """Poses computed so far; each chain is walked once per time needed."""
 
     def __init__(self, tree: FrameTree, at: Stamp) -> None:
         self.frames = tree.frames
@@ -73,7 +73,7 @@ class _Sweep:
         )  # fmt: skip
 
     def parent(self, number: int, time: Stamp) -> int:
-        """The parent at that moment, or the newest one where the history does not reach."""
+        """Return the parent at that time; outside the history, the newest parent."""
         link = self.frames[number].link
         if link is None or link.newest is None:
             return NO_PARENT
@@ -83,7 +83,9 @@ class _Sweep:
         return link.parent if parent < 0 else parent
 
     def latest_of(self, number: int) -> tuple[Stamp, int]:
-        """The newest moment the whole chain has data for, and its root, by newest parents."""
+        """Return the newest time for which the whole chain has data, and its root, by newest
+        parents.
+        """
         chain: list[int] = []
         while True:
             known = self.latest.get(number)
@@ -108,7 +110,7 @@ class _Sweep:
         return latest, root
 
     def locate(self, number: int, time: Stamp) -> _Located:
-        """Return a frame's root, its pose in its parent and its pose in the root at that moment."""
+        """Return a frame's root, its pose in its parent and its pose in the root at that time."""
         located = self.located.get(time)
         if located is None:
             located = self.located[time] = {}
@@ -147,7 +149,7 @@ def _transform(sample: Sample) -> Transform:
 
 
 def as_yaml(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
-    """The frames as tf2 writes them in YAML.
+    """Format the frames as tf2's YAML.
 
     Args:
         frames: In the order to be written; those that hang from nothing are left out.
@@ -179,7 +181,7 @@ def as_yaml(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
 
 
 def as_string(frames: Iterable[FrameInfo]) -> str:
-    """One sentence for each frame that was ever sent, as tf2 has them."""
+    """Format one sentence for each child frame, as tf2 does."""
     return "".join(
         f"Frame {info.frame} exists with parent {info.parent or NO_PARENT_NAME}.\n"
         for info in frames
@@ -188,7 +190,7 @@ def as_string(frames: Iterable[FrameInfo]) -> str:
 
 
 def as_dot(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
-    """The frames as tf2's core writes them for Graphviz (`view_frames` prints another).
+    """Format the frames as tf2's core does for Graphviz (`view_frames` prints another form).
 
     Names are written as they are: escape them first if they come from strangers.
     """

@@ -1,4 +1,4 @@
-"""Questions put to the trees by walking them; paths are kept for when they are asked again."""
+"""Solver of lookups: walks the trees, and caches paths for the next lookup."""
 
 from typing import Final
 
@@ -21,7 +21,7 @@ _HERE: Final = Path((), (), ())
 
 
 class Solver:
-    """Answers questions about two frames.
+    """Solver of lookups between two frames.
 
     Attributes:
         paths: By target and then by source; all dropped when a link leads elsewhere than before.
@@ -36,7 +36,7 @@ class Solver:
         self._kept = 0
 
     def pose(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Sample]:
-        """The pose of source in target and the moment it holds for, by walking.
+        """Return the pose of source in target and its time, by walking the trees.
 
         Raises:
             TransformException: As `Buffer.lookup_transform` says.
@@ -47,7 +47,7 @@ class Solver:
         return time, (*pose.translation, *pose.rotation)
 
     def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
-        """The moment that is asked for, and the way then, by walking.
+        """Return the effective time and the path at that time, by walking the trees.
 
         Keeps the path for the next time where that is possible; whether it did is told last.
 
@@ -87,7 +87,7 @@ class Solver:
         raise refusals.unconnected(target_name, source_name)
 
     def why_not(self, target: str, source: str, time: Stamp) -> str | TransformException | None:
-        """Return why a lookup would be refused, as `can_transform` has it; None if it would not."""
+        """Return why a lookup would fail, as `can_transform` says it; None if it would succeed."""
         if target == source:
             return None
         for frame, argument in ((target, "target_frame"), (source, "source_frame")):
@@ -106,7 +106,7 @@ class Solver:
         return self._refusal(walk, time, target, source)
 
     def chain(self, target: str, source: str, time: Stamp) -> list[str]:
-        """The frames from source to target, both included; empty if they are the same."""
+        """Return the frames from source to target, both included; empty if they are the same."""
         if target == source:
             return []
         time, _, _ = self.way(target, source, time)
@@ -118,7 +118,9 @@ class Solver:
         return [trees.frames[number].name for number in (*walk.up, meeting, *walk.down[::-1])]
 
     def examine(self, lookup: Lookup, first: bool) -> tuple[int, tuple[str, ...]]:
-        """Return the state of a waiting question, and the frames that must change before it can."""
+        """Return the state of a pending request, and the frames that must change before it
+        succeeds.
+        """
         target, source, time = lookup
         if target == source:
             return AVAILABLE, ()
@@ -146,7 +148,7 @@ class Solver:
         return PENDING, tuple(trees.frames[number].name for number in seen)
 
     def number(self, frame: str, argument: str, call: str, target: str, source: str) -> int:
-        """A frame's number.
+        """Return a frame's number.
 
         Raises:
             TransformException: If it can never have one, or has none yet.
@@ -161,20 +163,20 @@ class Solver:
         return number
 
     def fault(self, frame: str) -> str:
-        """Return the fault of a frame's name, as `can_transform` has it; empty if there is none."""
+        """Return the fault of a frame name, as `can_transform` says it; empty if valid."""
         if why := tree.fault(frame):
             return why
         return "" if frame in self._tree.numbers else "frame does not exist"
 
     def drop_paths(self) -> None:
-        """Forget every path."""
+        """Drop every cached path."""
         # Called at every change of the tree; as a rule there is nothing to drop.
         if self._kept:
             self.paths.clear()
             self._kept = 0
 
     def _remember(self, target: int, source: int, walk: Walk, path: Path) -> bool:
-        """Keep the path of a walk that arrived, if no link on the way leads elsewhere at times.
+        """Cache the path of a successful walk if none of its links ever changes its parent.
 
         Returns:
             Whether it is kept.
@@ -198,7 +200,7 @@ class Solver:
         return True
 
     def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
-        """Return the exception for a walk that did not arrive."""
+        """Return the exception for a failed walk."""
         if walk.ended == LOOP:
             return self._looped(target, source)
         if walk.ended == REFUSED:

@@ -25,7 +25,7 @@ KEEP = 1000
 
 
 class Series:
-    """Latest messages of one frame, or of one sender.
+    """Recent messages of one frame or one publisher.
 
     Attributes:
         total: How many messages came, forgotten ones included.
@@ -39,7 +39,7 @@ class Series:
         self._tf2_maximum = 0.0
 
     def add(self, now: Stamp, tf2_delay: float, *, dated: bool = True) -> None:
-        """Note a message.
+        """Record a message.
 
         Args:
             now: When it arrived.
@@ -54,7 +54,7 @@ class Series:
             self._delays.append(tf2_delay)
 
     def add_many(self, arrivals: "Stamps", delays: "Floats") -> None:
-        """Note many messages with dated stamps, as if one by one.
+        """Record many messages with dated stamps, as if one by one.
 
         Args:
             arrivals: When each arrived, nanoseconds, in that order, shape (n,).
@@ -69,43 +69,45 @@ class Series:
 
     @property
     def rate(self) -> float | None:
-        """Messages per second, hertz; None until two have come at different moments."""
+        """Messages per second, hertz; None until two have arrived at different times."""
         span = self._span()
         return (len(self._arrivals) - 1) / span if span > 0.0 else None
 
     @property
     def last(self) -> Stamp | None:
-        """Return the arrival of the newest message; None before the first."""
+        """Return the arrival time of the newest message; None before the first."""
         return self._arrivals[-1] if self._arrivals else None
 
     @property
     def average_delay(self) -> float | None:
-        """Mean seconds from stamp to arrival; None where no stamp says when."""
+        """Mean seconds from stamp to arrival; None if no message has a stamp."""
         return sum(self._delays) / len(self._delays) if self._delays else None
 
     @property
     def latest_delay(self) -> float | None:
-        """Seconds from stamp to arrival of the newest message; None where no stamp says when."""
+        """Seconds from stamp to arrival of the newest message; None if it has no stamp."""
         return self._delays[-1] if self._delays else None
 
     @property
     def maximum_delay(self) -> float | None:
-        """Most seconds from stamp to arrival, negative if all came from the future."""
+        """Greatest number of seconds from stamp to arrival; negative if all stamps are in the
+        future.
+        """
         return max(self._delays) if self._delays else None
 
     @property
     def tf2_rate(self) -> float:
-        """Hertz as tf2_monitor counts: one message alone is 1e8."""
+        """Rate in hertz by tf2_monitor's formula: 1e8 for a single message."""
         return len(self._arrivals) / max(1e-8, self._span())
 
     @property
     def tf2_average_delay(self) -> float:
-        """Mean seconds, statics included."""
+        """Mean delay in seconds, static transforms included."""
         return sum(self._tf2_delays) / len(self._tf2_delays) if self._tf2_delays else 0.0
 
     @property
     def tf2_maximum_delay(self) -> float:
-        """Most seconds, never below zero."""
+        """Greatest delay in seconds, never below zero."""
         return self._tf2_maximum
 
     def _span(self) -> float:
@@ -115,7 +117,7 @@ class Series:
 
 
 class FrameTraffic:
-    """A frame as its messages show it.
+    """Traffic of one frame.
 
     Attributes:
         frame: Its name.
@@ -134,7 +136,7 @@ class FrameTraffic:
 
 
 class Traffic:
-    """Every message that came, by frame and by sender.
+    """Traffic of all received transforms, by frame and by publisher.
 
     Attributes:
         links: By frame, in the order of arrival.
@@ -146,7 +148,7 @@ class Traffic:
         self.senders: dict[str, Series] = {}
 
     def link(self, frame: str) -> FrameTraffic:
-        """Return the counts of a frame; empty ones where it is new."""
+        """Return the traffic of a frame, created if it is new."""
         return self.links.setdefault(frame, FrameTraffic(frame))
 
     def receive(
@@ -157,7 +159,7 @@ class Traffic:
         *,
         is_static: bool = False,
     ) -> None:
-        """Note one message of one sender."""
+        """Record one message of one publisher."""
         delays = []
         for sample in transforms:
             delay = as_seconds(now - sample.stamp)
@@ -173,7 +175,7 @@ class Traffic:
 
 
 class NetDelay:
-    """Age of the latest answer to one question that is asked repeatedly."""
+    """Age of the newest answer to one repeated lookup."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -182,7 +184,7 @@ class NetDelay:
         self._sum = 0.0
 
     def add(self, delay: float) -> None:
-        """Note how many seconds old an answer was."""
+        """Record the age of an answer in seconds."""
         self.count += 1
         self._sum += delay
         self.maximum = max(self.maximum, delay)
@@ -190,5 +192,5 @@ class NetDelay:
 
     @property
     def average(self) -> float | None:
-        """Mean of all answers, seconds; None before the first."""
+        """Mean age of all answers, seconds; None before the first."""
         return self._sum / self.count if self.count else None

@@ -1,4 +1,4 @@
-"""Velocity of one frame seen from another: tf2's formula, and the plain twist beside it."""
+"""Velocity of one frame relative to another: tf2's formula, and the plain twist."""
 
 import math
 from dataclasses import dataclass
@@ -42,7 +42,7 @@ def full(
     time: Stamp,
     interval: Duration,
 ) -> Velocity:
-    """tf2's `lookup_velocity_full`, its formula to the letter, faults included.
+    """Return tf2's `lookup_velocity_full`, including its known errors.
 
     What it gives is a spatial twist where the reference does not turn against the tracked
     frame; where it does, tf2 turns the vectors by the wrong rotation, and it shifts to
@@ -74,7 +74,7 @@ def full(
 def twist(
     buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
 ) -> Velocity:
-    """Return the velocity of the origin of `tracking` and its turn rate, given in `observation`.
+    """Return linear and angular velocity of `tracking`'s origin, expressed in `observation`.
 
     The mean over `interval` around `time`, or over what part of it the buffer holds.
 
@@ -97,7 +97,7 @@ def twist(
 
 
 def _difference(first: Transform, last: Transform, duration: float) -> tuple[Vector3, Vector3]:
-    """The mean velocities between two poses, in the frame they are given in."""
+    """Return the mean velocities between two poses, in the frame of the poses."""
     if duration == 0.0:
         unknown = Vector3(math.nan, math.nan, math.nan)
         return unknown, unknown

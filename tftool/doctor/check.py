@@ -1,4 +1,4 @@
-"""One check: its id, severity, thresholds, texts and links, beside the function that runs it.
+"""A check of the doctor: id, severity, thresholds, texts and links, declared with its function.
 
 An id never changes its meaning, and one that is retired is not used again. Texts are
 filled with a finding's facts; see `wording` for how numbers are written.
@@ -32,7 +32,7 @@ NEEDS = {
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One check, and all its texts.
+    """One check with all its texts.
 
     Attributes:
         id: Its name, for ever.
@@ -75,12 +75,12 @@ class Check:
     because_of: tuple[tuple[str, str], ...] = ()
 
     def __call__(self, model: Model, limits: Limits | None = None) -> Iterator[Hit]:
-        """Run it, with its own thresholds unless others are given."""
+        """Run the check, with its own thresholds unless others are given."""
         return self.run(model, self.limits if limits is None else limits)
 
 
 class checks_of:  # noqa: N801 - a decorator
-    """A decorator that makes a check of a function, and keeps those of one area in order.
+    """Make a decorator that declares functions as checks, and keeps those of one area in order.
 
     Attributes:
         checks: All of them, as they are defined.
@@ -91,7 +91,7 @@ class checks_of:  # noqa: N801 - a decorator
         self.checks: list[Check] = []
 
     def __call__(self, id: str, severity: Severity, **texts: Any) -> Callable[[Run], Check]:
-        """Keep the function as a check; `texts` are the other attributes of `Check`."""
+        """Declare a function as a check; `texts` are the other attributes of `Check`."""
 
         def keep(run: Run) -> Check:
             check = Check(id, self._area, severity, _summary(run), run, **texts)
@@ -102,7 +102,7 @@ class checks_of:  # noqa: N801 - a decorator
 
 
 def _summary(run: Run) -> str:
-    """The docstring of a check's function as part of a sentence."""
+    """Return a check's docstring as part of a sentence."""
     text = " ".join((run.__doc__ or "").split()).removesuffix(".")
     # A name keeps its capitals: NaN.
     return text if any(letter.isupper() for letter in text.split()[0][1:]) else _lowered(text)
@@ -113,6 +113,6 @@ def _lowered(text: str) -> str:
 
 
 def threads(*threads: str) -> tuple[str, ...]:
-    """Addresses of threads, each written owner/repository#number."""
+    """Return the addresses of threads written as owner/repository#number."""
     pairs = (thread.split("#") for thread in threads)
     return tuple(f"https://github.com/{repository}/issues/{number}" for repository, number in pairs)

@@ -95,7 +95,7 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _placed(model: Model) -> list[Heard]:
-    """Messages that have a place, and joint states, which become transforms.
+    """Return messages with a position, and joint states, which become transforms.
 
     Messages without one, as diagnostics and logs, are looked up nowhere.
     """
@@ -194,7 +194,7 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_design(track: Track, ahead: int) -> bool:
-    """Whether a transform is dated ahead as ROS 1 does it: for until the next one comes."""
+    """Whether a transform is dated ahead as in ROS 1: valid until the next one."""
     if ahead <= 1.2 * track.period:
         return True
     return not track.moves and ahead <= CONSTANTS_AHEAD
@@ -401,7 +401,7 @@ def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _groups_apart(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Streams that are all steady, in groups that differ by a constant."""
+    """Group streams that are all steady and differ by a constant offset."""
     steady: list[tuple[int, str]] = []
     streams: list[Track | Heard] = [t for t in model.dynamic if not t.is_localisation]
     streams += [heard for heard in model.heard if heard.is_spatial]
@@ -450,7 +450,7 @@ def _is_one_period(stream: "Track | Heard") -> bool:
 
 
 def _offsets(model: Model) -> list[str]:
-    """Streams by their latency, in steps of 20 ms."""
+    """Group streams by their latency, in steps of 20 ms."""
     grouped: dict[int, list[str]] = defaultdict(list)
     streams: list[Track | Heard] = [*model.dynamic, *model.heard]
     for one in streams:
@@ -518,7 +518,7 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _frozen(track: Track, limits: Limits) -> tuple[int, int, int] | None:
-    """A stamp that came again and again, how often, and for how long."""
+    """Return a repeated stamp, its count, and its duration."""
     if track.is_orderly and limits["times"] > 1:
         return None
     if len(track.steps) == len(track.stamps) - 1 and limits["times"] > 1:
@@ -678,7 +678,7 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
-    """Stamps in the order of arrival, and the newest of the same clock among those before."""
+    """Return stamps in order of arrival, and for each the newest before it on its clock."""
     stamps = np.concatenate([track.stamps for track in tracks])
     if len(tracks) > 1:
         logs = np.concatenate([track.logs for track in tracks])

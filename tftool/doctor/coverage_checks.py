@@ -24,7 +24,7 @@ def _least_gap(track: Track, limits: Limits) -> float:
 
 
 def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
-    """Stamps between which an edge has nothing, although it should."""
+    """Return the gaps between an edge's samples in which samples were expected."""
     # Between a stamp that is years off and the others nothing is missing.
     stamps = track.sorted_stamps
     if track.wild.any():
@@ -103,7 +103,7 @@ _SEEN = re.compile(
 
 
 def _is_detection(model: Model, track: Track) -> bool:
-    """Whether an edge places what a camera sees: a leaf whose name or rate says so."""
+    """Whether an edge is a camera's detection: a leaf with such a name or rate."""
     if len(model.below(track.child)) > 1 or any(h.frame == track.child for h in model.heard):
         return False
     steps = track.steps
@@ -389,7 +389,7 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Waits:
-    """Wait of a listener for a topic's messages to be placed in a frame.
+    """Waiting times until each message of a topic can be placed in a frame.
 
     Attributes:
         waits: Nanoseconds after its arrival, shape (n,); NEVER for what never can be placed.
@@ -403,17 +403,17 @@ class Waits:
 
     @property
     def served(self) -> Stamps:
-        """The waits of those that can be placed at some time."""
+        """Return the waits of the messages that can be placed at some time."""
         served: Stamps = self.waits[self.waits != NEVER]
         return served
 
     def serves(self, percent: float) -> int:
-        """The wait, nanoseconds, that serves `percent` of all requests that are ever served."""
+        """Return the timeout, nanoseconds, that serves `percent` of the messages ever served."""
         return int(np.percentile(self.served, percent, method="higher"))
 
 
 def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Waits | None:
-    """How long each message waits to be placed in a frame; None where no edge on the way moves.
+    """Return each message's wait until it can be placed in a frame; None if the chain is static.
 
     Args:
         model: The frames and their history.
@@ -531,7 +531,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
-    """What serves those that are ever served; nothing where waiting is not the trouble."""
+    """Return the timeout that serves all messages ever served; None if waiting is no cure."""
     worst = int(waits.served.max(initial=0))
     if worst < 10_000_000:
         return ()
@@ -554,12 +554,12 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
 
 
 def rounded_up(nanoseconds: int) -> int:
-    """To the next 10 ms, at which tf2 asks again."""
+    """Round up to the next 10 ms, the interval at which tf2 asks again."""
     return math.ceil(nanoseconds / 10_000_000) * 10_000_000
 
 
 def least_rate(link: str, period: int, later: int, wait: float) -> str:
-    """Say what rate lets a link keep up; nothing where it comes that often already.
+    """Return the rate at which an edge is fast enough; empty if it already is.
 
     Args:
         link: The link that holds up a lookup.

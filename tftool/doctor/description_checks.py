@@ -88,7 +88,7 @@ def joint_without_state(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
-    """The links that have no frame where a joint has no state: below it, and what mimics it."""
+    """Return the links without a frame below a joint without state, mimics included."""
     joints_below: dict[str, list[RobotJoint]] = {}
     followers: dict[str, list[RobotJoint]] = {}
     for other in robot.joints.values():

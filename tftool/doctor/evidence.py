@@ -1,4 +1,4 @@
-"""Everything a diagnosis may look at, made from a recording, a buffer or a session."""
+"""Evidence for a diagnosis, taken from a recording, a buffer or a session."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -42,7 +42,7 @@ Places = npt.NDArray[np.int32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Evidence:
-    """Evidence about the frames: all that a diagnosis may look at.
+    """Evidence about the frames: everything that a diagnosis reads.
 
     Attributes:
         name: What it is called, for people.
@@ -90,7 +90,7 @@ class Evidence:
 
 @dataclass(frozen=True, slots=True)
 class Described:
-    """A robot description that was looked for.
+    """Outcome of the search for a robot description.
 
     Attributes:
         robot: What it describes; None where there is none that can be read.
@@ -104,7 +104,7 @@ class Described:
 
 
 def described_by(path: str | Path) -> Described:
-    """The robot that a URDF or xacro file describes, or its mistakes.
+    """Return the robot of a URDF or xacro file, or its mistakes.
 
     Raises:
         InputError: If the file cannot be read.
@@ -131,7 +131,7 @@ def _recorded_description(source: Source) -> Described:
 
 
 def _mistakes(error: DescriptionError) -> tuple[str, ...]:
-    """Each with its line; the lines themselves are left out."""
+    """Return each mistake with its line number, without the line's text."""
     return tuple(
         f"{mistake.file}:{mistake.line}:{mistake.column}: {mistake.text}"
         for mistake in error.mistakes[: error.MOST]
@@ -139,15 +139,15 @@ def _mistakes(error: DescriptionError) -> tuple[str, ...]:
 
 
 class Moment(Protocol):
-    """A moment as it was asked for."""
+    """A time as the user gave it."""
 
     def stamp(self, epoch: Stamp) -> Stamp:
-        """Return the moment itself, in a source that begins at `epoch`."""
+        """Return the stamp of the time, in a source that begins at `epoch`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """The part of a recording to look at; all of it by default.
+    """Part of a recording to examine; by default all of it.
 
     Attributes:
         described: The robot's description; None for the recorded one, if any.
@@ -163,7 +163,7 @@ class Scope:
 
 
 def evidence_of_recording(recording: "Recording", scope: Scope | None = None) -> Evidence:
-    """Take from a recording what a diagnosis looks at.
+    """Return the evidence in a recording.
 
     Args:
         recording: The recording.
@@ -223,7 +223,7 @@ def _evidence_of_source(
 
 
 def within(evidence: Evidence, begin: Stamp, end: Stamp) -> Evidence:
-    """Return the samples received between two log times, and all statics received before."""
+    """Return the samples received between two log times, and all earlier statics."""
     read_clock, received = evidence.clock
     ticks = (received >= begin) & (received <= end)
     return replace(
@@ -273,7 +273,7 @@ def _cut_headers(headers: Headers, begin: Stamp, end: Stamp) -> Headers:
 
 
 def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
-    """Return a buffer's samples in columns; each counts as arrived at its stamp."""
+    """Return the evidence in a buffer; each sample counts as received at its stamp."""
     parts: dict[tuple[str, str, bool], list[tuple[Records, Places]]] = {}
     logs: list[Stamps] = []
     senders: list[npt.NDArray[np.int32]] = []
@@ -317,7 +317,7 @@ def evidence_of_buffer(buffer: Buffer, name: str = "buffer") -> Evidence:
 
 
 def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
-    """The places of each name among many; quick where there is one."""
+    """Return the rows of each name; fast if there is only one name."""
     if not len(names) or bool((names == names[0]).all()):
         return [np.arange(len(names), dtype=np.int32)] if len(names) else []
     found: dict[str, list[int]] = {}
@@ -330,7 +330,7 @@ def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
 
 
 def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: Stamp) -> Evidence:
-    """Return what a diagnosis looks at, of transforms as they arrived.
+    """Return the evidence in transforms recorded as they arrived.
 
     Args:
         log: What arrived.
@@ -365,7 +365,7 @@ def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: 
 
 
 def evidence_of_frames(frames: Frames, scope: Scope | None = None) -> Evidence:
-    """Take from opened frames what a diagnosis looks at.
+    """Return the evidence in opened frames.
 
     Args:
         frames: The frames of a recording, a scenario, a session or a description.
@@ -386,7 +386,7 @@ def evidence_of_frames(frames: Frames, scope: Scope | None = None) -> Evidence:
 def evidence_of(
     given: "Recording | Buffer | Frames", described: Described | None = None
 ) -> Evidence:
-    """Take from a recording, a buffer or opened frames what a diagnosis looks at.
+    """Return the evidence in a recording, a buffer or opened frames.
 
     Args:
         given: The recording, the buffer or the frames.
@@ -406,7 +406,7 @@ def evidence_of(
 
 
 def _beside(evidence: Evidence, described: Described | None) -> Evidence:
-    """Return evidence with the description that was given."""
+    """Return the evidence with the given robot description."""
     if described is None:
         return evidence
     return replace(evidence, robot=described.robot, mistakes=described.mistakes)

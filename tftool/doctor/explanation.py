@@ -1,4 +1,4 @@
-"""One lookup's exact trace: which link refuses, by how much, and what would let it through.
+"""Exact trace of one lookup: which link fails, by how much, and what would help.
 
 The listener is imagined: at the moment it asks it holds the samples that had arrived, pruned as
 tf2 prunes. What it would be told is asked of a buffer that holds the same; why, and what
@@ -38,7 +38,7 @@ USUAL_WAIT = 0.1
 
 
 class Cause(Enum):
-    """Cause of a refused lookup; WORKS where it is answered."""
+    """Cause of a failed lookup; WORKS if it succeeds."""
 
     LATE = "late"
     CLOCK_OFFSET = "clock-offset"
@@ -58,7 +58,7 @@ class Cause(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Remedy:
-    """Cure that would let the lookup through.
+    """Remedy for a failed lookup.
 
     Attributes:
         kind: "timeout", "rate", "cache", "skip", "name", "join", "publisher", "clock".
@@ -79,7 +79,7 @@ class Remedy:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TraceResult:
-    """Facts in the search for a reason."""
+    """Facts from which the reason is derived."""
 
     trace: LookupTrace
     way: list[Track] | None
@@ -92,7 +92,7 @@ class TraceResult:
 
 @dataclass(frozen=True, slots=True)
 class Reason:
-    """A reason, and what helps."""
+    """A reason and its remedies."""
 
     cause: Cause
     why: tuple[str, ...]
@@ -101,7 +101,7 @@ class Reason:
 
 
 def misnamed(trace: LookupTrace) -> Reason | None:
-    """Return the fault of a name; None where both are known."""
+    """Return the fault of an unknown frame name; None if both names are known."""
     model = trace.model
     for name in (trace.question.target, trace.question.source):
         if name.startswith("/") or not name:
@@ -117,7 +117,7 @@ def misnamed(trace: LookupTrace) -> Reason | None:
 
 
 def _described(model: Model, name: str) -> str | None:
-    """Return why tf lacks a link that the description has; None if it has none of that name."""
+    """Return why tf lacks a link of the description; None if the description has no such link."""
     robot, states = model.evidence.robot, model.evidence.joints
     if robot is None or name not in robot.links or name == robot.root:
         return None
@@ -158,7 +158,7 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
 
 
 def no_join(known: TraceResult) -> Reason:
-    """Return why nothing joins two known frames."""
+    """Return why two known frames are not connected."""
     model, question = known.trace.model, known.trace.question
     ours, theirs = model.tree_of[question.source], model.tree_of[question.target]
     lesser, main = (ours, theirs) if len(ours.frames) <= len(theirs.frames) else (theirs, ours)
@@ -176,7 +176,7 @@ def no_join(known: TraceResult) -> Reason:
 
 
 def works(known: TraceResult) -> Reason:
-    """Return sentences on a lookup that is answered: other reasons for a refusal elsewhere."""
+    """Return notes on a successful lookup: reasons for which it could fail elsewhere."""
     model, question = known.trace.model, known.trace.question
     for frame in (question.source, question.target):
         tree = model.tree_of.get(frame)
@@ -199,7 +199,7 @@ def works(known: TraceResult) -> Reason:
 
 
 def refusing_link(known: TraceResult) -> Reason:
-    """Return why a link on the way refuses; each reason has a function of its own."""
+    """Return why a link of the chain fails; each reason has its own function."""
     trace = known.trace
     if known.refusing is None or known.way is None:
         return Reason(Cause.LATE, ("tf2 refuses, although every link answers",))
@@ -308,7 +308,7 @@ def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Sta
 
 
 def _goes_on(trace: LookupTrace, track: Track) -> bool:
-    """Whether the link goes on until all there is ends, as `edge-stopped` sees it."""
+    """Whether the link continues to the end of the source, by the rule of `edge-stopped`."""
     evidence, limits = trace.model.evidence, edge_stopped.limits
     least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
     ends = evidence.recorded or evidence.kind == "scenario"
@@ -390,7 +390,7 @@ def _waits(trace: LookupTrace, heard: Heard) -> Waits | None:
 
 
 def _timeout(known: TraceResult, heard: Heard | None) -> Remedy:
-    """Return how long to wait, for this question and for the others of its topic."""
+    """Return the timeout needed for this lookup, and for the others of its topic."""
     trace = known.trace
     if known.begin is None:
         text = "a timeout does not help: by the time the one end comes, the other is pruned"
@@ -427,7 +427,7 @@ CHECK_OF = {
 
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """Explanation of a lookup's answer or refusal.
+    """Explanation of a lookup's result or failure.
 
     Attributes:
         target: The frame asked for.
@@ -476,12 +476,12 @@ class Explanation:
 
     @property
     def check(self) -> str | None:
-        """The id of the check that looks for this cause; None where it works."""
+        """Return the id of the check for this cause; None if the lookup works."""
         return CHECK_OF.get(self.cause)
 
 
 def traced(model: Model, question: Question) -> Explanation:
-    """Trace one lookup through what a listener would hold.
+    """Trace one lookup in the buffer that a listener would have.
 
     Args:
         model: The frames and their history.
@@ -537,7 +537,7 @@ def traced(model: Model, question: Question) -> Explanation:
 
 
 def _refusing(trace: LookupTrace, way: Sequence[Track], links: Sequence[TracedLink]) -> int | None:
-    """The number of the link that refuses: of several, one that no wait can help."""
+    """Return the index of the failing link; of several, one for which waiting does not help."""
     refusing = [
         number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS
     ]
@@ -553,7 +553,7 @@ MOMENTS = 1000
 
 
 def over_time(model: Model, question: Question, found: Explanation) -> Explanation:
-    """Add to an explanation for which share of the time the question would have been refused.
+    """Add for which share of the time the lookup would have failed.
 
     Args:
         model: The session as it was heard.
@@ -579,7 +579,7 @@ def over_time(model: Model, question: Question, found: Explanation) -> Explanati
 def _holds(
     way: Sequence[Track], asks: Stamps, question: Question
 ) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
-    """At which of these log times a question is answered."""
+    """Return a mask of the log times at which a lookup succeeds."""
     holds = np.ones(len(asks), dtype=bool)
     newest, oldest = [], []
     for track in way:
@@ -605,7 +605,7 @@ def _holds(
 def _misleading(
     links: tuple[TracedLink, ...], quoted: tuple[str | None, Stamp] | None
 ) -> tuple[str, ...]:
-    """That tf2 quotes a link off the way: above the target it raises what fails first."""
+    """Return a note if tf2 names a link outside the path: it reports the first failure it meets."""
     if quoted is None or not links or quoted[0] in {link.child for link in links}:
         return ()
     frame, stamp = quoted
@@ -625,7 +625,7 @@ def explain(
     cache_time: Duration = CACHE_TIME,
     timeout: Duration = 0,
 ) -> Explanation:
-    """Say why a lookup answers or refuses, link by link.
+    """Explain link by link why a lookup succeeds or fails.
 
     Args:
         recording: A recording, a buffer, or opened frames.

@@ -1,4 +1,4 @@
-"""Findings of the diagnosis of frames: frozen values, for people and for programs."""
+"""Findings of a diagnosis as immutable values, for people and programs."""
 
 import hashlib
 import json
@@ -35,12 +35,12 @@ class Severity(Enum):
 
     @property
     def rank(self) -> int:
-        """0 for the worst."""
+        """Return 0 for the worst severity, more for lesser ones."""
         return list(Severity).index(self)
 
 
 class Confidence(Enum):
-    """Confidence of a finding: a fact, a rule that may err, something to look at."""
+    """Confidence of a finding: certain, likely, or possible."""
 
     CERTAIN = "certain"
     LIKELY = "likely"
@@ -61,7 +61,7 @@ class Area(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """Remedy of a finding.
+    """One remedy of a finding.
 
     Attributes:
         text: A sentence.
@@ -74,7 +74,7 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that is wrong with the frames. Names in it are exactly as they were recorded.
+    """One fault of the frames. Names in it are exactly as recorded.
 
     Attributes:
         id: Which check found it; `tftool doctor --explain ID` tells more.
@@ -118,7 +118,7 @@ class Finding:
 
     @property
     def fingerprint(self) -> str:
-        """Identity over recordings: the check, and the names it is about; no numbers."""
+        """Return the identity of a finding in all recordings: check and names, no numbers."""
         return fingerprint(self.id, self.frames, self.edges, self.topics)
 
     def __repr__(self) -> str:
@@ -129,7 +129,7 @@ class Finding:
 def fingerprint(
     check: str, frames: Iterable[str], edges: Iterable[Iterable[str]], topics: Iterable[str]
 ) -> str:
-    """Return the key that two findings of one check about the same names share."""
+    """Return the key shared by findings of one check about the same names."""
     named = [check, sorted(frames), sorted(list(edge) for edge in edges), sorted(topics)]
     return hashlib.sha256(json.dumps(named).encode()).hexdigest()[:16]
 
@@ -149,7 +149,7 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Hit:
-    """Single observation of a check; `judge` joins alike ones and adds the texts.
+    """One observation of a check; `judge` merges similar ones and adds the texts.
 
     Attributes are those of `Finding`. `facts` also fill the texts of the catalogue.
     """

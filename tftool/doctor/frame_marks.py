@@ -1,4 +1,4 @@
-"""The marks of frames that something is wrong with.
+"""Marks of frames with findings, for screens.
 
 Of a buffer in which nothing can be wrong this is told without numpy and the checks, whose import
 takes as long as all else that shows a tree.
@@ -11,7 +11,7 @@ from tftool.doctor.findings import STOPPED_AFTER
 
 
 def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
-    """The frames of a buffer that something is wrong with, and the ids of the checks.
+    """Return a buffer's frames with findings, and the checks' ids.
 
     A frame is marked `two-parents`, `clock-mixture` or `edge-stopped`.
 
@@ -25,7 +25,7 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
 
 
 def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
-    """Whether no check can hit: one parent each, one clock for all, and no link is late."""
+    """Whether no check can match: one parent each, one clock, and no delayed link."""
     moving = [info for info in snapshot.frames if info.samples and not info.is_static]
     if not moving:
         return True
@@ -37,7 +37,7 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
 
 
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
-    """Look for the marks of a buffer in which something may be wrong.
+    """Return the marks of a buffer that may contain faults.
 
     A frame is marked `edge-stopped` where its newest sample is further behind the newest of
     all, on the same clock, than ten of its periods and a second.

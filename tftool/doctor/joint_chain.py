@@ -1,4 +1,4 @@
-"""The way between two links of a robot description: its joints, and what a lookup lacks.
+"""Joints between two links of a robot description, and what a lookup between them lacks.
 
 A description publishes nothing and holds at all times; what a lookup in it lacks is a name, or the
 position of a joint that nothing but a publisher can tell.
@@ -19,7 +19,7 @@ from tftool.robots.robot_model import Robot
 
 @dataclass(frozen=True, slots=True)
 class ChainLink:
-    """One joint between the two links.
+    """One joint between two links.
 
     Attributes:
         joint: The joint.
@@ -62,14 +62,14 @@ class ChainExplanation:
 
     @property
     def available(self) -> bool:
-        """Whether it answers."""
+        """Whether a lookup would succeed."""
         return not self.exception
 
 
 def chained(
     robot: Robot, given: Mapping[str, float], target: str, source: str, name: str
 ) -> ChainExplanation:
-    """Follow the joints from one link of a description to another.
+    """Return the joints between two links of a description, with their states.
 
     Args:
         robot: The description.
@@ -100,7 +100,7 @@ def chained(
 
 
 def _way(robot: Robot, target: str, source: str) -> list[RobotJoint]:
-    """The joints from source to target; a description has one root, so they always meet."""
+    """Return the joints from source to target; a description has one root, so there is a path."""
     joints = {joint.child: joint for joint in robot.joints.values()}
     legs = up_to_join(source, target, lambda link: climbed(link, joints.get))
     ups, downs = legs or ([], [])

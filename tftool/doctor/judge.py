@@ -1,4 +1,4 @@
-"""Evidence to findings: every check is run, consequences are put under their causes."""
+"""Runs every check on the evidence, and groups consequences under their causes."""
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -56,12 +56,12 @@ class Diagnosis:
     model: Model
 
     def count(self, severity: Severity) -> int:
-        """Return the number of findings of a severity, consequences left out."""
+        """Return the number of findings of a severity, without consequences."""
         return sum(f.severity is severity and f.because_of is None for f in self.findings)
 
     @property
     def worst(self) -> Severity | None:
-        """The worst severity of new findings that are no consequence; None if there are none."""
+        """Return the worst severity of new findings without consequences; None if none."""
         found = [f.severity for f in self.findings if f.because_of is None and not f.known]
         return min(found, key=lambda severity: severity.rank, default=None)
 
@@ -131,7 +131,7 @@ def _has(evidence: Evidence, need: str) -> bool:
 
 
 def _named(words: Sequence[str]) -> list[str]:
-    """The ids that ids and areas stand for."""
+    """Return the ids named by ids and areas."""
     areas = {area.value.replace(" ", "-"): area for area in Area}
     found: list[str] = []
     for word in words:
@@ -146,7 +146,7 @@ def _named(words: Sequence[str]) -> list[str]:
 
 
 def unknown(word: str, known: Sequence[str], what: str) -> str:
-    """Return why a word is refused, with the one that was probably meant."""
+    """Return the error for an unknown word, with the nearest known one."""
     near = near_names(word, known)
     hint = f"did you mean {near[0]}?" if near else "'tftool doctor --list' shows all."
     return f"There is no {what} '{word}': {hint}"
@@ -157,7 +157,7 @@ def _limits(check: Check, settings: Settings) -> Limits:
 
 
 def refuse_unknown(settings: Settings, select: Sequence[str], ignore: Sequence[str]) -> None:
-    """Refuse checks, areas and thresholds that there are not.
+    """Refuse unknown checks, areas and thresholds.
 
     Raises:
         UsageError: If there is one.
@@ -215,7 +215,7 @@ def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tu
 def _cause_of(
     number: int, hits: list[tuple[Check, Hit]], of_check: Mapping[str, Sequence[int]]
 ) -> str | None:
-    """Return the id of the finding that explains a hit: the first that is not explained itself.
+    """Return the id of the finding that explains a hit: the first that is itself unexplained.
 
     Args:
         number: The hit's.
@@ -264,7 +264,7 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
 
 
 def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
-    """One finding of the hits of one check that are alike."""
+    """Merge similar hits of one check into a finding."""
     first = hits[0]
     concerned = _concerned(hits)
     facts = {
@@ -303,7 +303,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
 
 
 def _concerned(hits: list[Hit]) -> list[str]:
-    """The names concerned, for a headline: edges, else topics, else frames."""
+    """Return the names for a headline: edges, else topics, else frames."""
     edges = dict.fromkeys(f"{child} in {parent}" for hit in hits for parent, child in hit.edges)
     topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
     frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)
@@ -318,7 +318,7 @@ def diagnose(
     cache_time: Duration = CACHE_TIME,
     urdf: str | Path | None = None,
 ) -> list[Finding]:
-    """Report the mistake with the frames.
+    """Return a report about the mistake that kept the frames from being read.
 
     A buffer keeps neither log times nor messages: what needs them is not looked for.
 

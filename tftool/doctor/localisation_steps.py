@@ -1,4 +1,4 @@
-"""Steps of a chain of frames: jumps that its own motion before and after does not explain."""
+"""Jumps of a chain of frames that its own motion before and after does not explain."""
 
 from dataclasses import dataclass
 
@@ -34,7 +34,7 @@ FEWEST = 6
 
 @dataclass(frozen=True, slots=True)
 class LocalisationStep:
-    """Step of one edge.
+    """One jump of one edge.
 
     Attributes:
         edge: Its parent and child.
@@ -56,7 +56,7 @@ class LocalisationStep:
 
 
 def steps_of(model: Model, target: str = "", source: str = "") -> tuple[LocalisationStep, ...]:
-    """Find the steps of every moving edge between two frames, in the order of their stamps.
+    """Find the jumps of every moving edge between two frames, in the order of their stamps.
 
     Args:
         model: Knowledge of the frames.
@@ -72,7 +72,7 @@ def steps_of(model: Model, target: str = "", source: str = "") -> tuple[Localisa
 
 
 def _chain(model: Model, target: str, source: str) -> list[Track]:
-    """The moving edges that are looked at."""
+    """Return the moving edges of the chain."""
     localisation = [track for track in model.dynamic if track.is_localisation]
     if not target and not source and localisation:
         return localisation
@@ -124,7 +124,7 @@ def _steps(track: Track) -> list[LocalisationStep]:
 
 
 def _unexplained(changes: Floats, gaps: Floats) -> Floats:
-    """Return the length of each change beyond the velocity of its two neighbours on either side.
+    """Return the length of each change, minus the motion predicted from its neighbours.
 
     The median of the four is taken, so that a step among them does not count.
 

@@ -46,7 +46,7 @@ def page(found: Calibration, a: TransformArray, b: TransformArray) -> str:
 
 
 def _aligned(found: Calibration, a: BodyMotion, b: BodyMotion) -> list[str]:
-    """Draw what a fit is judged by: A · X against Y · B, pose by pose."""
+    """Draw the two aligned trajectories, A · X and Y · B, whose difference the fit minimises."""
     assert found.mount is not None
     assert found.fixed_mount is not None
     assert found.clock_offset is not None

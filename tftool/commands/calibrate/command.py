@@ -126,7 +126,7 @@ Chain = tuple[Frames, str]
 
 
 def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
-    """Assign the words of --moving to the opened files.
+    """Assign the values of --moving to the opened files.
 
     Raises:
         UsageError: If there are too few, or the chains share the mount.
@@ -261,7 +261,7 @@ LEAST_DIFFERENCE: Final = (0.001, 0.1)
 def _compared(
     found: Calibration, published: _Published
 ) -> tuple[list[str], dict[str, object] | None]:
-    """Hold the published mount against the motion.
+    """Compare the published mount with the estimated one.
 
     Raises:
         UsageError: If none is published.

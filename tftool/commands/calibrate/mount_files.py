@@ -1,4 +1,4 @@
-"""A mount into a file: one origin of a description, or a publisher of a static transform."""
+"""Writing a mount: as one origin of a description, or as a static transform publisher."""
 
 from pathlib import Path
 from typing import Final, Protocol
@@ -24,7 +24,7 @@ class PublishedMount(Protocol):
 
     @property
     def name(self) -> str:
-        """The mounted frame."""
+        """Name of the mounted frame."""
 
     @property
     def parent(self) -> str:
@@ -32,7 +32,7 @@ class PublishedMount(Protocol):
 
     @property
     def robot(self) -> Robot | None:
-        """The description; None without one."""
+        """Robot description; None without one."""
 
     @property
     def buffer(self) -> Buffer:
@@ -95,7 +95,7 @@ def _publish(output: Path, buffer: Buffer) -> None:
 
 
 def _joint(published: PublishedMount, name: str | None) -> RobotJoint | None:
-    """Return the joint to change; None where no description has one.
+    """Return the joint to change; None if the description has none.
 
     Raises:
         UsageError: If there is none of that name, or it is not on the way.
@@ -125,7 +125,7 @@ def _joint(published: PublishedMount, name: str | None) -> RobotJoint | None:
 
 
 def with_origin(text: bytes, joint: str, origin: str) -> bytes:
-    """Return a description with another origin of one joint, and every other byte as it was.
+    """Return a description with a new origin of one joint and no other byte changed.
 
     Raises:
         InputError: If the text is no XML, or has no such joint.

@@ -37,7 +37,7 @@ SUFFIXES = (".yaml", ".yml")
 
 
 def _unfolded(word: str) -> list[str]:
-    """The files that a glob or a folder of scenarios stands for: not every shell unfolds globs."""
+    """Return the scenarios of a glob or folder; not every shell expands globs."""
     files: list[str] = []
     if builtin.path_of(word) is None:
         if os.path.isdir(word):
@@ -52,7 +52,7 @@ def _unfolded(word: str) -> list[str]:
 def _judge(
     word: str, judge: Callable[..., Verdict], kept: "_Kept | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
-    """Report on one scenario, and whether it could be read; what could not is told at once."""
+    """Judge one scenario and print the outcome; return its report, or None if it is unreadable."""
     try:
         scenario = scenario_named(word)
     except InputError as error:
@@ -76,7 +76,7 @@ def _judge(
 
 
 class _Heard:
-    """Transforms of one play, for the doctor to look at if something did not hold."""
+    """Transforms recorded during one run, which the doctor reads if an expectation failed."""
 
     def __init__(self) -> None:
         self._log: TransformLog | None = None
@@ -84,7 +84,7 @@ class _Heard:
 
     @contextmanager
     def watching(self, world: World) -> Iterator[None]:
-        """Listen to a world as long as it lives."""
+        """Record a world's transforms until it ends."""
         self._log, stops = heard_in(world)
         self._span = (world.clock.now(), world.clock.now)
         try:
@@ -94,7 +94,7 @@ class _Heard:
                 stop()
 
     def findings(self, scenario: Scenario) -> tuple[str, ...]:
-        """Return what the doctor finds, notes left out: a sentence each, and its first remedy."""
+        """Return the doctor's findings without notes: a sentence each, with its first remedy."""
         # The checks take as long to import as most scenarios to play.
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
@@ -115,14 +115,14 @@ class _Heard:
 
 
 class _Kept:
-    """The folder in which recordings of one run are kept, each under a name of its own."""
+    """Folder for the recordings of one run, each under its own name."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._names: set[str] = set()
 
     def place(self, name: str) -> Path:
-        """Return the path for a scenario's recording: by its name, numbered where that is taken."""
+        """Return the path for a scenario's recording: its name, numbered if already used."""
         plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
         number = 1
         while free in self._names:
@@ -135,7 +135,7 @@ class _Kept:
 def _recorded(
     scenario: Scenario, judge: Callable[..., Verdict], kept: Path, heard: _Heard
 ) -> Verdict:
-    """Judge a scenario; its recording stays if something did not hold."""
+    """Judge a scenario, and keep its recording if an expectation failed."""
     try:
         kept.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -164,7 +164,7 @@ def _recorded(
 
 
 def _strictly(report: Report) -> Report:
-    """Return a report that fails by its warnings."""
+    """Return a report in which warnings count as failures."""
     if not report.warnings or not report.ok:
         return report
     return replace(report, failure="\n".join(("warnings fail (--strict):", *report.warnings)))

@@ -1,4 +1,4 @@
-"""Packages of the user's, judged by whether ROS 2 would find their parts once they are built."""
+"""Check whether ROS 2 would find all parts of a user's package after a build."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +11,7 @@ from tftool.ros.host.workspace import Workspace, missing_package
 
 
 def judge_packages(names: Sequence[str]) -> list[Report]:
-    """Report on packages by their names, or by their folders.
+    """Check packages given by name or folder, and return the report.
 
     Raises:
         UsageError: If there is no such package.

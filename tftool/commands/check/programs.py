@@ -1,4 +1,4 @@
-"""Programs of the user's that a scenario is judged with, in the place of its own nodes."""
+"""A user's programs that replace nodes of a scenario while it is judged."""
 
 import re
 import shlex
@@ -23,7 +23,7 @@ _IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
 def judge_with(
     programs: Sequence[str], launched: str | None, *, force: bool, verbose: bool
 ) -> Iterator[Callable[..., Verdict]]:
-    """Give a function that plays and judges a scenario with the user's programs.
+    """Return a function that judges a scenario with the user's programs.
 
     Args:
         programs: "FILE", or "NODE=FILE" to run it in the place of one of the scenario's nodes.
@@ -60,7 +60,7 @@ def judge_with(
 
 
 def _entrant(text: str) -> Entrant:
-    """Read [NODE=]WORDS."""
+    """Parse [NODE=]WORDS."""
     match = _IN_PLACE.fullmatch(text)
     node, rest = (match[1], match[2]) if match else ("", text)
     return Entrant(_words("--run", rest), node)

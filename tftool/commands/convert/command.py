@@ -13,7 +13,7 @@ from tftool.geometry.notation.rotations import LONGEST, read
 
 
 def _text(words: list[str] | None) -> str:
-    """Return the text on the command line, else that on stdin."""
+    """Return the text from the command line, else from stdin."""
     if words and words != ["-"]:
         return " ".join(words)
     if not words and sys.stdin.isatty():

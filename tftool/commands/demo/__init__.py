@@ -1,4 +1,4 @@
-"""`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
+"""`tftool demo`: a scenario on the screen; without a terminal it is played and summarised."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

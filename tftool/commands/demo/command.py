@@ -1,4 +1,4 @@
-"""`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
+"""`tftool demo`: a scenario on the screen; without a terminal it is played and summarised."""
 
 import asyncio
 import json
@@ -47,7 +47,7 @@ from tftool.world.world import World
 
 @dataclass(frozen=True, slots=True)
 class _Showing:
-    """Puts scenarios on the terminal, one after the other, as the options say."""
+    """Shows scenarios in the terminal one after the other, with the options of the command."""
 
     connection: Connection
     rate: float
@@ -58,7 +58,7 @@ class _Showing:
     light: bool
 
     def scenario(self, chosen: Scenario, wanted: str | None) -> str | None:
-        """Show one, or the session that runs; give what the user chose to see instead.
+        """Show a scenario or the running session; return the scenario the user chose next, if any.
 
         Args:
             chosen: The scenario.
@@ -75,11 +75,11 @@ class _Showing:
         return self._joined(found.session)
 
     def _until(self, world: World) -> Stamp | None:
-        """Return when it ends, counted from now: the screen takes a while to come up."""
+        """Return the end time, counted from now because the screen takes time to start."""
         return None if self.lasting is None else world.clock.now() + self.lasting
 
     def _joined(self, session: Session) -> str | None:
-        """Show the session that runs."""
+        """Show the running session."""
         world, live = session.world, session.live
 
         async def life() -> None:
@@ -91,7 +91,7 @@ class _Showing:
         return run_app(scene_of(world), life(), driver, setting)
 
     def _hosted(self, chosen: Scenario, found: JoinDecision) -> str | None:
-        """Show a scenario in a world of its own, which others can join."""
+        """Show a scenario in a new world that other processes can join."""
         recording = self.recording
         around: Watch = nullcontext
         if recording is not None:
@@ -136,7 +136,7 @@ def _list(*, for_programs: bool) -> None:
 
 
 def _show_recording(connection: Connection, word: str, *, ascii_only: bool, light: bool) -> None:
-    """Show a recording at rest, from its beginning on."""
+    """Show a recording, paused at its beginning."""
     if lacking := screen_lacks():
         raise UsageError(
             f"The demo's screen needs a terminal, and {lacking}: 'tftool tree {visible(word)}' "
@@ -155,7 +155,7 @@ def _show_recording(connection: Connection, word: str, *, ascii_only: bool, ligh
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:
-    """Read NAME=VALUE words.
+    """Parse NAME=VALUE words.
 
     Raises:
         UsageError: If one is something else, or a name comes twice.

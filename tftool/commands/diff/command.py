@@ -126,7 +126,7 @@ def _measure_clocks(
 
 
 def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
-    """Open what a word names, as one side.
+    """Open one side's FROM.
 
     Raises:
         InputError: If it names nothing, or cannot be read.
@@ -141,7 +141,7 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
 
 
 def pairs_of_sides(words: list[str]) -> tuple[Pair | None, Pair | None]:
-    """Return the pairs of A and of B that --pair names; None for the only chain.
+    """Return the pairs of A and of B named by --pair; without it, the only chain of each.
 
     Raises:
         UsageError: If there are more than two, or a word is no pair.
@@ -186,7 +186,7 @@ class ErrorOptions:
         output: Path | None,
         force: bool,
     ) -> "ErrorOptions | None":
-        """Check the options; None where neither --ape nor --rpe is given.
+        """Check the options; return None if neither --ape nor --rpe is given.
 
         Raises:
             UsageError: If one is given that they do not use, or is no such value.
@@ -208,7 +208,7 @@ class ErrorOptions:
         )
 
     def measure(self, first: Side, second: Side, *, for_programs: bool) -> None:
-        """Measure the errors, print them, and draw them if that is asked for."""
+        """Measure the errors, print them, and draw them on request."""
         found = trajectory_errors(
             first.buffer,
             second.buffer,

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class FailOn(StrEnum):
-    """From which severity on the exit status is 1."""
+    """Severity from which the exit status is 1."""
 
     error = "error"
     warning = "warning"

@@ -1,4 +1,4 @@
-"""Baseline of the doctor: findings of an earlier report, which no longer fail."""
+"""Baseline of the doctor: findings of an earlier report, which no longer count as failures."""
 
 import json
 from collections.abc import Mapping
@@ -24,7 +24,7 @@ class Baseline:
 
     @classmethod
     def read(cls, path: Path) -> "Baseline":
-        """Read what `tftool doctor --json` printed, of one source or several.
+        """Read the output of `tftool doctor --json` for one source or several.
 
         Raises:
             InputError: If the file cannot be read, or is no such report.
@@ -48,7 +48,9 @@ class Baseline:
             raise _no_report(path, "is no report of the doctor") from error
 
     def marked(self, source: str, diagnosis: Diagnosis) -> Diagnosis:
-        """Mark the findings that the report has, of this source or, where it lacks it, of any."""
+        """Mark the findings in the baseline, by this source or, if it is missing there, by any
+        source.
+        """
         known = self.known.get(source)
         if known is None:
             known = frozenset[str]().union(*self.known.values())
@@ -57,7 +59,7 @@ class Baseline:
 
 
 def _identity(row: Mapping[str, Any]) -> str:
-    """Return a finding's fingerprint; reports before it was there have the names it is made of."""
+    """Return a finding's fingerprint; for older reports it is computed from the finding's names."""
     given = row.get("fingerprint")
     if isinstance(given, str):
         return given

@@ -37,7 +37,7 @@ Judged: TypeAlias = list[tuple[str, Diagnosis | str]]
 
 @dataclass(frozen=True, slots=True)
 class DoctorReport:
-    """Form in which findings are reported.
+    """Output format of the report.
 
     Attributes:
         for_programs: As JSON.
@@ -59,7 +59,7 @@ class DoctorReport:
 
 @dataclass(frozen=True, slots=True)
 class CheckSelection:
-    """Checks that run, and their thresholds.
+    """Checks to run, and their thresholds.
 
     Attributes:
         select: These checks or areas alone; all where empty.
@@ -100,7 +100,7 @@ class CheckSelection:
 
 @dataclass(frozen=True, slots=True)
 class RowOptions:
-    """Options for many recordings as rows of a file.
+    """Options for writing findings of many recordings as rows of a file.
 
     Attributes:
         output: The file; None to report instead.
@@ -185,7 +185,7 @@ def run(
 
 
 def _show_checks(name: str, *, markdown: bool) -> ExitStatus:
-    """Print all about one check, or the list of all of them where none is named.
+    """Print one check in full, or the list of all checks.
 
     Raises:
         UsageError: If there is no such check.
@@ -232,7 +232,7 @@ def _show_steps(
 
 
 def _refuse_contradictions(report: DoctorReport, rows: RowOptions) -> None:
-    """Refuse options that do not go together.
+    """Refuse contradicting options.
 
     Raises:
         UsageError: If two were given.
@@ -267,7 +267,7 @@ def _refuse_contradictions(report: DoctorReport, rows: RowOptions) -> None:
 
 
 def _words(options: Sequence[str]) -> list[str]:
-    """Split what an option with commas was given, each time it was."""
+    """Split an option's comma-separated values over all its uses."""
     return [word.strip() for one in options for word in one.split(",") if word.strip()]
 
 
@@ -280,7 +280,7 @@ def _sweep(
     scope: Scope,
     fails: Severity | None,
 ) -> ExitStatus:
-    """Write a row for each recording; return the worst of them."""
+    """Write rows for each recording; return the worst exit status."""
     from tftool.commands.fleet import fleet, fleet_tasks
     from tftool.commands.fleet.workers import workers_of
 
@@ -305,7 +305,7 @@ def _diagnosed(
     *,
     mounts: bool,
 ) -> Judged:
-    """Diagnose each source; of several, one that is unreadable stops none."""
+    """Yield the diagnosis of each source; an unreadable one does not stop the others."""
     sources: list[str | None] = [*expanded(places)] if places else [None]
     judged: Judged = []
     before: list[MeasuredMount] = []
@@ -337,7 +337,7 @@ def _diagnosed(
 
 
 def _print(judged: Judged, report: DoctorReport) -> None:
-    """Print every diagnosis; for a person, of several sources, what differs at the end."""
+    """Print every diagnosis; for several sources in text form, also a comparison at the end."""
     diagnoses = [found for _, found in judged if not isinstance(found, str)]
     if report.for_programs:
         objects = [view.as_object(one) for one in diagnoses]
@@ -359,7 +359,7 @@ def _print(judged: Judged, report: DoctorReport) -> None:
 
 
 def _status(judged: Judged, fails: Severity | None) -> ExitStatus:
-    """Return the worst of all sources."""
+    """Return the worst exit status of all sources."""
     if any(isinstance(found, str) for _, found in judged):
         return ExitStatus.UNREADABLE
     worst = [found.worst for _, found in judged if not isinstance(found, str)]

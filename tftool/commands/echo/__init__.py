@@ -1,4 +1,4 @@
-"""`tftool echo`: one transform, again and again, as tf2_echo prints it."""
+"""`tftool echo`: one transform, printed repeatedly as tf2_echo does."""
 
 from typing import TYPE_CHECKING, Annotated
 

@@ -1,4 +1,4 @@
-"""Answer `tftool echo`: of a file at once, of a session as it goes on."""
+"""`tftool echo`: one answer from a file, repeated answers from a session."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -84,7 +84,7 @@ def _refuse_contradictions(
     offset: Duration | None,
     fixed_frame: str | None,
 ) -> None:
-    """Refuse options that do not go together.
+    """Refuse contradicting options.
 
     Raises:
         UsageError: If two were given.
@@ -114,7 +114,7 @@ def _print_moment(
     at: At | None,
     cache_time: Duration | None,
 ) -> None:
-    """Print one answer, out of frames that are all there."""
+    """Print one answer from complete frames."""
     frames = open_from(connection, place, until=at, cache_time=cache_time)
     heading = in_words(pair.target, pair.source)
     if at is not None:
@@ -136,7 +136,7 @@ def _print_moment(
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
-    """Take tf2_echo's third word, its rate, where it can be nothing else."""
+    """Read a third word as tf2_echo's rate if it can be nothing else."""
     if place is None:
         return place, rate
     try:

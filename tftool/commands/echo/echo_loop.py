@@ -1,4 +1,4 @@
-"""One pair of frames, asked again and again, and its answers on stdout as tf2_echo prints them."""
+"""Repeated lookups of one pair, printed to stdout as tf2_echo prints them."""
 
 import asyncio
 import contextlib
@@ -33,7 +33,7 @@ def print_live(
     patience: Duration | None,
     cache_time: Duration | None,
 ) -> None:
-    """Ask a session again and again, and print each answer, or draw it in place of the last."""
+    """Look up a pair of a session repeatedly; print each answer, or replace the last one."""
     session = open_session(connection, place, cache_time=cache_time)
     redraws = count is None and not printer.for_programs and can_redraw()
     if not redraws:
@@ -58,12 +58,12 @@ def print_live(
 
 
 class LivePrinter:
-    """Printer for answers that each replace the one before."""
+    """Printer that replaces the previous answer on the terminal."""
 
     def __init__(
         self, redrawing: Redrawing, pair: FramePair, precision: int, with_distance: bool
     ) -> None:
-        """Prepare to show answers about `pair`."""
+        """Make a printer for answers about `pair`."""
         self.redrawing = redrawing
         self.pair = pair
         self.precision = precision
@@ -71,7 +71,7 @@ class LivePrinter:
         self._shown: TransformStamped | None = None
 
     def found(self, now: Stamp, found: TransformStamped) -> None:
-        """Show an answer and how old it is."""
+        """Show an answer and its age."""
         self._shown = found
         age = now - found.stamp if found.stamp else None
         heading = view.live_heading(self.pair.target, self.pair.source, age)
@@ -80,12 +80,12 @@ class LivePrinter:
         self.redrawing.show(heading.append_text(answer))
 
     def aged(self, now: Stamp) -> None:
-        """Show the answer that stands there again, with the age it has by now."""
+        """Show the last answer again with its present age."""
         if self._shown is not None:
             self.found(now, self._shown)
 
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
-        """Show a refusal, as much of it as there is room for."""
+        """Show an error, as far as there is room."""
         self._shown = None
         from rich.text import Text
 
@@ -96,7 +96,7 @@ class LivePrinter:
 
 
 class Echo:
-    """One pair of frames, looked up in one world until enough answers are printed."""
+    """Lookups of one pair in one world until enough answers are printed."""
 
     def __init__(
         self,
@@ -164,7 +164,7 @@ class Echo:
             due = max(due, pace.now() - self.period)
 
     async def _renewed(self) -> None:
-        """Wait for something new after a sender left; the shown answer grows old meanwhile.
+        """Wait for new data after a publisher left, while the age of the shown answer grows.
 
         Raises:
             TransformException: If it does not come in time, or never will.

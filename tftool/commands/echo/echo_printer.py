@@ -37,14 +37,14 @@ class Printer:
             )
 
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
-        """Print a refusal."""
+        """Print an error."""
         if self.for_programs:
             self._line(view.failure_as_object(now, refusal))
         else:
             self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
 
     def aged(self, now: Stamp) -> None:
-        """Leave the printed answers as they are."""
+        """Do nothing: printed answers stay."""
 
     def _line(self, what: object) -> None:
         self._write(json.dumps(what, allow_nan=False) + "\n")

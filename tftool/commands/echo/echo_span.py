@@ -1,4 +1,4 @@
-"""One pair of frames over the whole span of a recording, printed moment by moment."""
+"""One pair over the whole span of a recording, printed at many times."""
 
 import numpy as np
 
@@ -20,7 +20,7 @@ def print_span(
     topic: str | None,
     most: int | None,
 ) -> None:
-    """Print a pair at many moments; say on stderr at how many there is no answer.
+    """Print a pair at many times; report on stderr at how many there is no answer.
 
     Args:
         frames: The recording.

@@ -1,4 +1,4 @@
-"""`tftool edit`: surgery on the frames of recordings; repairs, joins, cuts."""
+"""`tftool edit`: change the frames of recordings; repair, join and cut."""
 
 from pathlib import Path
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""`tftool edit`: surgery on the frames of recordings; repairs, joins, cuts."""
+"""`tftool edit`: change the frames of recordings; repair, join and cut."""
 
 import json
 import math
@@ -50,7 +50,7 @@ def _tell(report: EditReport, output: Path, *, dry_run: bool, for_programs: bool
 def _moments(
     names: list[str], start: At | None, end: At | None, *, by_record_time: bool
 ) -> tuple[int | None, int | None]:
-    """First and last moment, as stamps."""
+    """Return the first and last time as stamps."""
     if start is None and end is None:
         if by_record_time:
             raise UsageError("--record-time goes with --from or --to.")
@@ -97,7 +97,7 @@ def _prefix(text: str) -> str:
 
 
 def _frame(option: str, text: str) -> str:
-    """A name, or the beginning of one, as tf2 keeps it: without the slash in front."""
+    """Return a frame name or prefix as tf2 stores it: without a leading slash."""
     name = stripped(text)
     if not name.strip():
         raise UsageError(f"{option}: '{text}' is empty, and tf2 has no frame without a name.")
@@ -145,7 +145,9 @@ def _reparented(text: str) -> "tuple[LinkName, str]":
 
 
 def _statics(name: str) -> "tuple[TransformStamped, ...]":
-    """The statics of another recording, the last of each child; or the fixed joints of a robot."""
+    """Return another recording's static transforms, the last of each child, or a robot's fixed
+    joints.
+    """
     found = find(name)
     samples: dict[str, TransformStamped] = {}
     if found.kind is Kind.DESCRIPTION:

@@ -1,4 +1,4 @@
-"""`tftool explain`: why one lookup answers or refuses, link by link."""
+"""`tftool explain`: why one lookup succeeds or fails, link by link."""
 
 from typing import TYPE_CHECKING, Annotated
 

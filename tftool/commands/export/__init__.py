@@ -1,4 +1,4 @@
-"""`tftool export`: frames to the files of other tools."""
+"""`tftool export`: write frames to files of other tools."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

@@ -121,7 +121,7 @@ def _refuse_misfits(
 
 
 def _as_object(done: Exported) -> dict[str, object]:
-    """Return the written files and the omitted moments for programs."""
+    """Return the written files and the times without an answer, for --json."""
     return {
         "schema": "tftool.export/1",
         "files": [str(path) for path in done.paths],
@@ -142,7 +142,7 @@ def _as_object(done: Exported) -> dict[str, object]:
 
 
 def _tell(done: Exported) -> None:
-    """Report on stderr the written and the omitted rows."""
+    """Report on stderr how many rows were written and omitted."""
     for one in done.trajectories:
         if one.refused:
             reason = one.refusals[0].reason.strip()

@@ -1,4 +1,4 @@
-"""A cluster of Dask workers as an executor; the one file that imports it."""
+"""Dask cluster as an executor; the only file that imports Dask."""
 
 import logging
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ ANSWERS_WITHIN = "20s"
 
 @contextmanager
 def connected(address: str) -> Iterator[Executor]:
-    """Connect with the scheduler of a cluster.
+    """Connect to the scheduler of a cluster.
 
     A worker that ends is no trouble: its work is given to another one.
 

@@ -1,4 +1,4 @@
-"""Many recordings, worked on by one process, by several, or by a cluster: rows of facts.
+"""Work on many recordings in one process, several, or a cluster; the results are rows.
 
 There is one path for all three: an executor of `concurrent.futures`. A recording that
 cannot be read is a row as well, and one that ends the process it is read by is tried again
@@ -35,7 +35,7 @@ from tftool.recordings.containers import SUFFIXES
 def sweep(
     sources: Sequence[str], output: RowFile | None, workers: Workers, task: FleetTask
 ) -> tuple[dict[str, int], list[Row]]:
-    """Work on many recordings, and write each result at once.
+    """Process many recordings, and write each result as soon as it is known.
 
     Args:
         sources: The recordings; those that the output holds already are passed over.
@@ -134,7 +134,7 @@ def _worked(
 
 
 def _failure(error: Exception) -> str:
-    """Return the reason why a worker of a cluster failed with one recording.
+    """Return why a worker of a cluster failed on one recording.
 
     Raises:
         UsageError: If it cannot do this work at all.
@@ -152,7 +152,7 @@ def _failure(error: Exception) -> str:
 
 
 def _alone(source: str, task: FleetTask) -> list[Row]:
-    """In a process of its own, so that one that ends it harms no other."""
+    """Process a recording alone in a new process, so that a crash affects no other recording."""
     with Processes(1).open() as pool:
         try:
             return pool.submit(task.rows, source, source).result()
@@ -164,7 +164,7 @@ def _alone(source: str, task: FleetTask) -> list[Row]:
 
 
 def expanded(words: Sequence[str]) -> list[str]:
-    """The recordings that files, folders, globs and URLs name, each once.
+    """Return each recording named by files, folders, globs and URLs once.
 
     Of a glob, files with the ending of a recording are meant as recordings, even if they
     cannot be read.
@@ -216,7 +216,7 @@ def _is_recording(path: str) -> bool:
 
 
 def told(counts: dict[str, int]) -> str:
-    """The counts in words."""
+    """Format the counts of outcomes."""
     words = {
         "error": "with errors",
         "warning": "with warnings",
@@ -230,7 +230,7 @@ def told(counts: dict[str, int]) -> str:
 
 
 def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
-    """Say on stdout what came of a sweep, and what of the recordings that were passed over."""
+    """Print the summary of a sweep and of the recordings it skipped."""
     total = sum(counts.values())
     passed = sum(earlier.values())
     over = f" ({passed:,} were in it already: {told(earlier)})" if passed else ""
@@ -242,7 +242,7 @@ def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> N
 def swept_into(
     words: Sequence[str], path: Path, workers: Workers, task: FleetTask, *, resume: bool
 ) -> dict[str, int]:
-    """Work on many recordings, write a file of rows, and say what came of it.
+    """Process many recordings, write a file of rows, and print the summary.
 
     Returns:
         How many recordings there are of each outcome, in all of the file.

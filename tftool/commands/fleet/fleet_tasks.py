@@ -1,4 +1,4 @@
-"""Questions to each of many recordings, answered as rows of a table."""
+"""Tasks run on each of many recordings, with table rows as results."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -68,14 +68,14 @@ UNREADABLE = "unreadable"
 
 
 class FleetTask(Protocol):
-    """Task for each recording; it is sent to other processes."""
+    """A task for one recording; it is pickled for other processes."""
 
     @property
     def columns(self) -> Mapping[str, ColumnKind]:
         """Return the columns of a row."""
 
     def rows(self, source: str, place: str) -> list[Row]:
-        """The rows of one recording; what cannot be read is a row too, and raises nothing.
+        """Return the rows of one recording; an unreadable one gives a row too, and raises nothing.
 
         Args:
             source: What to call it.
@@ -83,19 +83,19 @@ class FleetTask(Protocol):
         """
 
     def unreadable(self, source: str, why: str) -> Row:
-        """The row of a recording that cannot be read."""
+        """Return the row of an unreadable recording."""
 
     @property
     def judged(self) -> Sequence[str]:
-        """The columns that `outcome` looks at."""
+        """Return the names of the columns that `outcome` reads."""
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Return the outcome for a recording, as a word of `told`."""
+        """Return the outcome for one recording, a word that `told` counts."""
 
 
 @dataclass(frozen=True, slots=True)
 class Examination:
-    """The doctor's task.
+    """Task of `doctor`: a row for each finding.
 
     Attributes:
         settings: What the listener is like.
@@ -115,7 +115,7 @@ class Examination:
         return FINDINGS
 
     def rows(self, source: str, place: str) -> list[Row]:
-        """One recording's findings."""
+        """Return a row for each finding of one recording."""
         return _told(self, source, place, partial(self._examined, source))
 
     def _examined(self, source: str, path: str) -> list[Row]:
@@ -162,7 +162,7 @@ class Examination:
         ]
 
     def unreadable(self, source: str, why: str) -> Row:
-        """The row of a recording that cannot be read."""
+        """Return the row of an unreadable recording."""
         return {
             "source": source,
             "id": UNREADABLE,
@@ -173,11 +173,11 @@ class Examination:
 
     @property
     def judged(self) -> Sequence[str]:
-        """The columns that `outcome` looks at."""
+        """Return the names of the columns that `outcome` reads."""
         return ("id", "severity", "because_of")
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """The worst severity among findings that are no consequence."""
+        """Return the worst severity among findings that are not consequences of others."""
         if rows[0]["id"] in (UNREADABLE, NONE_FOUND):
             return str(rows[0]["id"])
         severities = {row["severity"] for row in rows if row.get("because_of") is None}
@@ -186,7 +186,7 @@ class Examination:
 
 @dataclass(frozen=True, slots=True)
 class Inventory:
-    """The task of `info`: a row a recording."""
+    """Task of `info`: one row per recording."""
 
     @property
     def columns(self) -> Mapping[str, ColumnKind]:
@@ -225,16 +225,16 @@ class Inventory:
         return [row]
 
     def unreadable(self, source: str, why: str) -> Row:
-        """The row of a recording that cannot be read."""
+        """Return the row of an unreadable recording."""
         return {"source": source, "unreadable": why}
 
     @property
     def judged(self) -> Sequence[str]:
-        """The columns that `outcome` looks at."""
+        """Return the names of the columns that `outcome` reads."""
         return ("damage", "unreadable")
 
     def outcome(self, rows: Sequence[Row]) -> str:
-        """Whether it can be read, and whole."""
+        """Return whether the recording is readable and complete."""
         if rows[0].get("unreadable") is not None:
             return UNREADABLE
         return "damaged" if rows[0]["damage"] else "whole"

@@ -1,4 +1,4 @@
-"""Rows of facts in a file that grows while work goes on: JSON lines, a table, or Parquet."""
+"""File of result rows that grows during the work: JSON lines, CSV, or Parquet."""
 
 import csv
 import io
@@ -21,7 +21,7 @@ Row = dict[str, Any]
 
 
 class ColumnKind(Enum):
-    """Kind of a column's cells."""
+    """Type of a column's cells."""
 
     TEXT = "text"
     TEXTS = "a list of texts"
@@ -34,7 +34,7 @@ SUFFIXES = (".jsonl", ".csv", ".parquet")
 
 
 class RowFile:
-    """A file of rows, all of one recording written at once.
+    """File of rows; the rows of one recording are written together.
 
     Parquet cannot be added to: rows are collected as JSON lines in a file beside it,
     `NAME.part`, which becomes the table when it is closed, and is gone on with after a crash.
@@ -54,7 +54,7 @@ class RowFile:
         *,
         resume: bool,
     ) -> None:
-        """Open it.
+        """Open the file.
 
         Args:
             path: Its suffix says the format: .jsonl, .csv or .parquet.
@@ -96,18 +96,20 @@ class RowFile:
             self._file.write(self._table([self._columns]))
 
     def holds(self, source: str) -> bool:
-        """Whether rows of a recording were in it when it was opened."""
+        """Whether the file already had rows of a recording when it was opened."""
         return bool(self.earlier(source))
 
     def earlier(self, source: str) -> list[Row]:
-        """The rows of a recording that were in it when it was opened, in the judged columns."""
+        """Return the rows a recording had when the file was opened, in the columns that `outcome`
+        reads.
+        """
         written = _cell(source) if self._suffix == ".csv" else source
         return self._done.get(str(written)) or (
             self._done.get(_utf8(source), []) if self._is_parquet else []
         )
 
     def _held(self) -> Iterator[Row]:
-        """The rows it has, at least in the judged columns; half a line at its end is taken away."""
+        """Return the existing rows, at least in those columns; cut an incomplete last line."""
         if self._is_parquet and self.path.exists() and self.path.stat().st_size:
             arrow = _arrow()
             try:
@@ -133,7 +135,7 @@ class RowFile:
             yield from (json.loads(line) for line in lines if line)
 
     def write(self, rows: Sequence[Row]) -> None:
-        """All rows of one recording, at once.
+        """Write all rows of one recording together.
 
         Raises:
             InputError: If the disk is full, or gone.
@@ -154,7 +156,7 @@ class RowFile:
         return text.getvalue().encode("utf-8", "backslashreplace")
 
     def close(self) -> None:
-        """Close the file; of Parquet, make the table.
+        """Close the file; for Parquet, write the table.
 
         Raises:
             InputError: If it cannot be written.
@@ -171,7 +173,7 @@ class RowFile:
             ) from error
 
     def _make_parquet(self) -> None:
-        """Replace the table and the rows beside it by one table with both."""
+        """Merge the existing table and the new rows into one table."""
         arrow = _arrow()
         schema = arrow.schema([(name, _type(kind)) for name, kind in self._columns.items()])
         whole = self.path.with_name(f"{self.path.name}.tmp")
@@ -206,7 +208,7 @@ def _blocks(lines: BinaryIO, size: int = 10_000) -> Iterator[list[Row]]:
 
 
 def _arrow() -> Any:
-    """The package that writes Parquet.
+    """Import the package that writes Parquet.
 
     Raises:
         UsageError: If it is not installed.
@@ -234,7 +236,7 @@ def _type(kind: ColumnKind) -> "pyarrow.DataType":
 
 
 def _clean(value: Any, kind: ColumnKind) -> Any:
-    """A cell of Parquet, whose texts are UTF-8: other bytes are escaped."""
+    """Escape invalid UTF-8 in a cell of Parquet."""
     if value is None or kind in (ColumnKind.INTEGER, ColumnKind.NUMBER):
         return value
     if kind is ColumnKind.EDGES:
@@ -247,7 +249,7 @@ def _utf8(text: str) -> str:
 
 
 def _cell(value: object) -> object:
-    """A cell of a table."""
+    """Convert a value to a cell of a table."""
     if isinstance(value, list):
         return json.dumps(value) if value else ""
     if isinstance(value, str):

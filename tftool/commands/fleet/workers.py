@@ -1,4 +1,4 @@
-"""Workers for many recordings: this process, several, or a cluster's."""
+"""Executors for many recordings: this process, several processes, or a cluster."""
 
 import os
 import signal
@@ -19,7 +19,7 @@ _ON_CLUSTER = 512
 
 
 class Workers(Protocol):
-    """Place where the work is done.
+    """Base of the executors.
 
     Attributes:
         count: How many recordings are worked on at once.
@@ -31,23 +31,23 @@ class Workers(Protocol):
     window: int
 
     def open(self) -> AbstractContextManager[Executor]:
-        """An executor; a second one, after the first one broke."""
+        """Return an executor; after a failure, a new one."""
 
     def place(self, source: str) -> str:
-        """The path or URL under which the workers open a recording."""
+        """Return the path or URL under which the workers open a recording."""
 
 
 class OneProcess:
-    """This process does all of it."""
+    """Executor that does all work in this process."""
 
     count = window = 1
 
     def open(self) -> AbstractContextManager[Executor]:
-        """An executor that works when it is asked to."""
+        """Return an executor that does the work at once."""
         return _Here()
 
     def place(self, source: str) -> str:
-        """As it was named."""
+        """Return the name unchanged."""
         return source
 
 
@@ -62,7 +62,7 @@ class _Here(Executor):
 
 
 class Processes:
-    """Several processes of this machine.
+    """Executor with several processes on this machine.
 
     Args:
         count: How many.
@@ -73,19 +73,19 @@ class Processes:
         self.window = 4 * count
 
     def open(self) -> AbstractContextManager[Executor]:
-        """A pool of them."""
+        """Return a pool of processes."""
         # Spawned, not forked: a fork would carry over threads and locks.
         return ProcessPoolExecutor(
             self.count, mp_context=get_context("spawn"), initializer=_end_with_ctrl_c
         )
 
     def place(self, source: str) -> str:
-        """As it was named."""
+        """Return the name unchanged."""
         return source
 
 
 def _end_with_ctrl_c() -> None:
-    """Ctrl-C goes to all processes of a terminal; these end by it, and say nothing."""
+    """Let Ctrl-C end a worker silently: the terminal sends it to every process."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
@@ -103,20 +103,20 @@ class Cluster:
         self.address = address
 
     def open(self) -> AbstractContextManager[Executor]:
-        """An executor of the cluster."""
+        """Return an executor of the cluster."""
         from tftool.commands.fleet.cluster import connected
 
         return connected(self.address)
 
     def place(self, source: str) -> str:
-        """From the root of the file system, which all of them share."""
+        """Return the absolute path: all workers share the file system."""
         from tftool.recordings.remote_files import is_url
 
         return source if is_url(source) else os.path.abspath(source)
 
 
 def workers_of(processes: int, scheduler: str) -> Workers:
-    """Return the workers that the options of a command choose.
+    """Return the executor that the command's options choose.
 
     Raises:
         UsageError: If both say it.

@@ -22,13 +22,13 @@ SETTLE = seconds(0.5)
 
 
 def _tell(record: LogRecord) -> None:
-    """Print the follower's log and its faults; the session prints the link's."""
+    """Print the follower's log and its errors; the session prints those of the connection."""
     if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
         tell_record(record)
 
 
 async def _last(session: Session, follower: str, run_for: Duration | None) -> None:
-    """Let the world live for so long; a guest's follower is broadcast where it is not yet."""
+    """Run the world for a duration; broadcast a guest's follower if nobody does yet."""
     if not session.is_hosted:
         # Another process may broadcast the follower already: two would be one too many.
         await session.lasting(SETTLE)

@@ -1,4 +1,4 @@
-"""`tftool info`: what a recording or a robot description holds."""
+"""`tftool info`: contents of a recording or robot description."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""Say what recordings and robot descriptions hold."""
+"""Print the contents of recordings and robot descriptions."""
 
 import json
 import sys
@@ -61,7 +61,7 @@ def _is_launch_file(place: str) -> bool:
 
 
 def _is_text(place: str) -> bool:
-    """Whether it is a robot description, or a launch file or script, and no recording."""
+    """Whether a file is a robot description, launch file or script, and no recording."""
     try:
         return Path(place).is_file() and named(place).kind in (Kind.DESCRIPTION, Kind.STATICS)
     except InputError:
@@ -97,7 +97,7 @@ def _list_texts(connection: Connection, places: list[str], *, for_programs: bool
 
 
 def _show(connection: Connection, place: str, name: str, *, for_programs: bool) -> ExitStatus:
-    """Show all there is to say of one recording or description, which people know by a name."""
+    """Print everything about one recording or description."""
     found = named(place)
     if found.kind is Kind.DESCRIPTION:
         _show_robot(connection, found.paths[0], name, for_programs=for_programs)
@@ -128,7 +128,7 @@ def _show(connection: Connection, place: str, name: str, *, for_programs: bool) 
 
 
 def _print(recording: Recording, name: str, *, has_urdf: bool) -> None:
-    """Print what a recording holds, and what the doctor finds in it."""
+    """Print a recording's contents and the doctor's findings."""
     from tftool.doctor.evidence import Described, Scope, evidence_of_recording
     from tftool.doctor.judge import judge
     from tftool.drawing.finding_view import brief

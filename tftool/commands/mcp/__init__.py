@@ -1,4 +1,4 @@
-"""`tftool mcp`: questions about the recordings of a folder, for agents."""
+"""`tftool mcp`: answers agents' questions about the recordings of a folder."""
 
 from pathlib import Path
 from typing import Annotated

@@ -1,4 +1,4 @@
-"""A server of the Model Context Protocol: each tool runs a command in a process of its own."""
+"""Server of the Model Context Protocol; each tool runs a command in a new process."""
 
 import json
 import os
@@ -49,7 +49,7 @@ def run(root: Path) -> ExitStatus:
         raise UsageError("'mcp' needs an extra: pip install 'tftool-tf2[mcp]'") from missing
 
     def answered(question: Callable[..., str]) -> Callable[..., str]:
-        """Turn our errors into the answer that the protocol has for errors."""
+        """Convert our errors to the protocol's error answers."""
         from functools import wraps
 
         @wraps(question)
@@ -74,10 +74,14 @@ def run(root: Path) -> ExitStatus:
 
 
 class Questions:
-    """Questions about the files below one folder; each method is a tool, its docstring the help."""
+    """Tools for the files below one folder; each method is a tool, and its docstring the tool's
+    help.
+    """
 
     def __init__(self, root: Path, sessions: str) -> None:
-        """Answer about files below `root`; `sessions` is an empty folder, so that none is found."""
+        """Answer questions about files below `root`; `sessions` is an empty folder, to find no
+        session.
+        """
         self._root = root
         self._environment = {**os.environ, "TFTOOL_SESSION_DIR": sessions, "NO_COLOR": "1"}
 
@@ -180,7 +184,7 @@ class Questions:
         part: str = "",
         skip: int = 0,
     ) -> str:
-        """Run a command about a file; return what it printed, within the bounds of an answer.
+        """Run a command on a file; return its output within the size limits.
 
         Raises:
             InputError: If the file may not be asked about, or the command cannot read it.
@@ -222,7 +226,7 @@ class Questions:
         return fitted(answer[skip:] if isinstance(answer, list) else answer)
 
     def _file(self, source: str) -> str:
-        """Return the name of a file below the root, as a word that can be no option.
+        """Return a file name below the root in a form that cannot be read as an option.
 
         Raises:
             InputError: If it is elsewhere, or a link in it leads elsewhere, or it is not of a
@@ -244,12 +248,12 @@ class Questions:
         return word
 
     def _stays_inside(self, path: Path) -> bool:
-        """Whether it is below the root, and everything that is read with it."""
+        """Whether a file, and all files read with it, are below the root."""
         places = (path, *_read_with(path.resolve()))
         return all(one.resolve().is_relative_to(self._root) for one in places)
 
     def _files(self) -> Iterator[Path]:
-        """Yield the files and rosbag2 folders below the root that can be asked about."""
+        """Yield the files and rosbag2 folders below the root that a tool can read."""
         for path in islice(_below(self._root), MOST_ENTRIES):
             is_bag = path.is_dir() and (path / "metadata.yaml").exists()
             if (is_bag or path.name.endswith(SUFFIXES)) and self._stays_inside(path):
@@ -257,7 +261,7 @@ class Questions:
 
 
 def _below(folder: Path) -> Iterator[Path]:
-    """Yield every entry below a folder, in the order of names; follow no links to folders."""
+    """Yield every entry below a folder in alphabetical order; links to folders are not followed."""
     for entry in sorted(folder.iterdir()):
         yield entry
         if entry.is_dir() and not entry.is_symlink():
@@ -265,7 +269,7 @@ def _below(folder: Path) -> Iterator[Path]:
 
 
 def _read_with(path: Path) -> list[Path]:
-    """Return the files read with one: its folder's content, or the doctor's list beside it.
+    """Return the files that are read along with one: a folder's content, or the doctor's baseline.
 
     Raises:
         InputError: If a folder has too many entries to look at.
@@ -292,7 +296,7 @@ def _version() -> str:
 
 
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
-    """Return an answer as JSON of at most `most` characters; it counts the omitted rest.
+    """Convert an answer to JSON of at most `most` characters, with a count of what is left out.
 
     Lists deep in the answer are cut first: an agent wants all findings before all their evidence.
     """
@@ -309,7 +313,7 @@ def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
 
 
 def _cut(value: Any, outer: int, inner: int, depth: int) -> Any:
-    """Return a value with at most `outer` items in a list of the first levels, `inner` below."""
+    """Shorten the lists of a value: `outer` items at the first levels, `inner` below."""
     keep = outer if depth < 2 else inner
     if isinstance(value, dict):
         return {key: _cut(one, outer, inner, depth + 1) for key, one in value.items()}

@@ -1,4 +1,4 @@
-"""`tftool monitor`: what arrives, how often, how late."""
+"""`tftool monitor`: rate and delay of received transforms."""
 
 from typing import TYPE_CHECKING, Annotated
 

@@ -1,4 +1,4 @@
-"""Watch a session, or the messages of a recording."""
+"""Report on a session, or on the messages of a recording."""
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
@@ -51,7 +51,7 @@ def run(
 
 
 def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
-    """Tell frames from a world: two words are frames, one is a world, three are all."""
+    """Interpret the words: two are frames, one is a world, three are all."""
     if len(words) > 3:
         raise UsageError(
             f"{len(words)} words are too many: no frames or two of them, then a scenario."

@@ -1,4 +1,4 @@
-"""The report of `monitor` on a recording, as if its messages arrived in a session."""
+"""Report of `monitor` on a recording, as if its messages arrived in a session."""
 
 import numpy as np
 from rich.console import Console
@@ -72,10 +72,10 @@ def report_recording(
 
 
 class Arrivals:
-    """The messages of a recording in order, as a session would receive them."""
+    """Messages of a recording in the order in which a session would receive them."""
 
     def __init__(self, timeline: Timeline, buffer: Buffer) -> None:
-        """Begin before the first message; statics are known from the beginning on.
+        """Start before the first message; static transforms are known from the start.
 
         Args:
             timeline: The messages.
@@ -89,7 +89,7 @@ class Arrivals:
         self._plain = timeline.is_plain()
 
     def receive_until(self, moment: Stamp, traffic: Traffic | None) -> None:
-        """Receive the messages up to a moment, and count them in `traffic`."""
+        """Receive the messages up to a time, and count them in `traffic`."""
         start = self._timeline.start
         while self._known:
             self._receive(self._known.pop(0), start, traffic)
@@ -107,7 +107,7 @@ class Arrivals:
             self._place += 1
 
     def connect(self, pair: tuple[str, str], end: Stamp) -> Stamp:
-        """Receive messages until a pair can be looked up; return the moment.
+        """Receive messages until a pair can be looked up; return that time.
 
         Raises:
             TransformException: If that is not so at the end.
@@ -129,7 +129,7 @@ class Arrivals:
         return moment
 
     def _receive_many(self, first: int, last: int, traffic: Traffic) -> None:
-        """Receive plain messages at once: each frame's transforms, then each sender's messages."""
+        """Receive plain messages in bulk: first by frame, then by publisher."""
         timeline = self._timeline
         rows = timeline.rows(first, last)
         if not len(rows.edges):

@@ -1,4 +1,4 @@
-"""The report on the transforms that arrive, and a session that fills it."""
+"""Report on received transforms, and the session that fills it."""
 
 import json
 import os
@@ -35,7 +35,7 @@ ASK_EVERY = seconds(0.5)
 
 
 class ReportStyle(Enum):
-    """Form in which a report is written."""
+    """Output format of a report."""
 
     TABLE = auto()
     LINES = auto()
@@ -44,10 +44,10 @@ class ReportStyle(Enum):
 
 
 class TrafficReport:
-    """Transforms that arrived, the delay of one chain, and the report on both."""
+    """Received transforms, the delay of one chain, and the report about them."""
 
     def __init__(self, frames: tuple[str, str] | None, style: ReportStyle) -> None:
-        """Begin with nothing.
+        """Make an empty report.
 
         Args:
             frames: Target and source of the chain to report on; None for all frames.
@@ -60,7 +60,7 @@ class TrafficReport:
         self.history = TrafficHistory()
 
     def begin(self, buffer: Buffer, now: Stamp) -> None:
-        """Find the chain, and take in static transforms, as a late subscriber gets them."""
+        """Find the chain, and insert static transforms as a late subscriber receives them."""
         if self.frames is not None:
             chain = tuple(buffer.chain(*self.frames)) or self.frames[:1]
             self.chain = view.Chain(*self.frames, chain, NetDelay())
@@ -70,7 +70,7 @@ class TrafficReport:
                 self.traffic.receive(now, [sample], info.authority or "", is_static=True)
 
     def measure(self, buffer: Buffer, now: Stamp) -> None:
-        """Measure how old the latest answer of the chain is; a static one has no age."""
+        """Record the age of the chain's newest answer; a static chain has none."""
         if self.chain is None:
             return
         try:
@@ -82,7 +82,7 @@ class TrafficReport:
             self.chain.delay.add(as_seconds(now - found.stamp))
 
     def announce(self, period: Duration, duration: Duration | None) -> None:
-        """Print the subject and the period of reports, on stderr."""
+        """Print the subject and the interval of reports to stderr."""
         about = "all frames" if self.frames is None else in_words(*self.frames)
         if period == duration:
             notice(f"Gathering data on {about} for {round(as_seconds(duration), 3):g} s ...")
@@ -90,7 +90,7 @@ class TrafficReport:
             notice(f"Gathering data on {about}, a report every {as_seconds(period):g} s ...")
 
     def table(self, console: Console, now: Stamp, began: Stamp) -> RenderableType:
-        """Return the report as a table in a frame that fits a terminal."""
+        """Return the report as a framed table that fits the terminal."""
         self.history.look(now, self.traffic)
         ascii_only = console.options.ascii_only
         # A small terminal has no room for a frame; the line below all of it is the cursor's.

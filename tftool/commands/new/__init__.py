@@ -1,4 +1,4 @@
-"""`tftool new`: a workspace package to begin with, or a scenario."""
+"""`tftool new`: a new workspace package, or a new scenario."""
 
 from typing import Annotated
 

@@ -1,4 +1,4 @@
-"""Exercises: the nodes of the tutorial with their key lines left for the learner to write."""
+"""Exercises: the tutorial's nodes with their key lines removed for the learner to write."""
 
 import ast
 from typing import Final
@@ -38,7 +38,7 @@ LINES: Final = {
 
 
 def with_blanks(node: str, text: str) -> str:
-    """Return a node's source without its key lines; each has a TODO in its place."""
+    """Return a node's source with a TODO in place of each key line."""
     wanted = LINES[node]
     lines = text.splitlines(keepends=True)
     found = [one for one in ast.walk(ast.parse(text)) if isinstance(one, ast.Assign)]

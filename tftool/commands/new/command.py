@@ -38,7 +38,7 @@ if __name__ == "__main__":
 
 
 def _check_name(name: str) -> None:
-    """Refuse what ROS 2 or Python would not take as the name of a package."""
+    """Refuse a package name that ROS 2 or Python would not accept."""
     if not re.fullmatch(r"[a-z](_?[a-z0-9])*", name):
         hint = " With --scenario it is a scenario." if name.endswith((".yaml", ".yml")) else ""
         raise UsageError(
@@ -53,7 +53,7 @@ def _check_name(name: str) -> None:
 
 
 def _check_node(name: str) -> None:
-    """Refuse what Python would not import as a module of the package."""
+    """Refuse a node name that Python could not import."""
     if not name.isidentifier() or not name.isascii() or keyword.iskeyword(name):
         raise UsageError(
             f"'{name}' is no name for a node: letters, digits and underscores, a letter first, "
@@ -67,7 +67,7 @@ def _refuse_existing(path: Path) -> None:
 
 
 def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
-    """Return the text of every file of a step's package, by its path within it."""
+    """Return every file of a tutorial step's package as text, by its path in the package."""
     nodes = EXAMPLES[example]
     sources = {f"{TEMPLATE}/{node}.py": node for node in nodes}
     step = (f"launch/{example}.launch.py", f"test/test_{example}.py", f"scenarios/{example}.yaml")
@@ -79,7 +79,7 @@ def _files(package: str, example: str, *, exercise: bool) -> dict[str, str]:
 
 
 def _files_of_node(package: str, node: str) -> dict[str, str]:
-    """Return the files of a package with one empty node, as ROS 2 makes it."""
+    """Return the files of a package with one empty node, as `ros2 pkg create` makes it."""
     files = _texts(package, (), ())
     entry = f'            "{node} = {package}.{node}:main",\n'
     mark = '"console_scripts": [\n'
@@ -89,7 +89,7 @@ def _files_of_node(package: str, node: str) -> dict[str, str]:
 
 
 def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str, str]:
-    """Return the files that every package has, and `more`; its setup offers `nodes`."""
+    """Return the files common to every package, and `more`; setup.py installs `nodes`."""
     source = shipped("examples", TEMPLATE) / TEMPLATE
     every = ("package.xml", "setup.cfg", "setup.py", f"resource/{TEMPLATE}")
     files = {}
@@ -106,7 +106,7 @@ def _texts(package: str, nodes: Sequence[str], more: Sequence[str]) -> dict[str,
 
 
 def _write(path: Path, files: dict[str, str]) -> None:
-    """Make the whole package, or nothing."""
+    """Write the whole package, or nothing."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".new-", dir=path.parent) as place:
@@ -155,7 +155,7 @@ def _say_what_next(
 def _tell(
     path: Path, todo: str, files: Collection[str], *lines: tuple[str, str], as_json: bool
 ) -> None:
-    """List the new files and the next commands, each with its purpose."""
+    """Print the new files and the next commands with their purpose."""
     if as_json:
         following = [{"command": line, "purpose": purpose} for line, purpose in lines]
         told = {"schema": "tftool.new/1", "made": str(path), "files": sorted(files)}

@@ -1,4 +1,4 @@
-"""`tftool play`: a recording as a session that lives."""
+"""`tftool play`: a recording as a live session."""
 
 from typing import TYPE_CHECKING, Annotated, Literal
 

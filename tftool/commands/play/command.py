@@ -1,4 +1,4 @@
-"""`tftool play`: a recording as a session that lives."""
+"""`tftool play`: a recording as a live session."""
 
 import asyncio
 import sys
@@ -42,7 +42,7 @@ MOST_MARKS = 200
 
 
 def _refuse_to_mix(link: Link) -> None:
-    """Keep a recording's transforms out of the graph of a robot that sends its own.
+    """Refuse to mix a recording's transforms into the graph of a robot that publishes its own.
 
     Raises:
         UsageError: If transforms are published there.
@@ -59,7 +59,7 @@ def _refuse_to_mix(link: Link) -> None:
 def _span(
     recording: Recording, timeline: Timeline, begin: At | None, until: At | None
 ) -> tuple[Stamp, Stamp]:
-    """From where to where to play.
+    """Return the start and the end of the playback.
 
     Raises:
         UsageError: If there is nothing between.
@@ -79,7 +79,7 @@ def _span(
 
 @dataclass(frozen=True, slots=True)
 class _Playing:
-    """Recording to play, and its options; the fields are those of `Player`."""
+    """A recording to play, and its options; the fields are those of `Player`."""
 
     recording: Recording
     timeline: Timeline
@@ -93,7 +93,7 @@ class _Playing:
     marks: Sequence[PlaybackMark] = ()
 
     async def play(self, pace: Clock, link: Link | None) -> None:
-        """Play, and share it."""
+        """Play the recording and share it as a session."""
         world = World(pace if self.is_restamped else FollowedClock(max(self.span[0], 1)))
         with shared(link, world):
             player = self._player(world, pace, link)
@@ -133,7 +133,7 @@ class _Playing:
         return feed
 
     async def _until_over(self, world: World, pace: Clock, display: Display) -> None:
-        """Show where it stands; end the world when the time is up."""
+        """Show the playback position until it is over; then end the world."""
         showing = asyncio.ensure_future(display.keep())
         try:
             if self.duration is None:
@@ -146,7 +146,7 @@ class _Playing:
 
 
 def _marks(recording: Recording, start: Stamp) -> list[PlaybackMark]:
-    """Return the doctor's findings that have a moment, where a terminal shows them."""
+    """Return the doctor's findings that have a time, if a terminal shows the timeline."""
     if not sys.stderr.isatty() or len(recording.transforms) > MOST_JUDGED:
         return []
     found = judge(evidence_of_recording(recording)).findings

@@ -101,7 +101,7 @@ def _curve(curve: PlotCurve, pair: Trajectory) -> dict[str, object]:
 
 
 def _as_object(found: list[Trajectory], start: Stamp, style: PlotStyle) -> dict[str, object]:
-    """Return the curves for programs; null where a curve is broken."""
+    """Return the curves for --json; null where a curve is interrupted."""
     return {
         "schema": "tftool.plot/1",
         "start_ns": start,

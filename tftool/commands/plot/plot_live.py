@@ -1,4 +1,4 @@
-"""A plot of a session, drawn as it goes on."""
+"""Live plot of a session."""
 
 from rich.console import Console
 from rich.live import Live
@@ -30,7 +30,7 @@ _STEP = 1.5
 
 
 class PlotSight:
-    """Visible time of a live plot, and its hidden curves: what keys change.
+    """State that keys change: the visible time of a live plot, and its hidden curves.
 
     Attributes:
         hidden: Numbers of the curves that are not drawn.
@@ -44,7 +44,7 @@ class PlotSight:
         self._back: Duration = 0
 
     def press(self, key: str) -> None:
-        """Take a key: + - for the zoom, left and right for time, 0 for all, digits for curves."""
+        """Handle a key: + - zoom, left and right move in time, 0 shows all, digits hide."""
         quarter = self._span // 4
         if key in ("q", "Q"):
             self.ended = True
@@ -63,12 +63,12 @@ class PlotSight:
         self._back = max(0, self._back)
 
     def span(self, now: Stamp) -> tuple[Stamp, Stamp]:
-        """Return the first and the last moment to draw."""
+        """Return the first and the last time to draw."""
         return now - self._back - self._span, now - self._back
 
     @property
     def hint(self) -> str:
-        """Return a line that says what keys do, and how far back the plot is."""
+        """Return a line about the keys and the time shown."""
         back = f"{as_seconds(self._back):.1f} s back   " if self._back else ""
         return f"{back}q quit  + - zoom  left right time  0 all  1-9 hide a curve"
 
@@ -80,7 +80,7 @@ def plot_live(
     window: Duration,
     lasting: Duration | None,
 ) -> None:
-    """Draw a session as it goes on, until q is pressed or it is stopped."""
+    """Draw a session's plot until q is pressed or the command is stopped."""
     console = Console()
     session = open_session(connection, None, cache_time=FARTHEST_BACK * window + seconds(1))
     world = session.world
@@ -120,11 +120,11 @@ def _newest(
     console: Console,
     height: int,
 ) -> Text:
-    """Draw the visible time of a world that goes on, or say what it waits for."""
+    """Draw the visible time, or say which data is still missing."""
     first, now = sight.span(world.clock.now())
 
     def arrived(target: str, source: str) -> Stamp:
-        """Up to where there can be a pose: samples on their way are not missing yet."""
+        """Return the time up to which poses can be known; later samples are still on their way."""
         newest = world.buffer.newest_common(target, source)
         return newest if now - ON_ITS_WAY < newest < now else now
 

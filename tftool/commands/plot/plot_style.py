@@ -1,4 +1,4 @@
-"""Drawing of pairs of frames in the terminal by `tftool plot`."""
+"""Terminal drawing of `tftool plot`."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from tftool.frames.pair_series import chosen
 
 @dataclass(frozen=True, slots=True)
 class PlotStyle:
-    """Quantities of a plot, and its appearance.
+    """Quantities and appearance of a plot.
 
     Attributes:
         quantities: Quantities to draw over time.
@@ -36,7 +36,7 @@ class PlotStyle:
     def of(
         cls, only: list[str], from_above: bool, ascii_only: bool, light: bool, dark: bool
     ) -> Self:
-        """Read what --only said.
+        """Parse --only.
 
         Raises:
             UsageError: If it names no quantity, or goes with --xy.
@@ -56,7 +56,7 @@ class PlotStyle:
         span: tuple[float, float] | None = None,
         hidden: frozenset[int] | None = None,
     ) -> Text:
-        """Draw pairs in the width of a console.
+        """Draw pairs at the width of a console.
 
         Args:
             found: The pairs.

@@ -43,7 +43,7 @@ RING = seconds(60)
 
 @contextmanager
 def _ended_by_hangup() -> Iterator[None]:
-    """Let a terminal that is closed end it as Ctrl-C does."""
+    """End the recording as Ctrl-C does when the terminal is closed."""
     if not hasattr(signal, "SIGHUP") or threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -77,7 +77,7 @@ def _summed_up(rolling: RollingRecording) -> str:
 
 
 def _size(text: str | None) -> int:
-    """A size as people write it."""
+    """Parse a size such as 500MB."""
     if text is None:
         return 0
     match = _SIZE.fullmatch(text.strip())
@@ -90,7 +90,7 @@ def _size(text: str | None) -> int:
 
 
 def _refuse_places(topics: Sequence[str]) -> None:
-    """See that no scenario or file stands where a topic's name is wanted.
+    """Refuse a scenario or file given in place of a topic's name.
 
     Raises:
         UsageError: If one does.

@@ -1,4 +1,4 @@
-"""`tftool robot`: a robot description alive, its joints moved by keys."""
+"""`tftool robot`: a robot description as a live robot whose joints keys move."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

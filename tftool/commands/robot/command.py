@@ -1,4 +1,4 @@
-"""`tftool robot`: a robot description alive, its joints moved by keys."""
+"""`tftool robot`: a robot description as a live robot whose joints keys move."""
 
 import os
 import sys
@@ -73,7 +73,7 @@ def _show(
     run_for: Duration | None,
     solids: tuple[Solids, Sequence[str]],
 ) -> None:
-    """Show the sliders while the session lives."""
+    """Show the sliders while the session runs."""
     world = session.world
     sliders = Sliders(described, mover, seed=world.clock.now())
     if mover is None:
@@ -105,7 +105,7 @@ def _draw(
     light: bool,
     force: bool,
 ) -> ExitStatus:
-    """Draw the robot as it is at some joint positions into a file."""
+    """Draw the robot at given joint positions into a file."""
     form = output.suffix.lower().removeprefix(".")
     if form not in ("svg", "png"):
         raise UsageError(f"'{output}' does not say what to draw: end it in .svg or .png.")

@@ -1,4 +1,4 @@
-"""`tftool ros2`: the words of ROS 2's own command line, over our sessions."""
+"""`tftool ros2`: the verbs of ROS 2's command line for our sessions."""
 
 from typing import TYPE_CHECKING, Annotated
 

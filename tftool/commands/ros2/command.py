@@ -1,4 +1,4 @@
-"""`tftool ros2`: the words of ROS 2's own command line, over our sessions."""
+"""`tftool ros2`: the verbs of ROS 2's command line for our sessions."""
 
 import json
 from collections.abc import Sequence
@@ -33,7 +33,7 @@ _ELSEWHERE = {
 
 
 class _JsonLines:
-    """Printer of JSON: a line for each YAML document that `ros2` writes."""
+    """Printer that converts each YAML document of `ros2` to one line of JSON."""
 
     def __init__(self, words: Sequence[str]) -> None:
         self._lines: list[str] = []
@@ -41,14 +41,14 @@ class _JsonLines:
         self._is_endless = words[1:2] in (["hz"], ["bw"], ["delay"])
 
     def __call__(self, line: str) -> None:
-        """Take one line; three dashes end a document."""
+        """Take one line; `---` ends a document."""
         if line != "---":
             self._lines.append(line)
         if line == "---" or self._is_endless:
             self.finish()
 
     def finish(self) -> None:
-        """Print the document that is not ended yet."""
+        """Print the last, unfinished document."""
         if not self._lines:
             return
         try:

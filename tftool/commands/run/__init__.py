@@ -1,4 +1,4 @@
-"""`tftool run`: a node of the user's own, without ROS."""
+"""`tftool run`: a user's own node, without ROS."""
 
 from typing import TYPE_CHECKING, Annotated
 

@@ -1,4 +1,4 @@
-"""`tftool run`: a node of the user's own, without ROS."""
+"""`tftool run`: a user's own node, without ROS."""
 
 import itertools
 import shlex
@@ -40,7 +40,7 @@ SIMULATED = "Simulated time is a world's own, and shares no session"
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
-    """Hints about words for the node that look like options of this command, or of ROS 2.
+    """Return hints about words for the node that look like options of this command or of ROS 2.
 
     Args:
         words: The words after FILE.
@@ -65,7 +65,7 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
 
 
 def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
-    """Refuse --simulated and --for after FILE, unless the program's own text has such a word.
+    """Refuse --simulated and --for after FILE unless the program itself contains that word.
 
     Raises:
         UsageError: If one is there: the run would last for ever, on real time, without a word.
@@ -83,7 +83,7 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
 
 
 def _opened(connection: Connection, place: str | None, *, alone: bool, simulated: bool) -> Session:
-    """The session a node runs in; `alone` brings all there is to see."""
+    """Open the session of a node; with `alone` it hosts a complete world of its own."""
     if alone:
         return open_empty_session(connection, simulated=simulated)
     if place is not None:
@@ -94,12 +94,12 @@ def _opened(connection: Connection, place: str | None, *, alone: bool, simulated
 
 
 def _own_words(words: Sequence[str]) -> list[str]:
-    """Return the words before `--ros-args` or `--`: the others are the program's alone."""
+    """Return the words before `--ros-args` or `--`; the others belong to the program."""
     return list(itertools.takewhile(lambda word: word not in ("--ros-args", "--"), words))
 
 
 def _run_command(connection: Connection, context: Context, words: list[str]) -> int:
-    """Run another command of tftool in the same session, and say so.
+    """Run another tftool command in the same session, and name it.
 
     Raises:
         UsageError: If the session is another machine's: the command itself takes those options.

@@ -1,4 +1,4 @@
-"""`tftool session`: who is there, what they publish, how often, since when."""
+"""`tftool session`: who takes part, what they publish, how often, and since when."""
 
 from typing import Annotated
 

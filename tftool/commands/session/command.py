@@ -1,4 +1,4 @@
-"""`tftool session`: who is there, what they publish, how often, since when."""
+"""`tftool session`: who takes part, what they publish, how often, and since when."""
 
 import asyncio
 import json
@@ -23,7 +23,7 @@ from tftool.world.link.session import Link, is_plain
 
 
 def _rates(connection: Connection, link: Link, lasting: Duration) -> dict[str, float]:
-    """Listen for a while: messages a second of each topic on which one came in."""
+    """Listen for a while; return the rate of each topic with messages, in hertz."""
     counts: dict[str, int] = {}
     clock = connection.providers.wall_clock()
 
@@ -48,7 +48,7 @@ def _rates(connection: Connection, link: Link, lasting: Duration) -> dict[str, f
 
 
 def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
-    """Everything that is known of a session; `rates` of topics in hertz."""
+    """Return everything known about a session; `rates` of topics in hertz."""
     graph = link.graph
     topics: dict[str, dict[str, Any]] = {}
     for one in graph.entities(PUBLISHER, SUBSCRIPTION):
@@ -84,7 +84,7 @@ def _as_object(link: Link, rates: dict[str, float]) -> dict[str, Any]:
 
 
 def _written(found: dict[str, Any], *, verbose: bool) -> str:
-    """The lines for a person: in the width of the terminal, or as long as they get."""
+    """Format the report for people, at the terminal's width or without a limit."""
     if not sys.stdout.isatty():
         return "\n".join(line.plain for line in view.lines(found, verbose=verbose))
 

@@ -1,4 +1,4 @@
-"""The connection of a command: whether it joins or hosts, and how far it reaches.
+"""A command's connection: whether it joins or hosts, and which machines it reaches.
 
 Every command that may share a session takes a `Connection` as its first parameter;
 its declaration gives it one (`declaration.py`), and closes what it opened.
@@ -30,7 +30,7 @@ HOME = "turtles"
 
 
 class Mode(Enum):
-    """A command's part in the session that may run here."""
+    """A command's role in the running session."""
 
     AUTO = auto()
     JOIN = auto()
@@ -38,7 +38,7 @@ class Mode(Enum):
 
 
 class Providers:
-    """Source of the commands' real time and of their links to other processes.
+    """Sources of a command's clock and of its links to other processes; tests replace them.
 
     A test derives from it, and hands its own to `app.main`.
     """
@@ -50,7 +50,7 @@ class Providers:
         return WallClock(rate, head_start=head_start)
 
     def still_clock(self, epoch: "Stamp", now: "Stamp") -> "Clock":
-        """Make a clock that stands still at the end of something that is all there.
+        """Make a clock that stands still at the end of a complete source.
 
         Args:
             epoch: When it began.
@@ -61,13 +61,13 @@ class Providers:
         return FollowedClock(now, epoch=epoch)
 
     def joined_clock(self) -> "Clock":
-        """Make a clock for a world that joins a session: real time, or what `/clock` says."""
+        """Make a clock for a world that joins a session: real time, or the time of `/clock`."""
         from tftool.world.clock import FollowedClock
 
         return FollowedClock()
 
     def link(self, options: "Options") -> "Link | None":
-        """Open a link; None where every world keeps to itself.
+        """Open a link; None if no world is shared.
 
         Raises:
             LinkError: If it cannot be opened.
@@ -90,7 +90,7 @@ class FileOptions(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class Connection:
-    """Part of a command in a session, as its options say.
+    """A command's part in a session, according to its options.
 
     Use it in a `with`: at its end every link and file it opened is closed.
 
@@ -128,27 +128,27 @@ class Connection:
 
     @property
     def needs_link(self) -> bool:
-        """Whether something was asked for that only a link can give."""
+        """Whether an option requires a link."""
         return self.mode is Mode.JOIN or self.read_only or self.reach.is_asked
 
     @property
     def looks(self) -> bool:
-        """Whether it is for what others bring, and its own world has no place among that."""
+        """Whether the command only observes, so that its own world stays invisible to others."""
         return self.reach.awaits_others(hosts=self.hosts_turtles)
 
     @property
     def place(self) -> str:
-        """Return where the others of its session are, in words; empty for this machine."""
+        """Describe where the session's other processes are; empty for this machine."""
         return self.reach.place(self.domain)
 
     def options(self) -> Options:
-        """Return the options in the form that the link takes."""
+        """Return the options in the link's form."""
         # Among a robot's nodes, what only looks has nothing to write.
         read_only = self.read_only or (self.reach.is_robots and self.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
-        """Open a link, which is closed with this connection at the latest.
+        """Open a link; it is closed together with this connection.
 
         Raises:
             LinkError: If it cannot be opened.
@@ -174,7 +174,7 @@ class Connection:
 
     @property
     def hosts_alone(self) -> bool:
-        """Whether there is no session to join, without opening anything."""
+        """Whether there is no session to join, checked without opening a link."""
         if self.mode is Mode.HOST:
             return True
         if self.needs_link:
@@ -182,11 +182,11 @@ class Connection:
         return not REACHES[0].has_members(self.domain)
 
     def keep(self, opened: "Link | Frames") -> None:
-        """Close something with this connection, at the latest."""
+        """Register something to be closed together with this connection."""
         self._opened.append(opened)
 
     def refuse_to_share(self, word: str | None) -> None:
-        """Refuse the options of sharing for files, and for scenarios on simulated time.
+        """Refuse the options of sharing for files and for scenarios on simulated time.
 
         Raises:
             UsageError: If one was given.
@@ -229,7 +229,7 @@ class Connection:
             )
 
     def tell_read_only(self) -> None:
-        """Say what --read-only means for nodes that are run."""
+        """Explain what --read-only means for nodes that are run."""
         if self.read_only:
             notice(
                 "--read-only: what nodes here publish, broadcast and serve, no other process gets."
@@ -255,7 +255,7 @@ def read(
     address: str | None = None,
     **reach: Any,
 ) -> Connection:
-    """Put the options together; `reach` has those of the middlewares, FROM may be an `address`.
+    """Build the connection; `reach` has the middlewares' options, FROM may be an `address`.
 
     Raises:
         UsageError: If they contradict each other.

@@ -1,4 +1,4 @@
-"""Options that contradict each other: each command lists its rules, and one place refuses."""
+"""Options that contradict each other: each command lists its rules, one function checks them."""
 
 from tftool.base.errors import UsageError
 
@@ -7,7 +7,7 @@ Rule = tuple[object, str]
 
 
 def refuse(*rules: Rule) -> None:
-    """Refuse options by the first rule that holds.
+    """Refuse options by the first rule that applies.
 
     Raises:
         UsageError: If one does.

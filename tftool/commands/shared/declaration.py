@@ -1,4 +1,4 @@
-"""The declaration of a command: its own options, and once, what kind of command it is.
+"""Declaration of a command: its options, and its kind.
 
 The kind decides which further options it takes: of sessions, of recordings, of robot
 descriptions. `tftool/commands/NAME/__init__.py` declares, and `run` in `command.py` beside it is
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 def _declared(reach: type[Reach]) -> dict[str, Any]:
-    """Return a middleware's options, as typer takes them."""
+    """Return a middleware's options in typer's form."""
     return {
         name: Annotated[one.kind, option(one.text, one.flag, metavar=one.metavar)]
         for name, one in reach.OPTIONS.items()
@@ -167,7 +167,7 @@ LOOKING = "doctor, echo, explain, export, monitor, plot, record, session, tree a
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """A command's own options, and what kind of command it is.
+    """A command's own options and its kind.
 
     Attributes:
         declared: The function whose parameters are its options and whose docstring is its help.
@@ -194,7 +194,7 @@ class Declaration:
 
     @property
     def name(self) -> str:
-        """The command as it is typed."""
+        """The command's name as it is typed."""
         return self.declared.__name__
 
     def with_options(self, providers: "Providers | None" = None) -> Callable[..., Any]:
@@ -246,7 +246,7 @@ class Declaration:
         return connected
 
     def _take_address(self, words: dict[str, Any]) -> str | None:
-        """Take the address of a session out of a command's words, where FROM is one.
+        """Remove a session's address from the command's words, where FROM may be one.
 
         Raises:
             UsageError: If the command does not read sessions, or the address is out of place.
@@ -273,7 +273,7 @@ class Declaration:
         return None
 
     def _run(self, *args: Any, **options: Any) -> Any:
-        """Run the code of the command: in a folder `command.py`, else the function itself."""
+        """Run the command's code: `command.py` of its folder, else the function itself."""
         home = self.declared.__module__
         if not hasattr(sys.modules[home], "__path__"):
             return self.declared(*args, **options)
@@ -287,5 +287,5 @@ def _parameter(name: str, annotation: Any) -> inspect.Parameter:
 
 
 def declare(**kind: Any) -> Callable[[Callable[..., Any]], Declaration]:
-    """Declare a command by the function below; `kind` has attributes of `Declaration`."""
+    """Declare the decorated function as a command; `kind` gives attributes of `Declaration`."""
     return lambda declared: Declaration(declared, **kind)

@@ -25,7 +25,7 @@ def evidence_from(
     lasting: Duration | None = None,
     scope: Scope = EVERYTHING,
 ) -> Evidence:
-    """Return the evidence about the frames that FROM names.
+    """Return the evidence about the frames of FROM.
 
     A recording is read whole, a scenario played to its end, a session listened to.
 
@@ -70,7 +70,7 @@ def evidence_from(
 
 
 def rules_of(word: str | None) -> DoctorRules:
-    """Return what a scenario, or the list beside a recording, asks of the doctor.
+    """Return the doctor's settings in a scenario, or in the file beside a recording.
 
     Raises:
         InputError: If it cannot be read.

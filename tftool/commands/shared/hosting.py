@@ -1,4 +1,4 @@
-"""Join or host: the one place that decides which session a command works in.
+"""The choice to join or to host, made in one place for all commands.
 
 A scenario that was named is always hosted. Without a word, the session that runs on this
 machine is joined; if none runs, the command hosts one, and others join it. Processes that only
@@ -40,7 +40,7 @@ HEAD_START = seconds(3)
 
 @dataclass(frozen=True, slots=True)
 class JoinDecision:
-    """Result of looking for others to share a world with.
+    """Outcome of the search for a session to join.
 
     Attributes:
         session: The session it has joined; None where it has to host.
@@ -60,7 +60,7 @@ def join_or_host(
     needs_turtles: bool = False,
     cache_time: Duration | None = None,
 ) -> JoinDecision:
-    """Join what runs here, else become the one to host; no other process decides meanwhile.
+    """Join the running session, or become its host; the decision is locked against other processes.
 
     Args:
         connection: What the command's options say.
@@ -112,7 +112,7 @@ def join_or_host(
 
 
 def _why_alone(connection: Connection, link: "Link") -> str:
-    """Say why a world that is hosted now keeps to itself; nothing where it does not."""
+    """Return why a hosted world is not shared; empty if it is."""
     if _has_host(link):
         name = session_name(link, connection.place)
         return (
@@ -134,7 +134,7 @@ def open_session(
     because: str = NO_SESSION,
     by_hand: bool = False,
 ) -> Session:
-    """Give the world a command works in, and say so on stderr when it had to be made.
+    """Return the world for a command; a notice on stderr says if it was created.
 
     Args:
         connection: What the command's options say.
@@ -183,7 +183,7 @@ def open_session(
 def _scenario_to_host(
     word: str | None, without: Callable[["NodeEntry"], bool] | None, because: str
 ) -> "Scenario":
-    """Give a scenario that nothing judges; say so where it was not named."""
+    """Return a scenario to host, without expectations; print its name if it is a default."""
     scenario = scenario_named(word or HOME)
     if without is not None:
         kept = tuple(node for node in scenario.nodes if not without(node))
@@ -194,7 +194,7 @@ def _scenario_to_host(
 
 
 def _refuse_files(word: str | None) -> None:
-    """Refuse files, which are read and not hosted.
+    """Refuse files: they are read, not hosted.
 
     Raises:
         UsageError: If the word names a recording or a description.
@@ -211,7 +211,7 @@ def _refuse_files(word: str | None) -> None:
 def join_session(
     connection: Connection, *, needs_turtles: bool = False, cache_time: Duration | None = None
 ) -> Session | None:
-    """Give the world of the session that runs here; None where none does.
+    """Return the world of the running session; None if there is none.
 
     For commands that host on simulated time: nothing is opened for others to join.
 
@@ -227,7 +227,7 @@ def join_session(
 
 
 def open_own_session(connection: Connection, *, simulated: bool, because: str) -> Session:
-    """Join the session that runs here; host an empty world for a user's program otherwise.
+    """Join the running session; without one, host an empty world for a user's program.
 
     Args:
         connection: What the command's options say.
@@ -255,7 +255,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
 
 
 def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:
-    """Give a world with nothing in it to a command that brings its own nodes; others see it."""
+    """Return an empty, visible world for a command that adds its own nodes."""
     if simulated:
         world, link = World(SimClock()), None
     else:
@@ -266,7 +266,7 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
 
 
 def tell_where_to_look(connection: Connection, session: Session) -> None:
-    """Say, to a person, how another terminal shows what runs here from now on."""
+    """Tell a person how another terminal can show the new session."""
     if session.link is None or not sys.stderr.isatty():
         return
     domain = f" --domain {connection.domain}" if connection.domain else ""
@@ -276,7 +276,7 @@ def tell_where_to_look(connection: Connection, session: Session) -> None:
 def _hosted(
     scenario: "Scenario", clock: Clock, head_start: Duration, link: "Link | None"
 ) -> Session:
-    """Host a world to look at."""
+    """Host a world to observe."""
     from tftool.scenario.play import build
 
     play = build(scenario, clock)
@@ -291,7 +291,7 @@ def _hosted(
 
 
 def _open_link(connection: Connection) -> tuple["Link | None", str]:
-    """Open the link; a place that has none can still host, and says why it is alone.
+    """Open the link; if that is impossible, host alone and say why.
 
     Raises:
         LinkError: If something was asked for that only a link can give.
@@ -307,7 +307,7 @@ def _open_link(connection: Connection) -> tuple["Link | None", str]:
 
 
 def _has_host(link: "Link") -> bool:
-    """Whether a world runs here: one of ours, or turtles of a launch file or of ROS."""
+    """Whether a session runs here: one of ours, or turtles of a launch file or of ROS."""
     from tftool.world.link.graph import SERVER, hosts
 
     # A host that has only just begun has no turtles yet, and will have some.

@@ -1,4 +1,4 @@
-"""Ctrl-C while a file is written: a partly written file is removed before the process ends."""
+"""Ctrl-C while a file is written: the partly written file is removed before the process ends."""
 
 import signal
 import sys
@@ -10,7 +10,7 @@ from types import FrameType
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Let SIGINT and SIGTERM raise `KeyboardInterrupt` in here, and not end the process at once.
+    """Let SIGINT and SIGTERM raise `KeyboardInterrupt` within this block.
 
     Only for where no event loop runs: a loop has handlers of its own.
     """

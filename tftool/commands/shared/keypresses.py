@@ -1,4 +1,4 @@
-"""Keys as they are pressed on the terminal, for commands without a full-screen app."""
+"""Key presses in the terminal, for commands without a full-screen app."""
 
 import asyncio
 import os
@@ -24,7 +24,7 @@ _LONGEST = max(map(len, _NAMES))
 
 
 def keys_in(typed: bytes) -> list[str]:
-    """The names of the keys whose bytes these are; other bytes are left out."""
+    """Return the names of the keys with these bytes; unknown bytes are ignored."""
     found = []
     while typed:
         for length in range(min(_LONGEST, len(typed)), 1, -1):
@@ -47,7 +47,7 @@ def keys_in(typed: bytes) -> list[str]:
 
 @contextmanager
 def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
-    """Have every key that is pressed on the terminal told, one by one; inside a running loop.
+    """Call back for every key pressed in the terminal, in a running loop.
 
     Yields:
         Whether keys are taken: there has to be a terminal, and this in its foreground.
@@ -94,7 +94,7 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
 
 
 def termios_error() -> type[BaseException]:
-    """Return the exception of a terminal's settings; without them, one that is never raised."""
+    """Return the exception type of terminal settings; on systems without them, one never raised."""
     try:
         import termios
     except ImportError:

@@ -1,4 +1,4 @@
-"""Notices of a command beside its results, and the log of its world: on stderr."""
+"""Notices and a world's log on stderr, separate from a command's results."""
 
 import os
 import re
@@ -24,12 +24,12 @@ _NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 def notice(sentence: str) -> None:
-    """Tell the user something that is no result; a terminal gets it broken between words."""
+    """Print a notice to stderr; on a terminal it is wrapped between words."""
     _write(fitting(sentence))
 
 
 def complain(who: str, sentence: str) -> None:
-    """Tell the user what went wrong, whatever names are in the sentence.
+    """Print an error to stderr; control characters of names in it are escaped.
 
     Args:
         who: The command.
@@ -41,7 +41,7 @@ def complain(who: str, sentence: str) -> None:
 def name_frames(
     frames: Sequence[str], asked: Iterable[str | None], when: str = "", advice: str = ""
 ) -> bool:
-    """Name the frames there are, when one of those asked for is not among them.
+    """Print the known frames if a requested one is unknown.
 
     Args:
         frames: The frames there are.
@@ -72,7 +72,7 @@ def _write(text: str) -> None:
 
 
 def fitting(sentence: str) -> str:
-    """Give a text as stderr shows it whole: on a terminal broken between words.
+    """Return a text as stderr shows it; on a terminal it is wrapped between words.
 
     Lines that begin with a blank stay as they are: excerpts of files, and tracebacks.
     """
@@ -94,18 +94,18 @@ def fitting(sentence: str) -> str:
 
 
 def is_news(record: "LogRecord") -> bool:
-    """Whether the link has something to say that every user wants to know."""
+    """Whether the link has a message for every user."""
     return record.node == "link" and record.level == "WARN"
 
 
 def tell_news(record: "LogRecord") -> None:
-    """Tell the user what the link has to say, and nothing else."""
+    """Print the link's messages for the user, and no others."""
     if is_news(record):
         notice(visible(record.text))
 
 
 def tell_record(record: "LogRecord", *, label: str = "") -> None:
-    """Show a line of the world's log, as ROS 2's console does.
+    """Print a line of the world's log in the format of ROS 2's console.
 
     Args:
         record: The line.
@@ -121,13 +121,13 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
 
 class FoldedLog:
-    """Shows the lines of a world's log, and of lines that are alike the first; counts the others.
+    """Printer of a world's log that shows the first of similar lines and counts the others.
 
     Lines are alike if one node said both, and they differ in nothing but numbers.
     """
 
     def __init__(self, *, whole: bool = False) -> None:
-        """Begin.
+        """Start without lines.
 
         Args:
             whole: Show every line.
@@ -136,7 +136,7 @@ class FoldedLog:
         self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
 
     def tell(self, record: "LogRecord") -> None:
-        """Show a line, or count it."""
+        """Print a line, or count it."""
         kind = (record.node, record.level, _NUMBER.sub("#", record.text))
         first, more = self._more.get(kind, (record, -1))
         self._more[kind] = (first, more + 1)
@@ -144,7 +144,7 @@ class FoldedLog:
             tell_record(record)
 
     def end(self) -> None:
-        """Say how many lines were not shown, and start counting again."""
+        """Print how many lines were not shown, and count from zero again."""
         for first, more in () if self._whole else self._more.values():
             if more:
                 text = visible(first.text.splitlines()[0] if first.text else "")
@@ -154,7 +154,7 @@ class FoldedLog:
 
 
 def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
-    """Whether lines are to be coloured; ROS 2's own variable decides before all others."""
+    """Whether to colour lines; ROS 2's own variable takes precedence."""
     asked = environment.get("RCUTILS_COLORIZED_OUTPUT", "")
     if asked in ("0", "1"):
         return asked == "1"

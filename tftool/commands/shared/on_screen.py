@@ -1,4 +1,4 @@
-"""Worlds and frames on a terminal's screen: whether there is one, and the app on it."""
+"""Worlds and frames on a full-screen terminal: whether one is available, and the app."""
 
 import os
 import sys
@@ -25,7 +25,7 @@ SETTLED = seconds(1)
 
 
 def screen_lacks() -> str:
-    """Half a sentence that says why no full-screen app can be seen here; empty where one can."""
+    """Return half a sentence on why no full-screen app is possible; empty if it is."""
     if os.environ.get("TERM") == "dumb":
         return "TERM=dumb is one without a screen"
     # textual draws on stderr, so that one counts too.
@@ -35,7 +35,7 @@ def screen_lacks() -> str:
 
 
 def at_rest(connection: Connection, frames: Frames) -> StillFrames:
-    """Return frames that were read as screens show them, with a clock at their end."""
+    """Return frames of a file in the form that screens show, with a clock at their end."""
     start, end = frames.span
     # Where nothing was recorded both are 0, at which no clock can begin.
     clock = connection.providers.still_clock(max(start, 1), max(end, 1))
@@ -43,14 +43,14 @@ def at_rest(connection: Connection, frames: Frames) -> StillFrames:
 
 
 def simulator_of(world: "World") -> "Turtlesim | None":
-    """The turtle simulator of a world, where it has one."""
+    """Return a world's turtle simulator, if it has one."""
     from tftool.world.nodes.turtlesim import Turtlesim
 
     return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
 
 
 def driver_of(world: "World", turtle: str) -> "Teleop":
-    """The node that takes keys for `turtle`; it is added where there is none.
+    """Return the node that takes keys for `turtle`, added if there is none.
 
     Raises:
         UsageError: If that cannot be a turtle's name.
@@ -108,7 +108,7 @@ def run_app(
 
 
 def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
-    """Return the receiver of keys: the driver; a note where its turtle is missing."""
+    """Return the receiver of keys: the driver, or a note if its turtle is missing."""
 
     def press(key: str) -> None:
         simulator, turtle = scene.simulator, driver.turtle

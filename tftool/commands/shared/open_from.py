@@ -1,4 +1,4 @@
-"""FROM on the command line: opened behind a bar, its oddities on stderr."""
+"""Opening FROM on the command line, with a progress bar and notes on stderr."""
 
 import math
 import sys
@@ -43,7 +43,7 @@ def open_from(
     shares: bool = False,
     watch: "Callable[[World], object] | None" = None,
 ) -> Frames:
-    """Open the frames of FROM; they are closed with the connection at the latest.
+    """Open the frames of FROM; they are closed together with the connection.
 
     Without FROM the session is listened to; if none runs, or at a moment, turtles are played.
 
@@ -100,7 +100,7 @@ def listen_from(
     cache_time: Duration | None = None,
     watch: "Callable[[World], object] | None" = None,
 ) -> Frames | None:
-    """Listen to the session that runs; None where none does. See `open_from`.
+    """Listen to the running session; return None if there is none. See `open_from`.
 
     Raises:
         LinkError: If a session was asked for and there is none.
@@ -122,7 +122,7 @@ def listen_from(
 
 @contextmanager
 def _bar(place: str) -> "Iterator[Bar | None]":
-    """Show a bar to a person who waits."""
+    """Return a progress bar if a person waits."""
     if not sys.stderr.isatty():
         yield None
         return
@@ -138,7 +138,7 @@ def _bar(place: str) -> "Iterator[Bar | None]":
 
 
 def _tell(frames: Frames, *, notes: bool) -> None:
-    """Print which files were passed over, and oddities of the frames."""
+    """Print the skipped files and notes about the frames."""
     for text in () if frames.found is None else frames.found.told():
         notice(visible(text))
     if notes:

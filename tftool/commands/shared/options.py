@@ -1,4 +1,4 @@
-"""Options that several commands share, and what their values become.
+"""Options that several commands share, and the parsers of their values.
 
 Every duration and moment on a command line is read as exact decimals and reaches its
 command in whole nanoseconds.
@@ -35,7 +35,7 @@ _FRACTION = re.compile(r"[.,](\d+)")
 
 
 def finite(value: float | None) -> float | None:
-    """Let a finite number pass.
+    """Accept a finite number.
 
     Raises:
         typer.BadParameter: If it is NaN or infinite, or beyond `MOST`.
@@ -46,7 +46,7 @@ def finite(value: float | None) -> float | None:
 
 
 def positive(value: float | None) -> float | None:
-    """Let a finite number above zero pass.
+    """Accept a finite number above zero.
 
     Raises:
         typer.BadParameter: If it is zero, negative, NaN or infinite, or beyond `MOST`.
@@ -57,7 +57,7 @@ def positive(value: float | None) -> float | None:
 
 
 def not_negative(value: float | None) -> float | None:
-    """Let a finite number from zero on pass.
+    """Accept a finite number of zero or more.
 
     Raises:
         typer.BadParameter: If it is negative, NaN or infinite, or beyond `MOST`.
@@ -68,7 +68,7 @@ def not_negative(value: float | None) -> float | None:
 
 
 def within(least: float, most: float) -> Callable[[float | None], float | None]:
-    """Make a check that lets numbers from `least` to `most` pass; NaN is not among them."""
+    """Make a check that accepts numbers from `least` to `most`, and not NaN."""
 
     def check(value: float | None) -> float | None:
         if value is not None and not least <= value <= most:
@@ -88,7 +88,7 @@ def _bounded(value: float | None) -> float | None:
 
 
 def duration(check: Callable[[float | None], float | None]) -> Callable[[str | int], Duration]:
-    """Make a parser of seconds that gives whole nanoseconds.
+    """Make a parser from seconds to whole nanoseconds.
 
     Args:
         check: What number it may be, by its seconds: `positive`, `not_negative`, `finite`.
@@ -110,7 +110,7 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
 
 
 def _nanoseconds(text: str) -> "tuple[int, Decimal]":
-    """Nanoseconds of a number of seconds, and what they are before rounding.
+    """Return a number of seconds in nanoseconds, rounded and unrounded.
 
     Raises:
         ValueError: If it is no number.
@@ -126,7 +126,7 @@ def _nanoseconds(text: str) -> "tuple[int, Decimal]":
 
 
 def refuse_long_simulation(lasting: Duration | None) -> None:
-    """Refuse more simulated time than a command plays.
+    """Refuse more simulated time than a command may play.
 
     Raises:
         UsageError: If it is more than a day.
@@ -142,7 +142,7 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
 
 
 def moment(text: str) -> At:
-    """Read a moment: seconds since the start; from 10⁸ on, or written as a date, a stamp.
+    """Parse a time: seconds since the start, or from 10⁸ on, or written as a date, a stamp.
 
     `12.5` and `+12.5` count from the start (`+` also larger numbers); `1663952504.7` is a
     stamp, and so is `2022-09-23T17:01:44.7Z`; without a time zone it is UTC.
@@ -196,7 +196,7 @@ MANY = "Many recordings"
 
 
 def option(words: str, *names: str, metavar: str | None = None, panel: str | None = None) -> Any:
-    """An option of a command.
+    """Return an option of a command.
 
     Args:
         words: What the help says of it.
@@ -208,7 +208,7 @@ def option(words: str, *names: str, metavar: str | None = None, panel: str | Non
 
 
 def output_file(words: str) -> Any:
-    """The option `-o FILE` of a command; `words` say what it writes there."""
+    """Return the option `-o FILE` of a command; `words` describe the file in the help."""
     return option(words, "-o", "--output", metavar="FILE", panel=OUTPUT)
 
 
@@ -218,7 +218,7 @@ def seconds_option(
     check: Callable[[float | None], float | None] = positive,
     panel: str | None = WHEN,
 ) -> Any:
-    """An option that takes seconds and gives nanoseconds.
+    """Return an option that takes seconds and gives nanoseconds.
 
     The help does not say its default, which would be in nanoseconds: the words do.
 
@@ -239,7 +239,7 @@ def seconds_option(
 
 
 def moment_option(words: str, *names: str, panel: str | None = WHEN) -> Any:
-    """Return an option that takes a moment; `words` are its help."""
+    """Return an option that takes a time; `words` are its help."""
     return typer.Option(*names, metavar="MOMENT", parser=moment, rich_help_panel=panel, help=words)
 
 

@@ -1,4 +1,4 @@
-"""Waiting until a pair of frames can be looked up, with the reason on stderr meanwhile."""
+"""Waiting until a pair can be looked up; the reason for the wait is shown on stderr."""
 
 import asyncio
 import re
@@ -29,7 +29,7 @@ NOTHING_NEW = "nothing new has come since its sender left"
 
 
 class PairWait:
-    """A wait for a pair of frames, on the buffer's own requests."""
+    """A wait for one pair, based on the buffer's requests."""
 
     def __init__(
         self,
@@ -112,7 +112,7 @@ class PairWait:
                 return
 
     async def _available(self, then: Stamp) -> None:
-        """Wait until the pair can be looked up at one moment."""
+        """Wait until the pair can be looked up at one time."""
         pair = self.pair
         if pair.fixed_frame is None:
             await self.world.wait_for_transform(pair.target, pair.source, then)
@@ -122,7 +122,7 @@ class PairWait:
             )
 
     async def _tell_reasons(self, pace: Clock) -> None:
-        """Print the reason of the wait, and again when it becomes another one."""
+        """Print the reason for the wait, and every new reason."""
         told = ""
         while True:
             await pace.sleep(SETTLED, Phase.WATCH)
@@ -148,7 +148,7 @@ class PairWait:
             )
 
     def _because(self) -> str:
-        """Return the cause and the cure, where `explain` has more to say than the reason."""
+        """Return cause and remedy if `explain` knows more than the reason."""
         # Heavy imports wait until there is something to say.
         from tftool.doctor.explanation import explain
 
@@ -163,7 +163,7 @@ class PairWait:
         return f" Cause: {found.why[0]}.{cure}"
 
     def _hint(self) -> None:
-        """Name the frames there are, when one of those asked for is not among them."""
+        """Return the known frames if a requested one is unknown."""
         if self._hinted:
             return
         asked = (self.pair.target, self.pair.source, self.pair.fixed_frame)
@@ -172,7 +172,7 @@ class PairWait:
 
 
 async def _existing(buffer: Buffer, frame: str) -> None:
-    """Wait until a frame exists: tf2 has an answer for a frame in itself even before."""
+    """Wait until a frame exists; tf2 answers for a frame in itself even before."""
     news = asyncio.Event()
     stop = buffer.listen(lambda *_: news.set())
     try:

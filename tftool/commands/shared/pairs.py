@@ -1,4 +1,4 @@
-"""The pairs of frames a command works on, and at which moments: its words become values."""
+"""Pairs of frames and their times, parsed from a command's words."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +22,7 @@ IDENTITY = "A frame seen from itself is always the identity."
 
 @dataclass(frozen=True, slots=True)
 class FramePair:
-    """Two frames, and the moment at which one is looked up in the other.
+    """Two frames, and the time at which one is looked up in the other.
 
     Attributes:
         target: Frame the answer is given in.
@@ -39,11 +39,11 @@ class FramePair:
     fixed_frame: str | None = None
 
     def moment(self, now: Stamp) -> Stamp:
-        """The moment that is meant when the clock reads `now`; 0 for the latest."""
+        """Return the time to look up when the clock reads `now`; 0 for the latest."""
         return now + self.offset if self.offset else self.at
 
     def ask(self, buffer: Buffer, now: Stamp) -> TransformStamped:
-        """Look it up.
+        """Look the pair up.
 
         Raises:
             TransformException: If it cannot be given.
@@ -59,7 +59,7 @@ class FramePair:
         )
 
     def why_not(self, buffer: Buffer, now: Stamp) -> str:
-        """Return the reason why it cannot be given, in tf2_echo's words."""
+        """Return why the lookup fails, in tf2_echo's words."""
         if self.target == self.source and not buffer.frame_exists(self.target):
             return _unknown(self.target)
         then = self.moment(now)
@@ -68,7 +68,7 @@ class FramePair:
         return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
 
     def newest(self, buffer: Buffer) -> Stamp:
-        """The newest moment known of the frames in question; 0 where none of them moves."""
+        """Return the newest time known of these frames; 0 if they are all static."""
         return buffer.newest_common(self.fixed_frame or self.target, self.source)
 
 
@@ -77,7 +77,7 @@ def _unknown(frame: str) -> str:
 
 
 def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
-    """See that no file stands where a frame's name is wanted, as where one of three was forgotten.
+    """Refuse a file in place of a frame's name, as when one of three words was forgotten.
 
     Raises:
         UsageError: If one does.
@@ -94,7 +94,7 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
 
 
 def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
-    """The pairs that were named, and FROM.
+    """Return the named pairs, and FROM.
 
     Args:
         words: TARGET SOURCE [FROM], or [FROM] alone.
@@ -125,7 +125,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
 
 
 def refuse_several_choices(*given: object) -> None:
-    """Refuse more than one of --every, --rate and --at-stamps-of; None is not given.
+    """Refuse more than one of --every, --rate and --at-stamps-of; None means not given.
 
     Raises:
         UsageError: If there are more.
@@ -136,7 +136,7 @@ def refuse_several_choices(*given: object) -> None:
 
 @dataclass(frozen=True, slots=True)
 class MomentOptions:
-    """Options that choose the moments of a span.
+    """Options that choose times within a span.
 
     Attributes:
         first: The first one; None for the beginning.
@@ -154,11 +154,11 @@ class MomentOptions:
 
     @property
     def choices(self) -> tuple[object, ...]:
-        """Return the options that choose moments within the span; None if not given."""
+        """Return the options that choose times within the span; None if not given."""
         return self.every, self.rate, self.stamps_of
 
     def moments(self, frames: Frames) -> "Moments":
-        """Return the moments at which a pair is asked for.
+        """Return the times at which a pair is looked up.
 
         Raises:
             InputError: If there is no such topic.
@@ -178,7 +178,7 @@ class MomentOptions:
 
 
 def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | None, Stamp | None]:
-    """Return the stamps of --from and --to.
+    """Return --from and --to as stamps.
 
     Raises:
         UsageError: If the one lies behind the other, or nothing lies between the two.

@@ -1,4 +1,4 @@
-"""Display of a recording that plays, and the keys that steer it."""
+"""Display of a recording's playback, and its keys."""
 
 import os
 import shutil
@@ -26,7 +26,7 @@ _ERASE = "\r\x1b[2K"
 
 
 def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> None:
-    """Do what a key says: pause, next message, seek, rate, quit. Any other does nothing.
+    """Handle a key: pause, next message, seek, rate, quit; ignore other keys.
 
     Args:
         player: Who plays.
@@ -64,10 +64,10 @@ _SEEKS: Final[dict[str, Duration]] = {
 
 
 class Display:
-    """A line on stderr that says where a player stands, if that is a terminal."""
+    """Line on stderr, if that is a terminal, with the position of the playback."""
 
     def __init__(self, player: "Player", clock: Clock, marks: Sequence[PlaybackMark] = ()) -> None:
-        """Show nothing yet.
+        """Start without a line.
 
         Args:
             player: Who plays.
@@ -85,7 +85,7 @@ class Display:
         self._ascii_only = not encoding.startswith("utf")
 
     def tell(self, record: "LogRecord") -> None:
-        """Say what the link and the player have to say."""
+        """Print messages of the link and the player."""
         if is_news(record):
             self.clear()
             notice(visible(record.text))
@@ -118,14 +118,14 @@ class Display:
         self._is_shown = True
 
     def clear(self) -> None:
-        """Take the line away."""
+        """Erase the line."""
         if self._is_shown:
             sys.stderr.write(_ERASE)
             sys.stderr.flush()
             self._is_shown = False
 
     async def keep(self) -> None:
-        """Draw for as long as this runs."""
+        """Redraw the line for as long as this runs."""
         while True:
             self.draw()
             await self._clock.sleep(REDRAW, Phase.WATCH)

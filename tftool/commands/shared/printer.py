@@ -1,4 +1,4 @@
-"""Results on stdout, as wide as the terminal or a line each where there is none; and in files."""
+"""Results: on stdout, at the terminal's width or a line each without one; and in files."""
 
 import shutil
 import sys
@@ -15,12 +15,12 @@ LOG_WIDTH = 2000
 
 
 def line_width() -> int | None:
-    """Cells a line on stdout may take; None where no terminal shows it."""
+    """Return the width of stdout in cells; None if it is not a terminal."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
 def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> None:
-    """Write a renderable to stdout, and `end` after it.
+    """Print a renderable to stdout, followed by `end`.
 
     Args:
         what: Text to write.
@@ -41,7 +41,7 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
 
 
 def write_file(path: Path, content: str | bytes) -> None:
-    """Write a file as a whole, a text in UTF-8; a pipe or a device is written as it is.
+    """Write a whole file, text as UTF-8; a pipe or device is written directly.
 
     The old file stays until the new file is complete: a full disk loses nothing.
 

@@ -1,4 +1,4 @@
-"""Parts shared by commands that run programs of users: their packages and their log."""
+"""Parts shared by commands that run users' programs: their packages and their log."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def workspace_here(*, verbose: bool) -> Workspace:
-    """The packages below this folder, or in the src it belongs to.
+    """Return the packages below this folder, or in the workspace's src that contains it.
 
     Args:
         verbose: Whether to tell of folders that are skipped, and why.
@@ -26,7 +26,7 @@ def workspace_here(*, verbose: bool) -> Workspace:
 
 
 def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = None) -> None:
-    """Show a world's log from now on.
+    """Print a world's log from now on.
 
     Args:
         world: Which.

@@ -23,10 +23,10 @@ _REDRAWN = seconds(0.1)
 
 
 class Bar:
-    """A bar on stderr, if that is a terminal, once reading has taken half a second."""
+    """Progress bar on stderr, if that is a terminal, shown after half a second."""
 
     def __init__(self, what: str) -> None:
-        """Begin to wait.
+        """Start without a bar.
 
         Args:
             what: What it says in front, fit for a terminal.
@@ -39,7 +39,7 @@ class Bar:
         self._handlers: dict[int, Any] = {}
 
     def __call__(self, done: int, total: int) -> None:
-        """Show how far it has come: bytes, rate, time left."""
+        """Show the progress: bytes, rate, time left."""
         now = self._clock.now()
         if now - self._since < PATIENCE or now - self._drawn < _REDRAWN or not sys.stderr.isatty():
             return
@@ -84,7 +84,7 @@ class Bar:
         self._erase_when_killed()
 
     def _erase_when_killed(self) -> None:
-        """Take the bar away first when a signal ends the process."""
+        """Erase the bar before a signal ends the process."""
         if threading.current_thread() is not threading.main_thread():
             return
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -106,7 +106,7 @@ class Bar:
             self._handlers[number] = before
 
     def stop(self) -> None:
-        """Take the bar away."""
+        """Erase the bar."""
         while self._handlers:
             signal.signal(*self._handlers.popitem())
         if self._progress is not None:

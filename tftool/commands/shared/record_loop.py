@@ -1,4 +1,4 @@
-"""Loop of `tftool record`: write, watch for findings, show the progress."""
+"""Loop of `tftool record`: write messages, watch for findings, show progress."""
 
 import os
 import shutil
@@ -46,7 +46,7 @@ class RecordingRun:
         clock: Clock,
         finding: str | None = None,
     ) -> None:
-        """Take what records.
+        """Make a run of a recorder.
 
         Args:
             recorder: What listens.
@@ -65,7 +65,7 @@ class RecordingRun:
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     async def run(self, duration: Duration | None) -> None:
-        """Record for `duration` nanoseconds or until a finding; until stopped without either.
+        """Record for `duration` nanoseconds or until a finding; without either until stopped.
 
         Raises:
             InputError: If it cannot be written any more; the data so far is readable.
@@ -85,7 +85,7 @@ class RecordingRun:
                 self.found = self._look(now)
 
     def _look(self, now: Stamp) -> "Finding | None":
-        """Whether the doctor finds it in what the ring holds."""
+        """Whether the doctor reports the finding for the content of the ring buffer."""
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.judge import judge
 
@@ -120,7 +120,7 @@ class RecordingRun:
         sys.stderr.flush()
 
     def clear(self) -> None:
-        """Take the line away."""
+        """Erase the line."""
         if self._is_terminal:
             sys.stderr.write(_ERASE)
             sys.stderr.flush()
@@ -128,7 +128,7 @@ class RecordingRun:
 
 @contextmanager
 def recorded(world: World, path: Path, *, force: bool = False) -> Iterator[RollingRecording]:
-    """Record all topics of a world of this process for as long as this lasts.
+    """Record all topics of this process's world while the block runs.
 
     Raises:
         UsageError: If something has that name and `force` is not given.
@@ -145,7 +145,7 @@ def recorded(world: World, path: Path, *, force: bool = False) -> Iterator[Rolli
 
 
 def heard(messages: list[Kept]) -> TransformLog:
-    """Return the content of some messages, in the form the doctor takes."""
+    """Return the content of some messages in the doctor's form."""
     hearing = TransformLog()
     for channel, log_time, payload, _ in messages:
         if channel.type != "tf2_msgs/msg/TFMessage":
@@ -159,7 +159,7 @@ def heard(messages: list[Kept]) -> TransformLog:
 
 
 def tell(rolling: RollingRecording, recorder: Recorder) -> None:
-    """Report the recorded and the missed messages."""
+    """Report the numbers of recorded and missed messages."""
     for name, reason in recorder.left_out.items():
         notice(f"'{visible(name)}' is not recorded: {visible(reason)}.")
     for name in recorder.missing:

@@ -1,4 +1,4 @@
-"""A picture on the terminal that takes the place of the one before, among the lines there."""
+"""Pictures on the terminal that replace each other, between lines of output."""
 
 import os
 import sys
@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 
 def can_redraw() -> bool:
-    """Whether stdout is a terminal whose cursor can be moved."""
+    """Whether stdout is a terminal with a movable cursor."""
     return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
 
 
 class Redrawing:
-    """Draws over what it drew; lines on stderr go above.
+    """Drawer that replaces its last picture; lines on stderr go above it.
 
     Nothing is drawn, and the cursor stays, until the first picture.
     """
@@ -39,7 +39,7 @@ class Redrawing:
         self._stopping = left_while_stopped(self._leave, lambda: None)
 
     def show(self, picture: "RenderableType") -> None:
-        """Draw it in place of the last."""
+        """Draw in place of the last picture."""
         from rich.live import Live
 
         if self._live is None:
@@ -60,7 +60,7 @@ class Redrawing:
         self._undo()
 
     def _leave(self) -> None:
-        """Keep the last picture where it is; the next one goes below."""
+        """Leave the last picture; the next one goes below it."""
         if self._live is not None:
             self._live.stop()
             self._live = None

@@ -1,4 +1,4 @@
-"""Notices about frames that several nodes publish."""
+"""Notices about frames published by several nodes."""
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
@@ -14,7 +14,7 @@ MOST_TOLD = 3
 
 
 def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:
-    """A sentence for each frame whose transforms several nodes send in turns."""
+    """Return a sentence for each frame that several nodes publish alternately."""
     told: list[str] = []
     more = 0
     for frame in frames:

@@ -14,7 +14,7 @@ _layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
 
 @contextmanager
 def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object]) -> Iterator[None]:
-    """Leave the terminal while Ctrl-Z holds the process; others may be nested in it.
+    """Restore the terminal while Ctrl-Z stops the process; may be nested.
 
     Nothing changes off the main thread, where there is no SIGTSTP, and where it is ignored.
 
@@ -39,7 +39,7 @@ def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object])
 
 
 def _asked(number: int, frame: FrameType | None) -> None:
-    """Stop between two callbacks of the loop: never in the midst of something written."""
+    """Stop between two callbacks of the loop, so never within a write."""
     try:
         loop = asyncio.get_running_loop()
     except RuntimeError:

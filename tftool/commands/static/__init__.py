@@ -1,4 +1,4 @@
-"""`tftool static`: publish one transform that holds for all time."""
+"""`tftool static`: publish one static transform."""
 
 from typing import TYPE_CHECKING, Annotated
 

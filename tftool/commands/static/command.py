@@ -1,4 +1,4 @@
-"""`tftool static`: publish one transform that holds for all time."""
+"""`tftool static`: publish one static transform."""
 
 import os
 import sys
@@ -16,7 +16,7 @@ from tftool.world.link.session_world import Session
 
 
 def publish(connection: Connection, said: StaticArguments, *, spin: bool) -> None:
-    """Publish a static transform, say what it is, and hold on to it.
+    """Publish a static transform, print it, and keep it published.
 
     Raises:
         UsageError: If no buffer would take it, or nothing is to be published.

@@ -36,7 +36,7 @@ PATIENCE = seconds(10)
 
 
 def press_all(connection: Connection, turtle: str, keys: str) -> str:
-    """Press keys, each when what the one before it did is over.
+    """Press keys, each after the effect of the last one is complete.
 
     Args:
         connection: What the command's options say.
@@ -87,7 +87,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
 
 
 async def press_there(world: World, turtle: str, words: list[str]) -> str:
-    """Press keys in a joined session, where a turtle is known by its poses alone.
+    """Press keys in a joined session, in which a turtle is known only by its poses.
 
     Raises:
         UsageError: If it is not there.

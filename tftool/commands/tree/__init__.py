@@ -1,4 +1,4 @@
-"""`tftool tree`: which frame hangs from which, as text, data or a picture."""
+"""`tftool tree`: the tree of frames as text, data or a picture."""
 
 from enum import StrEnum
 from pathlib import Path
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class TreeFormat(StrEnum):
-    """Form in which a tree is written."""
+    """Output format of a tree."""
 
     tree = "tree"
     json = "json"

@@ -139,7 +139,7 @@ def _write(
 def _content(
     snapshot: Snapshot, moving: Moving, form: TreeFormat, marks: Marks, *, wide: bool
 ) -> bytes | Iterable[str]:
-    """Return a PDF's bytes, or the text in pieces: a large tree begins to show at once."""
+    """Return a PDF's bytes, or the text in pieces, so that a large tree appears at once."""
     if form is TreeFormat.json:
         import json
 

@@ -1,4 +1,4 @@
-"""The tree as it changes, on a screen that takes keys."""
+"""Live tree on a screen with keys."""
 
 import os
 import sys
@@ -21,7 +21,7 @@ from tftool.world.nodes.joints import DESCRIPTION, LATCHED, description_type
 
 
 def watch_with_keys(session: Session, duration: Duration | None) -> None:
-    """Show the tree until q is pressed or the time is over."""
+    """Show the tree until q is pressed or the time is up."""
     world = session.world
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting(title="tftool tree"))
     app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)

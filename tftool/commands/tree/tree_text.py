@@ -1,4 +1,4 @@
-"""The tree of frames as text: whole, or fitted to a terminal."""
+"""The tree of frames as text: complete, or fitted to a terminal."""
 
 from collections.abc import Iterator, Sequence
 
@@ -20,7 +20,7 @@ Moving = frozenset[str] | None
 
 
 def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> Iterator[str]:
-    """Yield the tree in the width of this terminal; in full where there is none, or if asked."""
+    """Yield the tree at the terminal's width; complete without a terminal or on request."""
     console = Console()
     if not console.is_terminal:
         for text, _ in frame_tree.pieces(snapshot, moving=moving, marks=marks):
@@ -42,7 +42,7 @@ def drawn(snapshot: Snapshot, moving: Moving, marks: Marks, *, wide: bool) -> It
 
 
 def fitting(snapshot: Snapshot, moving: Moving, marks: Marks, console: Console) -> Sequence[Text]:
-    """Return the tree in the width of a terminal, its columns and names cut to fit."""
+    """Return the tree at a terminal's width; columns and names are cut to fit."""
     if not snapshot.frames:
         return [Text(NOTHING)]
     found = compact(

@@ -1,4 +1,4 @@
-"""`tftool tree --watch`: the tree as it changes."""
+"""`tftool tree --watch`: a live tree."""
 
 from rich.console import Console, Group
 from rich.live import Live
@@ -25,7 +25,7 @@ def show_changes(
     duration: Duration | None,
     cache_time: Duration | None,
 ) -> None:
-    """Show the tree as it changes: with keys where there are some, else redrawn in place."""
+    """Show a live tree: with keys if the terminal has them, else redrawn in place."""
     console = Console()
     if not console.is_terminal:
         raise UsageError("--watch needs a terminal; without it the tree is written once.")
@@ -39,7 +39,7 @@ def show_changes(
 
 
 async def _redrawn(world: World, duration: Duration | None, console: Console) -> None:
-    """Draw the tree on the world's own ticks; rich's thread would draw half a change."""
+    """Draw the tree on the world's own ticks; rich's thread could draw a half-finished change."""
     # On this screen nothing else can be read.
     news = Text(style="yellow")
 

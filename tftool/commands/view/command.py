@@ -66,7 +66,7 @@ def _write(
     force: bool,
     open_browser: bool,
 ) -> ExitStatus:
-    """Write the page with its data into one file."""
+    """Write the page and its data into one file."""
     if output.suffix.lower() not in (".html", ".htm"):
         raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
     refuse_existing(output, force=force)
@@ -99,7 +99,7 @@ def _write(
 def _page_data(
     connection: Connection, place: str | None, run_for: Duration | None, meshes: Sequence[Path]
 ) -> StandaloneData:
-    """Read or listen to everything that a page without a server shows."""
+    """Return everything that a page without a server shows, from a file or a session."""
     published: list[ShownRobot] = []
     displays: list[LiveDisplays] = []
 
@@ -122,7 +122,7 @@ def _page_data(
 
 
 def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) -> ShownRobot | None:
-    """Return the robot of a description, or that of a recording."""
+    """Return the robot of a description or a recording."""
     robot = frames.robot
     if robot is None:
         return None
@@ -136,7 +136,7 @@ def _robot_of(connection: Connection, frames: Frames, meshes: Sequence[Path]) ->
 def _alive(
     connection: Connection, found: Found, meshes: Sequence[Path]
 ) -> "tuple[Session, ShownRobot]":
-    """A world with one robot, whose joints the page moves."""
+    """Return a world with one robot, whose joints the page moves."""
     connection.refuse_to_share(found.name)
     robot = load_described(found, connection.robot)
     joints = connection.robot.joints
@@ -152,7 +152,7 @@ def _alive(
 
 
 def _let_drive(session: Session, page: PageServer) -> None:
-    """Have the turtle of a hosted world draw while it is left alone, and take the page's keys."""
+    """Let a hosted world's turtle draw until someone drives it, and accept the page's keys."""
     if not session.is_hosted or simulator_of(session.world) is None:
         return
     link = session.link
@@ -161,7 +161,7 @@ def _let_drive(session: Session, page: PageServer) -> None:
 
 
 def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
-    """Show the robot whose description is published, as soon as it is."""
+    """Show the robot as soon as its description is published."""
 
     def show(shown: ShownRobot) -> None:
         page.show_robot(shown)
@@ -173,7 +173,7 @@ def _listen(session: Session, page: PageServer, meshes: Sequence[Path]) -> None:
 def _hear_description(
     world: World, show: Callable[[ShownRobot], object], meshes: Sequence[Path]
 ) -> None:
-    """Hand on each robot whose description is published."""
+    """Pass on each robot description that is published."""
 
     def described(message: Any) -> None:
         try:
@@ -201,7 +201,7 @@ async def _show(
     waiting: Coroutine[Any, Any, None],
     open_browser: bool,
 ) -> None:
-    """Serve the page until the time is over or a signal ends it.
+    """Serve the page until the time is up or a signal ends it.
 
     Args:
         page: The page.
@@ -226,7 +226,7 @@ async def _show(
 
 
 async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
-    """Run coroutines beside each other until one ends, then cancel the others."""
+    """Run coroutines concurrently until one ends, then cancel the others."""
     tasks = [asyncio.ensure_future(one) for one in work]
     try:
         ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -240,7 +240,7 @@ async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
 
 @contextmanager
 def _redirect_to(url: str) -> Iterator[str]:
-    """Give the address of a file that leads to the page, for as long as this block.
+    """Create a file that leads to the page while this block runs, and return its address.
 
     A browser's command line is there for every user of the machine to read, and the page's own
     address holds its secret: so the browser is given a file that only this user may read.
@@ -315,7 +315,7 @@ def _show_frames(
     meshes: Sequence[Path],
     open_browser: bool,
 ) -> None:
-    """Show a complete source from its beginning on; its time stands still."""
+    """Show a complete source from its beginning, paused."""
     shown_frames = at_rest(connection, frames)
     clock, start = shown_frames.clock, max(frames.span[0], 1)
     page = serve(shown_frames, name=frames.title, begin=first_look(frames) or start)
