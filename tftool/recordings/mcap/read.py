@@ -1,4 +1,4 @@
-"""MCAP read: by its index where there is one, else from front to back up to the damage.
+"""Reading MCAP: by index if there is one, else sequentially up to any damage.
 
 Source: the MCAP format specification, version 0.
 """
@@ -79,7 +79,7 @@ class Mcap(ChunkedReader):
     magic = MCAP_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open it and list its content.
+        """Open the file and list its contents.
 
         Args:
             path: Where it is.
@@ -114,7 +114,7 @@ class Mcap(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """List its content, by its index or without."""
+        """List the contents, by the index or without it."""
         if not self._by_index:
             self._read_style()
         complete = False
@@ -538,7 +538,7 @@ class Mcap(ChunkedReader):
 
 
 class Loose:
-    """Messages outside of chunks; see `Block`."""
+    """Messages outside chunks; see `Block`."""
 
     whole = False
     counts: Mapping[int, int] | None = None
@@ -593,7 +593,7 @@ class Loose:
 
 
 def check_length(length: int) -> None:
-    """Refuse a message's record that is shorter than its head.
+    """Refuse a message record shorter than its header.
 
     Raises:
         InputError: If it is.
