@@ -1,4 +1,4 @@
-"""In which order, and when, the messages of a recording are to be sent again."""
+"""Order and times for playing a recording's messages."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ _NOTHING: Final = np.zeros(0, dtype=np.int64)
 
 
 def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
-    """Log times on the clock that `/clock` read when it was received, interpolated.
+    """Convert log times to the time of `/clock` at reception, interpolated.
 
     Before its first and after its last message it is taken to run at rate 1.
     """
@@ -37,7 +37,7 @@ def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
 
 
 class PlayClock:
-    """Log times on the clock of the stamps, which is what `/clock` has to say while it plays.
+    """Conversion of log times to the stamps' clock, published on `/clock` during playback.
 
     What the recording's own `/clock` read counts, where it has one. Where stamps are a
     simulation's and log times are not, the median of their differences does; else log times
@@ -69,7 +69,7 @@ class PlayClock:
             self._offset = int(np.median(simulated))
 
     def of(self, log_times: Stamps) -> Stamps:
-        """The moments of log times, nanoseconds, shape (n,)."""
+        """Convert log times to nanoseconds on the stamps' clock, shape (n,)."""
         if not self._is_other:
             return log_times
         if len(self._read):
@@ -79,7 +79,7 @@ class PlayClock:
 
 @dataclass(frozen=True, slots=True)
 class Due:
-    """Transforms of one message, to be sent at one moment.
+    """One message's transforms, to publish at one time.
 
     Attributes:
         moment: When, on the clock of the stamps.
@@ -98,7 +98,7 @@ class Due:
 
 @dataclass(frozen=True, slots=True)
 class TimelineRows:
-    """Transforms of some messages, in the order in which they were received.
+    """Transforms of some messages, in order of reception.
 
     Attributes:
         edges: The number of the edge of each, shape (n,).
@@ -112,7 +112,7 @@ class TimelineRows:
 
 
 class Timeline:
-    """The transforms of a recording in the order in which they were received.
+    """A recording's transforms in order of reception.
 
     Attributes:
         clock: Which moment a log time is.
@@ -121,7 +121,7 @@ class Timeline:
     """
 
     def __init__(self, source: Source, transforms: Transforms) -> None:
-        """Put the messages in order.
+        """Sort the messages.
 
         Args:
             source: The recording.
@@ -154,7 +154,7 @@ class Timeline:
         return len(self.moments)
 
     def place(self, moment: Stamp, *, after: bool = False) -> int:
-        """The number of the first message at or after a moment, or only after it."""
+        """Return the number of the first message at or after a time, or only after it."""
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:

@@ -233,7 +233,7 @@ class IndexEntry(NamedTuple):
 
     @property
     def place(self) -> int:
-        """Return the offset of its messages, after 49 bytes of header and the compression's name."""
+        """Offset of its messages, after 49 bytes of header and the compression's name."""
         return self.position + 49 + len(self.method.encode("utf-8", "surrogateescape"))
 
     def record(self) -> bytes:
