@@ -158,7 +158,8 @@ class Timeline:
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:
-        """Tell messages all of whose frames come from one sender, with one parent, none static.
+        """Return a mask of messages whose frames have one publisher and one parent and are not
+        static.
 
         The order among such frames changes nothing. Shape (n,).
         """
@@ -173,7 +174,7 @@ class Timeline:
         return plain
 
     def rows(self, first: int, last: int) -> "TimelineRows":
-        """Return the transforms of the messages from `first` up to `last`, which is left out."""
+        """Return the transforms of the messages from `first` up to, not including, `last`."""
         begin, end = int(self._firsts[first]), int(self._firsts[last])
         counts = np.diff(self._firsts[first : last + 1])
         places = np.repeat(np.arange(first, last), counts)
@@ -184,7 +185,7 @@ class Timeline:
         return self._transforms.edges[number]
 
     def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
-        """Return the sender of each message by its number in names, and these names.
+        """Return each message's publisher as a number, and the publishers' names.
 
         The topic names the sender where no node is recorded.
         """
@@ -194,7 +195,7 @@ class Timeline:
         return numbers[self._transforms.senders[self._order[places]]], names
 
     def message(self, place: int) -> list[Due]:
-        """Return a message's transforms, moving and static ones apart."""
+        """Return a message's transforms, moving and static ones separately."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
         publisher = self._transforms.publishers[int(sender)]
@@ -208,7 +209,7 @@ class Timeline:
         ]
 
     def known_at(self, moment: Stamp) -> list[Due]:
-        """Return the last transform of every child that had been received by a moment.
+        """Return the last transform of every child received up to a time.
 
         A static that came later counts from the beginning on, as what it says holds at all
         times.

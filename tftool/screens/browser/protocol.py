@@ -79,28 +79,28 @@ ARROWS = ("up", "down", "left", "right")
 
 @dataclass(frozen=True, slots=True)
 class Show:
-    """Show a moment: seconds since the epoch, or None for the present."""
+    """Request to show a time: seconds since the epoch, or None for the present."""
 
     at: float | None
 
 
 @dataclass(frozen=True, slots=True)
 class PairRequest:
-    """Tell the transform of this pair from now on; None ends it."""
+    """Request for a pair's transform from now on; None ends it."""
 
     frames: tuple[str, str] | None
 
 
 @dataclass(frozen=True, slots=True)
 class Got:
-    """The page has drawn the poses of this sequence number."""
+    """Acknowledgement that the page has drawn the poses of this sequence number."""
 
     sequence: int
 
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Put a joint elsewhere: radians or metres."""
+    """Request to move a joint: radians or metres."""
 
     joint: str
     position: float
@@ -108,19 +108,19 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class KeyPressed:
-    """A key that drives a turtle: "up", "down", "left" or "right"."""
+    """Key press that drives a turtle: "up", "down", "left" or "right"."""
 
     key: str
 
 
 @dataclass(frozen=True, slots=True)
 class Past:
-    """Send poses from all over the buffer once."""
+    """Request for poses over the whole buffer, once."""
 
 
 @dataclass(frozen=True, slots=True)
 class SeriesRequest:
-    """Tell a pair's transform at `count` moments from `first` to `last`, in seconds."""
+    """Request for a pair's transform at `count` times from `first` to `last`, in seconds."""
 
     target: str
     source: str
@@ -131,7 +131,7 @@ class SeriesRequest:
 
 @dataclass(frozen=True, slots=True)
 class TrailsRequest:
-    """Tell where frames were at `count` moments from `first` to `last`, in seconds."""
+    """Request for frames' positions at `count` times from `first` to `last`, in seconds."""
 
     fixed: str
     frames: tuple[str, ...]
@@ -142,7 +142,7 @@ class TrailsRequest:
 
 @dataclass(frozen=True, slots=True)
 class MarksRequest:
-    """Tell the gaps, and what the doctor finds."""
+    """Request for gaps and the doctor's findings."""
 
 
 Said: TypeAlias = (
@@ -159,7 +159,7 @@ Said: TypeAlias = (
 
 
 def parse(message: str | bytes) -> Said:
-    """Read what a page sent.
+    """Parse a message from a page.
 
     Raises:
         InputError: If it is none of the nine messages; names the mistake.
@@ -227,7 +227,7 @@ def _trails(said: dict[str, Any]) -> TrailsRequest:
 
 
 def _span(said: dict[str, Any]) -> tuple[float, float, int]:
-    """First and last moment, and how many of them."""
+    """Parse first and last time, and their number."""
     count = said.get("count")
     if not isinstance(count, int) or not 2 <= count <= MOST_MOMENTS:
         raise InputError(f"a series has from 2 to {MOST_MOMENTS} moments")
@@ -250,17 +250,17 @@ def _moment(value: Any) -> float | None:
 
 
 def since(epoch: Stamp, stamp: Stamp) -> float:
-    """Turn a stamp into seconds since the epoch."""
+    """Convert a stamp to seconds since the epoch."""
     return (stamp - epoch) / NANOSECONDS
 
 
 def stamp_at(epoch: Stamp, moment: float) -> Stamp:
-    """Turn seconds since the epoch into a stamp; never 0, which would mean the latest."""
+    """Convert seconds since the epoch to a stamp; never 0, which would mean the latest."""
     return min(max(1, epoch + round(moment * NANOSECONDS)), LAST_STAMP)
 
 
 def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
-    """Tell the oldest and newest moment any link remembers; None when all are static."""
+    """Return the oldest and newest stamp of any link; None if all are static."""
     oldest = newest = 0
     for frame in frames:
         if frame.parent is not None and not frame.is_static and frame.samples:
