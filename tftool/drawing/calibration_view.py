@@ -1,4 +1,4 @@
-"""Text and JSON of calibrations."""
+"""Calibrations as text, and as an object for programs."""
 
 import math
 from collections.abc import Sequence

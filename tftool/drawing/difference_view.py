@@ -1,4 +1,4 @@
-"""Differences between two sets of frames: as text lines, as JSON, as Markdown."""
+"""Differences between two sets of frames: a line a link, an object, a table for the web."""
 
 from typing import Final
 
@@ -19,7 +19,7 @@ HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
 def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
-    """Return a line for each link that differs, and a summary.
+    """A line for each link that differs, and a summary.
 
     Args:
         found: What to write.
@@ -50,7 +50,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 
 
 def summary(found: Differences) -> str:
-    """Return one sentence: how many links differ, and by which measure."""
+    """One sentence: how many links differ, by which measure."""
     count, total = len(found.changed), len(found.links)
     limit = found.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
@@ -66,7 +66,7 @@ def summary(found: Differences) -> str:
 
 
 def as_object(found: Differences) -> dict[str, object]:
-    """Return the differences for --json."""
+    """Everything, for programs."""
     limit = found.tolerance
     return {
         "a": found.first,
@@ -84,7 +84,7 @@ def as_object(found: Differences) -> dict[str, object]:
 
 
 def as_markdown(found: Differences) -> str:
-    """Return a Markdown table in which all names are escaped."""
+    """A table for an issue on the web; nothing in a name acts."""
     rows = [_row(one, found.start) for one in found.changed]
     text = [f"**tftool diff** {_code(found.first)} {_code(found.second)}", ""]
     if rows:
@@ -96,7 +96,7 @@ def as_markdown(found: Differences) -> str:
 
 
 def _code(text: str) -> str:
-    """Format a text as code, without active Markdown."""
+    """A text as code, in which no mark-up acts."""
     shown = visible(text).replace("|", "¦").replace("`", "ˋ")
     return f"`{shown}`" if shown.strip() else ""
 
@@ -159,7 +159,7 @@ def _detail(one: LinkDifference, start: Stamp) -> str:
 
 
 def _number(value: float) -> str:
-    """Format three significant digits, at most four decimals."""
+    """Three digits that count, and none behind the fourth decimal."""
     size = abs(value)
     if size < 5e-5:
         return "<0.0001" if size > 1e-9 else "0"

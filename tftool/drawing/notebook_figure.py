@@ -1,4 +1,4 @@
-"""Figure that a notebook shows once, as a cell's value or while drawing.
+"""A figure that a notebook shows once, whether it is a cell's last value or drawn on the way.
 
 Imported when something is drawn: it needs matplotlib, an extra.
 """
@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 
 
 class NotebookFigure(Figure):
-    """A pyplot figure; outside notebooks it is like any other."""
+    """One of pyplot's figures; elsewhere than in a notebook it is like any other."""
 
     def _ipython_display_(self) -> None:
-        """Show the figure, and remove it from those shown at the end of the cell."""
+        """Take itself off the figures that are shown when the cell ends, and be shown as usual."""
         if "inline" in get_backend():
             pyplot.close(self)
         # IPython's word for: show it as if this method were not there.

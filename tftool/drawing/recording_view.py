@@ -25,7 +25,7 @@ _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 
 
 def as_text(recording: Recording, width: int | None = None, name: str | None = None) -> str:
-    """Return everything about a recording as lines.
+    """Everything about a recording, in lines.
 
     Args:
         recording: Which.
@@ -83,7 +83,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
 
 
 def wrapped(sentence: str, width: int | None, indent: str = "") -> list[str]:
-    """Indent a sentence by `indent`, wrapped between words if the width is limited."""
+    """A sentence behind `indent`; broken between words where a line has an end."""
     if width is None or len(indent) + cell_len(sentence) <= width:
         return [indent + sentence]
     return wrap(
@@ -136,7 +136,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
 
 
 def as_object(recording: Recording, name: str | None = None) -> dict[str, Any]:
-    """Return the contents for --json; times and durations in nanoseconds."""
+    """Return it for programs; moments and durations in nanoseconds."""
     source, publishers = recording.source, _publishers(recording)
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
     return {
@@ -237,7 +237,7 @@ def table(
     goes: tuple[str, ...] = (),
     right: tuple[str, ...] = (),
 ) -> list[str]:
-    """Format lines in columns as wide as their cells, up to a limit; the last is not padded.
+    """Lines of columns, as wide as their cells within reason; the last one is not padded.
 
     Args:
         heads: Headings.
@@ -301,7 +301,7 @@ def _moment(stamp: Stamp) -> str:
 
 
 def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str:
-    """Return a line for each of several recordings, with its faults below.
+    """Several recordings, a line each; below them the faults of each.
 
     Args:
         rows: What each holds, or why it cannot be read.

@@ -1,4 +1,4 @@
-"""PNG of the tree, drawn by matplotlib (an extra)."""
+"""The tree as PNG, drawn by matplotlib, which is an extra."""
 
 import io
 from importlib import import_module
@@ -22,7 +22,7 @@ _INKS: Final = {"name": "#171c24", "fact": "#5a6472", "note": "#8a6a17"}
 
 
 def render(picture: Picture) -> bytes:
-    """Render a picture as PNG, with two pixels per point unless it is very large.
+    """Write a picture as PNG, with two points to each of its own where it is not too large.
 
     Raises:
         UsageError: If the extra `plot` is not installed.

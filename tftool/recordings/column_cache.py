@@ -1,4 +1,4 @@
-"""Cache of decoded columns in the user's cache folder.
+"""Columns that were read once, kept in the user's cache folder for the next question.
 
 An entry is known by its recording's files: where they are, how long and how old they are, and
 the bytes at both ends of each. An entry that is not whole, or not as written, counts as if it were
@@ -30,10 +30,10 @@ LARGEST: Final = MOST_BYTES // 2
 
 
 class ColumnCache:
-    """Folder of cached columns, shared by all of the user's processes."""
+    """A folder of columns, shared by every process of the user."""
 
     def __init__(self, folder: Path, *, most_bytes: int = MOST_BYTES) -> None:
-        """Use a folder, which is created with the first entry.
+        """Use a folder, which is made when the first entry is.
 
         Args:
             folder: Where the entries are.
@@ -43,7 +43,7 @@ class ColumnCache:
         self._most_bytes = most_bytes
 
     def load(self, key: str) -> Transforms | None:
-        """Return the entry for a key; None if it is missing or damaged."""
+        """Return the entry under a key; None where there is none, or it is damaged."""
         if not key:
             return None
         path = self.folder / f"{key}{SUFFIX}"
@@ -63,7 +63,7 @@ class ColumnCache:
         return found
 
     def store(self, key: str, transforms: Transforms) -> bool:
-        """Store columns under a key; return whether that was possible.
+        """Keep columns under a key; whether that was possible.
 
         A full disk, or a folder that may not be written to, is no failure of the question.
         """
@@ -87,7 +87,7 @@ class ColumnCache:
         return True
 
     def _prune(self) -> None:
-        """Remove the least recently used entries, and incomplete ones."""
+        """Remove entries not used for longest, and those left half written."""
         entries = []
         newest = 0.0
         for path in self.folder.iterdir():
@@ -110,7 +110,7 @@ class ColumnCache:
 
 
 def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
-    """Return an entry's bytes: a JSON header, then all columns, the widest first."""
+    """The bytes of an entry: a head in JSON, and all columns behind it, the wide ones first."""
     edges = transforms.edges
     columns: list[np.ndarray[Any, Any]] = [
         transforms.log_times,
@@ -147,7 +147,7 @@ def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
 
 
 def _unpacked(data: bytearray, key: str) -> Transforms:
-    """Parse the columns of an entry.
+    """The columns of an entry.
 
     Raises:
         ValueError: If they differ from the written ones.
@@ -176,10 +176,10 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
 
 
 class KeptColumns:
-    """Cached columns of one recording."""
+    """The place of one recording's columns in a cache."""
 
     def __init__(self, cache: ColumnCache, found: Found) -> None:
-        """Record the current state of the recording's files.
+        """Note what the recording's files are now.
 
         Args:
             cache: Where they are kept.
@@ -190,11 +190,11 @@ class KeptColumns:
         self._key = self._key_now()
 
     def load(self) -> Transforms | None:
-        """Return the columns, if cached."""
+        """The columns, if they are kept."""
         return self._cache.load(self._key)
 
     def store(self, transforms: Transforms) -> None:
-        """Store the columns, unless the files have changed meanwhile."""
+        """Keep them, unless the files have changed since."""
         if self._key and self._key_now() == self._key:
             self._cache.store(self._key, transforms)
 

@@ -1,4 +1,4 @@
-"""Compression of a recording's pieces; see `recordings/decompression.py`."""
+"""Pieces of a recording packed; `recordings/decompression.py` unpacks them."""
 
 import bz2
 from collections.abc import Callable
@@ -34,7 +34,7 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
 
 
 def best_compression() -> str:
-    """Return the compression of a new MCAP file: zstd where installed."""
+    """Return the compression of a new MCAP file: zstd where it is installed."""
     try:
         zstandard()
     except UsageError:

@@ -1,4 +1,4 @@
-"""Interface of containers: streams of messages, in pieces of bytes."""
+"""Interface of containers: streams of messages, in pieces of their bytes."""
 
 import os
 from collections.abc import Collection, Iterator, Mapping
@@ -26,7 +26,7 @@ LARGEST_TOLD: Final = 1 << 26
 
 
 def check_told(count: int) -> None:
-    """Refuse a record that describes a stream and exceeds the size limit.
+    """Refuse a record that describes a stream and is too long for that.
 
     Raises:
         InputError: If it is.
@@ -38,7 +38,7 @@ def check_told(count: int) -> None:
 
 
 class Taken(NamedTuple):
-    """One message with everything its container stores about it.
+    """One message, with all that its container keeps of it.
 
     Attributes:
         channel: The number of its channel in its file.
@@ -57,7 +57,7 @@ class Taken(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MessageTable:
-    """Messages of a chunk as columns, in order.
+    """Messages of a chunk as columns, in their order.
 
     Attributes:
         data: The bytes that their payloads are in.
@@ -82,18 +82,18 @@ class MessageTable:
 
     @property
     def owners(self) -> list[int]:
-        """Channels with messages in the block, in order of first appearance."""
+        """The channels that have messages in it, in the order of their first ones."""
         channels, firsts = np.unique(self.channels, return_index=True)
         found: list[int] = channels[np.argsort(firsts)].tolist()
         return found
 
     def payload(self, number: int) -> bytes:
-        """Return the bytes of one message."""
+        """The bytes of one message."""
         start = int(self.starts[number])
         return self.data[start : start + int(self.lengths[number])].tobytes()
 
     def message(self, number: int) -> Taken:
-        """Return one message."""
+        """One message."""
         return Taken(
             int(self.channels[number]),
             int(self.log_times[number]),
@@ -103,13 +103,13 @@ class MessageTable:
         )
 
     def chosen(self, which: Stamps) -> "MessageTable":
-        """Return the messages at some indices."""
+        """Return the messages at some places."""
         columns = (self.channels, self.log_times, self.publish_times, self.sequences)
         rest = (self.starts, self.lengths)
         return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
 
     def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
-        """Copy payloads, each after its own header.
+        """Copy their payloads, each behind a head of its own.
 
         Args:
             heads: One item for each message.
@@ -134,41 +134,41 @@ class MessageTable:
 
 
 def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
-    """Return each run of so many bytes, at every offset, as one item."""
+    """Every run of so many bytes, wherever it begins, as one item."""
     return np.ndarray((len(data) - size + 1,), f"V{size}", buffer=data.data, strides=(1,))
 
 
 class Block(Protocol):
-    """Consecutive messages of a file: a chunk, rows, or messages outside chunks."""
+    """Messages that are together in a file: a chunk, rows, messages outside of chunks."""
 
     @property
     def start(self) -> Stamp:
-        """Log time of the first message."""
+        """Log time of the first one."""
 
     @property
     def end(self) -> Stamp:
-        """Log time of the last message."""
+        """Log time of the last one."""
 
     @property
     def counts(self) -> Mapping[int, int] | None:
-        """Return the number of messages per channel; None if that needs a full parse."""
+        """Count the messages of each channel; None if only taking it apart would tell."""
 
     @property
     def whole(self) -> bool:
-        """Whether the block may be copied as it is."""
+        """Whether it may be copied as it is."""
 
     def sound(self) -> bool:
-        """Whether its content is as written, as far as a checksum can show."""
+        """Whether its content is as written, as far as it carries proof of that."""
 
     def table(self) -> MessageTable | None:
-        """Return its messages as columns; None if each must be parsed separately."""
+        """Its messages as columns; None where it must be taken apart message by message."""
 
     def messages(self) -> list[Taken]:
-        """Return its messages in order; of a damaged block those before the damage."""
+        """Its messages, in their order; those up to the damage, where there is any."""
 
 
 class CopiedAttachment(NamedTuple):
-    """An MCAP file's attachment to copy to another file.
+    """An attachment of an MCAP file, which is copied to another one.
 
     Attributes:
         piece: Its record.
@@ -185,7 +185,7 @@ class CopiedAttachment(NamedTuple):
 
 @dataclass(slots=True)
 class Extras:
-    """Contents of a file besides messages.
+    """Content of a file beside messages.
 
     Attributes:
         attachments: MCAP's attachments, which stay in their file.
@@ -215,19 +215,19 @@ class Container(Protocol):
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages per stream."""
+        """Return the number of messages of each stream."""
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the approximate number of messages of some streams; 0 if unknown."""
+        """About how many messages some streams have; 0 where that is not known."""
 
     @property
     def damage(self) -> list[str]:
-        """Return the damage as sentences; reading may find more."""
+        """Return its damage, as sentences; reading may add to them."""
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams in the recording's order.
+        """The messages of some streams, in the order of the recording.
 
         A batch's buffer holds until the next one is asked for: its memory is used again.
 
@@ -242,7 +242,7 @@ class Container(Protocol):
 
 
 class ContainerReader(Container, Protocol):
-    """One file of a recording, also readable sequentially.
+    """One file of a recording, which can be read from front to back as well.
 
     Attributes:
         container: "mcap", "db3" or "bag".
@@ -258,11 +258,11 @@ class ContainerReader(Container, Protocol):
     style: dict[str, Any]
 
     def blocks(self) -> Iterator[Block]:
-        """Yield all messages in blocks, in the order of the file."""
+        """All of its messages in pieces, in the order of the file."""
 
 
 class File:
-    """A file read at given offsets, never beyond its size when it was opened.
+    """A file read at places, never beyond the end it had when it was opened.
 
     Attributes:
         path: Where it is.
@@ -271,7 +271,7 @@ class File:
     """
 
     def __init__(self, path: Path) -> None:
-        """Open the file.
+        """Open it.
 
         Raises:
             OSError: If it cannot be.
@@ -282,7 +282,7 @@ class File:
         self.read = 0
 
     def at(self, place: int, count: int) -> bytes:
-        """Read `count` bytes from an offset.
+        """Read `count` bytes from a place on.
 
         Raises:
             InputError: If the file does not have them, or they are too many to hold.
@@ -305,7 +305,7 @@ class File:
         return found
 
     def into(self, place: int, room: memoryview) -> None:
-        """Read bytes from an offset into a buffer, and fill it.
+        """The bytes from a place on, as many as there is room for, to be written there.
 
         Raises:
             InputError: If the file does not have them.
@@ -321,13 +321,13 @@ class File:
             room[:] = self.at(place, len(room))
 
     def fileno(self) -> int:
-        """Return the file descriptor."""
+        """The number by which the operating system knows it."""
         return self._file.fileno()
 
     def up_to(self, place: int, count: int) -> bytes:
-        """Read at most `count` bytes from an offset; fewer at the end of the file."""
+        """Read at most `count` bytes from a place on; fewer at the end of the file."""
         return self.at(place, max(0, min(count, self.size - place, LARGEST)))
 
     def close(self) -> None:
-        """Close the file."""
+        """Close it."""
         self._file.close()

@@ -1,4 +1,4 @@
-"""Interface of sources of recorded frames: their values and columns.
+"""Values and columns that every source of recorded frames gives.
 
 A source is read, not waited for: it ends, and all of it is there. Moments are whole
 nanoseconds; *stamps* are what the publisher wrote into a header, *log times* when the
@@ -71,13 +71,13 @@ class Publisher:
 
     @property
     def authority(self) -> str:
-        """Return its name in buffers and views: the node, else the topic."""
+        """Return its name in the buffer and its views: the node, else the topic."""
         return self.node or self.topic
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edge:
-    """All transforms of one parent, child and kind, in the recording's order.
+    """Every transform of one parent, child and kind, in the order of the recording.
 
     Attributes:
         parent: Name as recorded, without the one leading slash it may have.
@@ -108,12 +108,12 @@ class Edge:
 
     @property
     def stamps(self) -> Stamps:
-        """Stamps in nanoseconds, shape (n,); a view."""
+        """Nanoseconds, shape (n,); a view."""
         return self.records[:, 0]
 
     @property
     def translations(self) -> Floats:
-        """Translations in metres, shape (n, 3); a view."""
+        """Metres, shape (n, 3); a view."""
         return self.records.view(np.float64)[:, 1:4]
 
     @property
@@ -124,7 +124,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transforms:
-    """All transforms of a source in columns per edge, and the messages they came in.
+    """All transforms of a source, in columns per edge, and the messages they came in.
 
     Attributes:
         edges: One for each parent, child and kind, in the order they first came up.
@@ -145,7 +145,7 @@ class Transforms:
         return sum(len(edge) for edge in self.edges)
 
     def log_times_of(self, edge: Edge) -> Stamps:
-        """Return the log time of each transform of an edge, nanoseconds, shape (n,)."""
+        """Return the reception of each transform of an edge, nanoseconds, shape (n,)."""
         return self.log_times[edge.messages]
 
     def senders_of(self, edge: Edge) -> Indexes:
@@ -154,7 +154,7 @@ class Transforms:
 
 
 def median(column: Stamps) -> float:
-    """Return numpy's median of at least one whole number, three times as fast for few."""
+    """As numpy's of whole numbers, at a third of its cost where they are few; of one at least."""
     half = len(column) // 2
     if len(column) % 2:
         return float(np.partition(column, half)[half])
@@ -164,7 +164,7 @@ def median(column: Stamps) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Headers:
-    """Headers of a topic's messages, in the recording's order.
+    """The headers of a topic's messages, in the order of the recording.
 
     Attributes:
         topic: Name of the topic.
@@ -187,13 +187,13 @@ class Headers:
 
     @property
     def frame_ids(self) -> npt.NDArray[np.object_]:
-        """Return the frame name of each message, shape (n,)."""
+        """The frame name of each message, shape (n,)."""
         return np.array(self.names, dtype=object)[self.frames]
 
 
 @dataclass(frozen=True, slots=True)
 class RawMessage:
-    """One message as recorded.
+    """One message as it was recorded.
 
     Attributes:
         log_time: When it was received, nanoseconds.
@@ -207,14 +207,14 @@ class RawMessage:
 
 
 class Progress(Protocol):
-    """Callback for the progress of reading."""
+    """Is told how far reading has come."""
 
     def __call__(self, done: int, total: int) -> None:
         """Report that `done` of `total` bytes are read."""
 
 
 class Source(Protocol):
-    """An open recording: its contents are known, and its messages are read on demand.
+    """A recording, opened: its contents are known, its messages are read when asked for.
 
     Whatever reads raises `InputError` if nothing can be read; damage behind which
     something was read is told in `damage`, and never raises.
@@ -222,44 +222,44 @@ class Source(Protocol):
 
     @property
     def name(self) -> str:
-        """Name as given by the user."""
+        """Name as it was given."""
 
     @property
     def kind(self) -> str:
-        """Container's name for sentences: "MCAP", "rosbag2 (sqlite3)", "ROS 1 bag"."""
+        """The container in words: "MCAP", "rosbag2 (sqlite3)", "ROS 1 bag"."""
 
     @property
     def size(self) -> int:
-        """Size of all its files in bytes."""
+        """Bytes of all its files."""
 
     @property
     def start(self) -> Stamp:
-        """Log time of the first message; 0 if there is none."""
+        """Log time of the first message; 0 where there is none."""
 
     @property
     def end(self) -> Stamp:
-        """Log time of the last message; 0 if there is none."""
+        """Log time of the last message; 0 where there is none."""
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the names of its topics, without counting messages, which may be slow."""
+        """Names of its topics; to count their messages may take a while, and this does not."""
 
     @property
     def topics(self) -> tuple[RecordedTopic, ...]:
-        """Return every topic, by name, each once."""
+        """Every topic, by name; each name once."""
 
     @property
     def publishers(self) -> tuple[Publisher, ...]:
-        """Return every stream of messages, by topic and node."""
+        """Every stream of messages, by topic and node."""
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return damage and repairs as sentences."""
+        """Return the damage of the files and the remedies taken, as sentences."""
 
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> Transforms:
-        """Return all transforms: of named topics, else of all whose type contains them.
+        """Every transform; of topics that are named, else of all whose type carries them.
 
         Odometry and PoseStamped are read as transforms where their topics are named.
         """
@@ -267,13 +267,13 @@ class Source(Protocol):
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> dict[str, Headers]:
-        """Return headers by topic: of named topics, else of all whose type begins with one."""
+        """Headers by topic; of topics that are named, else of all whose type begins with one."""
 
     def clock(self) -> tuple[Stamps, Stamps]:
-        """Return the readings of `/clock` and their log times, nanoseconds, each of shape (n,)."""
+        """Return the readings of `/clock` and their reception, nanoseconds, each of shape (n,)."""
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
-        """Yield the messages of some topics in the recording's order."""
+        """The messages of some topics, in the order of the recording."""
 
     def close(self) -> None:
         """Close its files."""

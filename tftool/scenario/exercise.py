@@ -1,4 +1,4 @@
-"""User programs in a scenario, judged by its expectations.
+"""Programs of the user's in a scenario, judged by what it expects.
 
 A scenario itself never names code to run: the one who calls does. A program takes the
 place and the name of one of the scenario's nodes, or lives beside them all; a launch
@@ -26,7 +26,7 @@ from tftool.world.world import World
 
 @dataclass(frozen=True, slots=True)
 class Entrant:
-    """A user's program.
+    """A program of the user's.
 
     Attributes:
         words: What follows `tftool run`: a file, or a package and its executable, then arguments.
@@ -39,7 +39,7 @@ class Entrant:
 
 @dataclass(frozen=True, slots=True)
 class Exercise:
-    """Programs and launch files that a user adds to a scenario.
+    """Programs and launch files that the user brings to a scenario.
 
     Attributes:
         workspace: Where packages are looked for.
@@ -54,7 +54,7 @@ class Exercise:
     tell: Callable[[LogRecord], object] = lambda record: None
 
     def judge(self, scenario: Scenario, *, watch: Watch = nullcontext) -> Verdict:
-        """Play a scenario with these programs on simulated time to its end, and judge it.
+        """Play a scenario with these programs on simulated time, to its end, and judge it.
 
         A program that fails is part of the verdict; the others go on, as processes do.
 
@@ -129,7 +129,7 @@ class Exercise:
 
 
 def _advice(world: World) -> Iterator[str]:
-    """Yield advice about the lookups of each program of a world."""
+    """Yield what the lookups of each program of a world come to, where that is a slip."""
     for program in world.nodes:
         if isinstance(program, Program):
             told = filter(None, (sum_up() for sum_up in program.advice))

@@ -1,4 +1,4 @@
-"""Questions about a scenario: the subjects of expectations, with their answers.
+"""Questions about a scenario: the subjects of its expectations, each with its answer.
 
 A subject is a dataclass: each field names the reader of its value, `key` is what a
 scenario calls it, `form` says what its answer may be held to, and `answer` finds the
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 
 class ScenarioWorld:
-    """World as questions see it.
+    """World that answers questions.
 
     Attributes:
         world: Where the scenario lives.
@@ -68,16 +68,16 @@ class ScenarioWorld:
 
     @property
     def now(self) -> Stamp:
-        """Current time."""
+        """The moment it is."""
         return self.world.clock.now()
 
     def lookup(self, target: str, source: str, time: RelativeMoment) -> Transform:
-        """Look up a pose at a time of the scenario."""
+        """Look up a pose, at a moment of the scenario."""
         stamp = time.stamp(self.start, self.now)
         return self.world.buffer.lookup_transform(target, source, stamp).transform
 
     def frame(self, name: str) -> FrameInfo:
-        """Return the facts about one frame.
+        """All about one frame.
 
         Raises:
             LookupException: If there is none.
@@ -89,18 +89,18 @@ class ScenarioWorld:
         return snapshot.frame(name)
 
     def roots(self) -> tuple[str, ...]:
-        """Return the frames without a parent."""
+        """The frames without a parent."""
         return self.world.buffer.snapshot(self.now).roots()
 
     def count(self, record: LogRecord) -> None:
-        """Count a log line for the questions about it."""
+        """Count a line of the log for the questions it answers."""
         for question in self.lines:
             if question.counts(record):
                 self.lines[question] += 1
 
 
 class Subject(ABC):
-    """Something that can be asked about a scenario at some time.
+    """Something that is asked of a scenario, at a moment of it.
 
     Attributes:
         key: What a scenario calls it.
@@ -114,7 +114,7 @@ class Subject(ABC):
 
     @abstractmethod
     def answer(self, scene: ScenarioWorld) -> Any:
-        """Return the answer at this time.
+        """Find the answer, now.
 
         Raises:
             TransformException: If there is none.
@@ -122,13 +122,13 @@ class Subject(ABC):
 
     @property
     def problem(self) -> str:
-        """Return what is wrong with its fields together; empty if nothing is."""
+        """Return the fault of its fields together; empty when there is none."""
         return ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lookup(Subject):
-    """Pose of `source` in `target` at one time, or through a fixed frame at two."""
+    """The pose of `source` in `target` at a moment, or through a fixed frame at two."""
 
     key: ClassVar[str] = "lookup"
     form: ClassVar[Form] = POSE_FORM
@@ -141,7 +141,7 @@ class Lookup(Subject):
 
     @property
     def problem(self) -> str:
-        """Return what is wrong with its fields together; empty if nothing is."""
+        """Return the fault of the whole; empty when there is none."""
         if self.fixed is None and (self.target_time or self.source_time):
             return "two times need a fixed frame to go through: 'fixed'"
         if self.fixed is not None and self.time is not None:
@@ -149,7 +149,7 @@ class Lookup(Subject):
         return ""
 
     def answer(self, scene: ScenarioWorld) -> Transform:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         if self.fixed is None:
             return scene.lookup(self.target, self.source, self.time or RelativeMoment())
         latest = RelativeMoment()
@@ -168,7 +168,7 @@ class Lookup(Subject):
 
     @property
     def words(self) -> tuple[str, str, str]:
-        """Describe target, source, and the time or fixed frame."""
+        """Target, source, and the moment or the fixed frame, in words."""
         if self.fixed is None:
             return self.target, self.source, "" if self.time is None else f" ({self.time})"
         latest = RelativeMoment()
@@ -181,7 +181,7 @@ class Lookup(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Between(Subject, ABC):
-    """Two frames, the second one relative to the first; see `Lookup` for the times."""
+    """Two frames, the second one seen from the first; see `Lookup` for the times."""
 
     start: str = reads(values.frame, key="from")
     end: str = reads(values.frame, key="to")
@@ -192,12 +192,12 @@ class Between(Subject, ABC):
 
     @property
     def problem(self) -> str:
-        """Return what is wrong with its fields together; empty if nothing is."""
+        """Return the fault of the whole; empty when there is none."""
         return self.lookup.problem
 
     @property
     def lookup(self) -> Lookup:
-        """Return the lookup that gives the answer."""
+        """The lookup that answers it."""
         return Lookup(
             target=self.start,
             source=self.end,
@@ -209,13 +209,13 @@ class Between(Subject, ABC):
 
 
 class Distance(Between):
-    """Distance between two frames' origins."""
+    """Distance of the origins of two frames."""
 
     key: ClassVar[str] = "distance"
     form: ClassVar[Form] = range_form(LENGTH)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return math.hypot(*self.lookup.answer(scene).translation)
 
     def __str__(self) -> str:
@@ -224,13 +224,13 @@ class Distance(Between):
 
 
 class Bearing(Between):
-    """Direction of a frame seen from another."""
+    """In which direction, seen from one frame, another one lies."""
 
     key: ClassVar[str] = "bearing"
     form: ClassVar[Form] = range_form(ANGLE)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return planar.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:
@@ -240,7 +240,7 @@ class Bearing(Between):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointOf(Subject):
-    """Position in one frame of a point fixed in another."""
+    """Position, in one frame, of a point fixed in another."""
 
     key: ClassVar[str] = "point"
     form: ClassVar[Form] = POSE_FORM
@@ -252,7 +252,7 @@ class PointOf(Subject):
     time: RelativeMoment = reads(values.moment, RelativeMoment())
 
     def answer(self, scene: ScenarioWorld) -> Transform:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         target_from_frame = scene.lookup(self.target, self.frame, self.time)
         return Transform(target_from_frame.apply((self.x, self.y, self.z)))
 
@@ -262,7 +262,7 @@ class PointOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion(Subject, ABC):
-    """Motion of one frame in another, averaged over a duration."""
+    """Motion of one frame in another, taken over a while."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -270,7 +270,7 @@ class Motion(Subject, ABC):
     over: Duration = reads(values.period, seconds(0.1))
 
     def velocity(self, scene: ScenarioWorld) -> Velocity:
-        """Return the requested velocity at this time."""
+        """The velocity asked about, now."""
         stamp = self.time.stamp(scene.start, scene.now)
         return scene.world.buffer.lookup_twist(self.frame, self.target, stamp, self.over)
 
@@ -282,7 +282,7 @@ class SpeedOf(Motion):
     form: ClassVar[Form] = range_form(SPEED)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return math.hypot(*self.velocity(scene).linear)
 
     def __str__(self) -> str:
@@ -290,13 +290,13 @@ class SpeedOf(Motion):
 
 
 class TurnRateOf(Motion):
-    """Counter-clockwise turn rate of a frame about the z axis."""
+    """Turn rate of a frame about the z axis, anticlockwise."""
 
     key: ClassVar[str] = "turn_rate"
     form: ClassVar[Form] = range_form(TURN_RATE)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return self.velocity(scene).angular.z
 
     def __str__(self) -> str:
@@ -305,20 +305,20 @@ class TurnRateOf(Motion):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OfFrame(Subject, ABC):
-    """A number measured for one frame."""
+    """A number measured of one frame."""
 
     short: ClassVar[str] = "frame"
     frame: str = reads(values.frame)
 
 
 class RateOf(OfFrame):
-    """Rate at which a frame is published."""
+    """At which rate a frame comes in."""
 
     key: ClassVar[str] = "rate"
     form: ClassVar[Form] = range_form(RATE)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return scene.frame(self.frame).rate
 
     def __str__(self) -> str:
@@ -332,7 +332,7 @@ class AgeOf(OfFrame):
     form: ClassVar[Form] = range_form(DURATION)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return as_seconds(scene.frame(self.frame).age)
 
     def __str__(self) -> str:
@@ -340,13 +340,13 @@ class AgeOf(OfFrame):
 
 
 class MemoryOf(OfFrame):
-    """Duration of a frame's history: newest minus oldest sample."""
+    """Length of a frame's history: newest minus oldest sample."""
 
     key: ClassVar[str] = "memory"
     form: ClassVar[Form] = range_form(DURATION)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return as_seconds(scene.frame(self.frame).buffer_length)
 
     def __str__(self) -> str:
@@ -355,7 +355,7 @@ class MemoryOf(OfFrame):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrameOf(Subject):
-    """Whether a frame is known, its parent, and its publisher."""
+    """Whether a frame is known, under which parent, from whom."""
 
     key: ClassVar[str] = "frame"
     form: ClassVar[Form] = FRAME_FORM
@@ -363,7 +363,7 @@ class FrameOf(Subject):
     name: str = reads(values.frame)
 
     def answer(self, scene: ScenarioWorld) -> FrameFacts:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         snapshot = scene.world.buffer.snapshot(scene.now)
         known = [info.frame for info in snapshot.frames]
         if self.name not in snapshot:
@@ -377,7 +377,7 @@ class FrameOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trees(Subject):
-    """Number of trees."""
+    """Number of trees the frames make."""
 
     key: ClassVar[str] = "trees"
     form: ClassVar[Form] = COUNT_FORM
@@ -385,7 +385,7 @@ class Trees(Subject):
     count: int = reads(values.whole(0, 100_000))
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return len(scene.roots())
 
     def __str__(self) -> str:
@@ -402,7 +402,7 @@ class Roots(Subject):
     names: tuple[str, ...] = reads(values.several(values.frame, "frames"))
 
     def answer(self, scene: ScenarioWorld) -> tuple[str, ...]:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return scene.roots()
 
     def __str__(self) -> str:
@@ -419,7 +419,7 @@ class Turtles(Subject):
     names: tuple[str, ...] = reads(values.several(values.turtle, "turtles"))
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         # Topics outlive turtles and come before them; a turtle's services do neither.
         ending = "/teleport_absolute"
         services = scene.world.services()
@@ -431,7 +431,7 @@ class Turtles(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoseOf(Subject):
-    """A turtle's last published pose."""
+    """The pose a turtle published last."""
 
     key: ClassVar[str] = "pose"
     form: ClassVar[Form] = TURTLE_POSE_FORM
@@ -439,7 +439,7 @@ class PoseOf(Subject):
     turtle: str = reads(values.turtle)
 
     def answer(self, scene: ScenarioWorld) -> Any:
-        """Return its last Pose message; None if there is none."""
+        """Return its last Pose message; None where there is none."""
         topic = scene.world.topics().get(f"{self.turtle}/pose")
         return topic.latest if topic is not None and topic.kind is Pose else None
 
@@ -449,7 +449,7 @@ class PoseOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Logged(Subject):
-    """Number of log lines that contain a text."""
+    """Number of log lines that hold a text."""
 
     key: ClassVar[str] = "logged"
     form: ClassVar[Form] = range_form(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0)
@@ -459,11 +459,11 @@ class Logged(Subject):
     level: str | None = reads(values.choice(LEVELS, "a level"), None)
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         return scene.lines.get(self, 0)
 
     def counts(self, record: LogRecord) -> bool:
-        """Whether it counts a log line."""
+        """Whether it counts a line of the log."""
         return (
             self.text in record.text
             and self.node in (None, record.node)
@@ -486,7 +486,7 @@ class Diagnosed(Subject):
     ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
-        """Return the answer at this time."""
+        """Find the answer, now."""
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
         from tftool.doctor.judge import judge

@@ -1,4 +1,4 @@
-"""Starting and stopping nodes, and reporting the first failure."""
+"""Start nodes, stop them, report the first failure."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:
-    """Run a world's nodes until an end is reached.
+    """Let a world's nodes run until an end is reached.
 
     The end is `until` (everything due in that instant still happens), `world.stop()`,
     or, without `until`, the return of the last node. Whatever still runs then is
@@ -115,7 +115,7 @@ async def beside(
 
 
 class _Supervisor(Supervision):
-    """Tasks of the nodes of one run.
+    """The tasks of the nodes of one run.
 
     Attributes:
         over: Done when the run is to end.
@@ -173,7 +173,7 @@ class _Supervisor(Supervision):
         self.stop()
 
     async def cancel(self) -> None:
-        """Cancel all running tasks, and wait for them."""
+        """Cancel what still runs, and wait for it."""
         self._is_ending = True
         while self._tasks:
             tasks = list(self._tasks)
@@ -204,7 +204,7 @@ class _Supervisor(Supervision):
             raise
 
     async def _guarded(self, resident: Resident, work: Coroutine[Any, Any, T]) -> T | None:
-        """Await some work of a node; an exception becomes the node's failure."""
+        """Await some work of a node; what it raises is the failure of that node."""
         try:
             return await work
         except Overdue as overdue:

@@ -5,6 +5,7 @@ import pytest
 pytest.importorskip("selenium", reason="selenium is not installed")
 
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.support.ui import Select
 
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
@@ -65,6 +66,26 @@ def test_the_ruler_marks_gaps_and_findings_and_goes_where_one_clicks(chromium, t
     went(page, "#ruler", found["since"], beside=2, near=0.0)
     assert "gap" in page.find("#ruler").get_attribute("title")
     went(page, "#plot", 8.0, near=0.05)
+    # The pointer rests at 8 s, where the robot is 8 m along x.
+    assert "x 8.0" in page.said("tftool.course().legend")
+
+    # The wheel zooms about the pointer; the slider shows the same span, and a drag pans.
+    plot = page.find("#plot")
+    origin = ScrollOrigin.from_element(plot)
+    ActionChains(chromium).scroll_from_origin(origin, 0, -500).perform()
+    page.until(lambda: page.said("tftool.course().span.newest") < 9)
+    span = page.said("tftool.course().span")
+    assert span["oldest"] > 1
+    assert page.find("#scrub").get_attribute("min") == str(span["oldest"])
+    page.until(
+        lambda: page.said("tftool.course().series.times[0]") == pytest.approx(span["oldest"])
+    )
+    moment = page.said("tftool.moment()")
+    ActionChains(chromium).drag_and_drop_by_offset(plot, 60, 0).perform()
+    page.until(lambda: page.said("tftool.course().span.oldest") < span["oldest"])
+    assert page.said("tftool.moment()") == moment
+    ActionChains(chromium).double_click(plot).perform()
+    page.until(lambda: page.said("tftool.course().span.oldest") == 0)
     assert page.complaints() == []
 
 

@@ -1,4 +1,4 @@
-"""Reading ROS 1 bags of version 2.0: by index, else chunk by chunk up to any damage.
+"""ROS 1 bags of version 2.0 read: by their index, else chunk by chunk up to the damage.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -49,7 +49,7 @@ class Rosbag1(ChunkedReader):
     magic = ROS1_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open the file and list its contents.
+        """Open it and list its content.
 
         Args:
             path: Where it is.
@@ -72,7 +72,7 @@ class Rosbag1(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """List the contents, by the index or without it."""
+        """List its content, by its index or without."""
         complete = False
         try:
             complete = self._read_index()
@@ -88,13 +88,13 @@ class Rosbag1(ChunkedReader):
             self.end = max((high for _, high in spans), default=0)
 
     def origin(self, number: int) -> tuple[bytes, bytes]:
-        """Return a connection's topic, and its publisher's header, as recorded."""
+        """Return a connection's topic, and the header of its publisher, as recorded."""
         return self._headers[number]
 
     # Content
 
     def _read_index(self) -> bool:
-        """Read the index at the end; return whether there is one.
+        """Take what the index at the end tells; whether there is one.
 
         Raises:
             InputError: If it is damaged; others of `FAULTS` likewise.
@@ -130,13 +130,13 @@ class Rosbag1(ChunkedReader):
         return True
 
     def _forget(self) -> None:
-        """Drop everything known, to start again."""
+        """Drop all knowledge, to begin again."""
         super()._forget()
         self._headers.clear()
         self._infos.clear()
 
     def _describe(self, header: Mapping[bytes, bytes], data: bytes) -> None:
-        """Register a connection of a record."""
+        """Take what a record tells of a connection."""
         check_told(len(data))
         (number,) = U32.unpack(header[b"conn"])
         if number in self.channels:
@@ -156,15 +156,13 @@ class Rosbag1(ChunkedReader):
     # From front to back
 
     def blocks(self) -> Iterator[Chunk]:
-        """Yield its chunks."""
+        """Its chunks."""
         yield from self._pieces()
         if not self._ended:
             self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> Iterator[Chunk]:
-        """Walk through the file record by record; record where it ends, and whether it ends
-        properly.
-        """
+        """Go through it record by record; where it ends, and whether it says so, is noted."""
         position, size = len(ROS1_MAGIC), self.size
         while position < size:
             try:
@@ -195,7 +193,7 @@ class Rosbag1(ChunkedReader):
     def _chunk_at(
         self, position: int, header: Mapping[bytes, bytes], data: int, length: int
     ) -> Chunk:
-        """Return the chunk of a record."""
+        """The chunk of a record."""
         chunk = Chunk(self, position)
         self._look_at(chunk, header, data, length)
         style = self.style
@@ -204,7 +202,7 @@ class Rosbag1(ChunkedReader):
         return chunk
 
     def _look_at(self, chunk: Chunk, header: Mapping[bytes, bytes], data: int, length: int) -> None:
-        """Parse a chunk's header."""
+        """Take what a chunk's header tells."""
         if header.get(b"op") != CHUNK:
             raise InputError(f"no chunk is at byte {chunk.position}")
         chunk.cut = data + length > self.size
@@ -215,7 +213,7 @@ class Rosbag1(ChunkedReader):
         (chunk.size,) = U32.unpack(header[b"size"])
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Skip the index after a chunk, and use it if the bag's own index agrees."""
+        """Step over the index behind a chunk, and note what it tells if the bag's own agrees."""
         counts: dict[int, int] = {}
         while chunk.behind < self.size:
             try:
@@ -233,7 +231,7 @@ class Rosbag1(ChunkedReader):
             chunk.whole = True
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """Return the messages in some records; see `ChunkedReader`."""
+        """The messages among some records; see `ChunkedReader`."""
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == MESSAGE:
@@ -244,7 +242,7 @@ class Rosbag1(ChunkedReader):
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Return the message facts in a chunk's index; see `ChunkedReader`."""
+        """Return the facts in a chunk's index about its messages; see `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)
@@ -256,13 +254,13 @@ class Rosbag1(ChunkedReader):
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Return log times, twice, and no sequences; see `ChunkedReader`."""
+        """Log times, twice, and no sequences; see `ChunkedReader`."""
         sec, nanosec = (words_at(data, starts - n, "<u4").astype(np.int64) for n in (12, 8))
         log_times = sec * NANOSECONDS + nanosec
         return log_times, log_times, np.zeros(len(starts), dtype=np.int64)
 
     def taken(self, chunk: Chunk) -> list[Taken]:
-        """Return a chunk's messages; only they show when the chunk begins and ends."""
+        """A chunk's messages; when it begins and ends shows in them alone."""
         found = super().taken(chunk)
         chunk.start = min((one.log_time for one in found), default=0)
         chunk.end = max((one.log_time for one in found), default=0)
@@ -273,7 +271,7 @@ class Rosbag1(ChunkedReader):
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """Yield the messages of some streams; see `Container`."""
+        """The messages of some streams; see `Container`."""
         chosen = self._chosen(wanted)
 
         def batch_of(chunk: Chunk, ahead: Ahead) -> Batch | None:
@@ -300,12 +298,12 @@ class Rosbag1(ChunkedReader):
         )
 
     def _locate(self, chunk: Chunk) -> None:
-        """Find a chunk's data, if its offset is unknown."""
+        """Find out where a chunk's data is, if that is not known."""
         if not chunk.place:
             self._look_at(chunk, *record_head(self, chunk.position))
 
     def _entries(self, chunk: Chunk, chosen: Container[int]) -> list[tuple[int, Entries]]:
-        """Return the index records after a chunk: chosen connections with messages, and entries."""
+        """The index records behind a chunk: chosen connections with messages, and their entries."""
         counts = chunk.counts or {}
         expected = len(counts) * 64 + 12 * sum(counts.values()) + 64
         data = self.up_to(chunk.place + chunk.packed, expected)
@@ -325,7 +323,7 @@ class Rosbag1(ChunkedReader):
         return found
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the part of a chunk to decompress ahead; None if it is read otherwise."""
+        """Return the part of a chunk that is unpacked ahead; None if it is read otherwise."""
         try:
             self._locate(chunk)
         except FAULTS:

@@ -1,4 +1,4 @@
-"""Screen of `tftool robot`: a slider for each joint, a link's pose, a 3-D picture."""
+"""The screen of `tftool robot`: a slider for each joint, the pose of a link, the robot in space."""
 
 from collections.abc import Callable, Sequence
 from typing import ClassVar
@@ -57,7 +57,7 @@ KEYS = f"""\
 
 
 class RobotApp(PanelApp):
-    """Screen of `tftool robot`.
+    """The screen of `tftool robot`.
 
     Args:
         world: Where the robot's frames are.
@@ -128,11 +128,11 @@ class RobotApp(PanelApp):
     # Building
 
     def keys_told(self) -> str:
-        """Return the key help."""
+        """Say what the keys do."""
         return KEYS
 
     def compose(self) -> ComposeResult:
-        """Create the panels."""
+        """Make the panels."""
         yield Panel("header", can_focus=False)
         with Container(id="body"):
             with Container(id="side"):
@@ -143,7 +143,7 @@ class RobotApp(PanelApp):
         yield Panel("keys", "Keys", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start the updates."""
+        """Start looking."""
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.redraw)
 
     def on_resize(self, event: events.Resize) -> None:
@@ -152,7 +152,7 @@ class RobotApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self) -> None:
-        """Place the picture beside the joints, or below them."""
+        """Give the picture its room: beside the joints, or below them."""
         width, height = self.size
         space = self.query_one("#space", SpacePanel)
         space.in_space = self._wants_space and (width >= BESIDE or height >= BELOW)
@@ -167,7 +167,7 @@ class RobotApp(PanelApp):
     # Looking
 
     def redraw(self) -> None:
-        """Redraw everything that changed."""
+        """Draw everything that changed, now."""
         self.guarded(self._draw)
 
     def _draw(self) -> None:
@@ -268,7 +268,7 @@ class RobotApp(PanelApp):
         return [heading, Text(place), Text(turn), self._joint(width)]
 
     def _joint(self, width: int) -> Text:
-        """Describe the joint under the cursor and its limits."""
+        """Say what the joint under the cursor is, and how far it goes."""
         joint, look = self.sliders.chosen, self.look
         if joint is None:
             return Text()
@@ -305,7 +305,7 @@ class RobotApp(PanelApp):
     # Keys
 
     def on_key(self, event: events.Key) -> None:
-        """Take the digits of a position in typing order."""
+        """Take the digits of a position, in the order in which they are typed."""
         sliders, sign = self.sliders, event.character or ""
         if event.key == "enter":
             sliders.enter()
@@ -327,18 +327,18 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_step(self, direction: int) -> None:
-        """Move the chosen joint by a step."""
+        """Slide the chosen joint."""
         self.sliders.step(direction)
         self.redraw()
 
     def action_cancel(self) -> None:
-        """Discard typed digits, and hide the key help."""
+        """Type nothing after all, and hide the key help."""
         self.panel("keys").display = False
         self.sliders.entry = self.sliders.refusal = ""
         self.redraw()
 
     def action_everything(self, what: str) -> None:
-        """Set all joints to zero, to the middle, or at random."""
+        """Put all joints at zero, in the middle, or anywhere."""
         self._put(what, all_of_them=True)
 
     def action_one(self, what: str) -> None:
@@ -355,13 +355,13 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_picture(self) -> None:
-        """Show the robot in 3-D, or only the joints."""
+        """Show the robot in space, or the joints alone."""
         self._wants_space = not self._wants_space
         self._arrange()
         self.call_after_refresh(self.redraw)
 
     def action_space(self, key: str) -> None:
-        """Orbit the picture."""
+        """Turn the picture."""
         self.query_one("#space", SpacePanel).press(key, self._chosen_frame())
 
     def action_link(self, step: int) -> None:
@@ -372,7 +372,7 @@ class RobotApp(PanelApp):
 
 
 def _bar(one: Slider, width: int, look: Look) -> str:
-    """Draw a slider, `width` cells wide."""
+    """A slider, `width` cells wide."""
     left, right, track, knob = "[]-o" if look.ascii_only else "├┤─●"
     room = max(3, width - 2)
     share = one.share

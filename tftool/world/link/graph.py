@@ -1,4 +1,4 @@
-"""Graph of a session: processes, nodes, and their topics and services."""
+"""Graph of a session: processes, nodes, and what they publish, subscribe and serve."""
 
 import re
 from collections.abc import Iterable
@@ -23,7 +23,7 @@ MOST_DOMAINS: Final = 100
 
 @dataclass(frozen=True, slots=True)
 class GraphEntity:
-    """Another process's node, or an entity of one.
+    """A node of another process, or what one offers or uses.
 
     Attributes:
         kind: One of `KINDS`.
@@ -49,7 +49,7 @@ class GraphEntity:
 
 
 class Role(StrEnum):
-    """A tftool's role for the others in its session.
+    """Role of a tftool for the others of its session.
 
     Attributes:
         HOST: It runs the world that others look at.
@@ -64,7 +64,7 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A tftool in the session, as it announces itself.
+    """A tftool in the session, as it presents itself.
 
     Attributes:
         domain: Number of its ROS domain.
@@ -103,7 +103,7 @@ class Graph:
         self._foreign: set[int] = set()
 
     def add(self, key: str, found: GraphEntity | Process) -> GraphEntity | Process | None:
-        """Add an entity under a key for its removal.
+        """Enter something under the key by which it is taken out again.
 
         Returns:
             The new entity; None when nothing is new.
@@ -124,7 +124,7 @@ class Graph:
         return found
 
     def remove(self, key: str) -> GraphEntity | Process | None:
-        """Remove an entity.
+        """Take something out.
 
         Returns:
             The entity that is gone; None when it was not known.
@@ -139,41 +139,41 @@ class Graph:
         return gone
 
     def get(self, key: str) -> GraphEntity | Process | None:
-        """Return the entity of a key; None if there is none."""
+        """Return the entry under a key; None if there is none."""
         return self._entities.get(key) or self._processes.get(key)
 
     @property
     def foreign_domains(self) -> frozenset[int]:
-        """Return other domains that were noticed."""
+        """Other domains that were heard of."""
         return frozenset(self._foreign)
 
     def processes(self) -> list[Process]:
-        """Return every tftool, the oldest in the session first."""
+        """Every tftool, the one that is there longest first."""
         return sorted(self._processes.values(), key=lambda one: (one.since, one.session))
 
     def process(self, session: str) -> Process | None:
-        """Return the tftool of a session."""
+        """The tftool that a session belongs to."""
         return next((one for one in self._processes.values() if one.session == session), None)
 
     def entities(self, *kinds: str, name: str | None = None) -> list[GraphEntity]:
-        """Return all entities of some kinds, or those of one name."""
+        """Everything of some kinds, of one name if one is given."""
         found = self._entities if name is None else self._by_name.get(name, {})
         return [one for one in found.values() if not kinds or one.kind in kinds]
 
     @property
     def is_empty(self) -> bool:
-        """Whether there is no other process."""
+        """Whether no other process is there."""
         return not self._entities and not self._processes
 
     @property
     def sessions(self) -> frozenset[str]:
-        """Return the sessions with entities."""
+        """The sessions that show something."""
         found = {one.session for one in self._processes.values()}
         return frozenset(found | {one.session for one in self._entities.values()})
 
     @property
     def has_sources(self) -> bool:
-        """Whether a process provides data; guests only wait for it."""
+        """Whether a process is there that brings something; guests only wait."""
         guests = set()
         for one in self._processes.values():
             if one.role is not Role.GUEST:
@@ -182,7 +182,7 @@ class Graph:
         return any(one.session not in guests for one in self._entities.values())
 
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
-        """Return a message's publisher: by gid, else the only candidate; None if ambiguous."""
+        """Return the sender of a message: by its gid, else the only candidate; None if unclear."""
         unknown = []
         for one in self.entities(PUBLISHER, name=topic):
             if one.gid == gid:
@@ -193,12 +193,12 @@ class Graph:
 
 
 def hosts(processes: Iterable[Process]) -> list[Process]:
-    """Return the processes that run a world."""
+    """Return those of some processes that run a world."""
     return [one for one in processes if one.role is Role.HOST]
 
 
 def node_name(name: str) -> str:
-    """Return a valid ROS node name: letters, digits and underscores."""
+    """A node's name as ROS would have it: letters, digits and underscores."""
     name = re.sub(r"[^A-Za-z0-9_/]", "_", name.strip("/"))[:200]
     name = re.sub(r"/+", "/", name)
     return name if name and not name[0].isdigit() else f"_{name}"

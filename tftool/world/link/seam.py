@@ -1,4 +1,4 @@
-"""Interface between a middleware and a link: a ROS graph, with messages as CDR.
+"""Interface of a middleware to a link: a ROS graph, and messages and questions as CDR.
 
 A middleware is a folder beside `zenoh/` with a class that has the methods of `Middleware`, a
 `Reach` that declares its options and joins a session, and one line in
@@ -18,7 +18,7 @@ from tftool.world.link.graph import Graph, GraphEntity, Process
 
 
 class Arrived(NamedTuple):
-    """A received message.
+    """A message that came in.
 
     Attributes:
         payload: Its CDR.
@@ -30,42 +30,42 @@ class Arrived(NamedTuple):
 
 
 class WirePublisher(Protocol):
-    """Publisher of one topic, announced in the graph."""
+    """Publisher of one topic on the wire, shown in the graph."""
 
     @property
     def is_wanted(self) -> bool:
         """Whether a message would reach a subscription, or be kept for later ones."""
 
     def put(self, payload: bytes, stamp: Stamp) -> None:
-        """Send one message with the time `stamp` on our clock.
+        """Send one message, sent at `stamp` by our clock.
 
         Raises:
             LinkError: If the link is closed.
         """
 
     def close(self) -> None:
-        """Close after sending everything queued."""
+        """Send no more, once everything before is sent."""
 
 
 class WireRequest(Protocol):
-    """A received request that waits for its response."""
+    """A request that came in and waits for its answer."""
 
     @property
     def payload(self) -> bytes:
         """Its CDR."""
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Send the response, once."""
+        """Reply, once."""
 
     def refuse(self, reason: str) -> None:
-        """Report that there will be no response, and why."""
+        """Say that there will be no answer, and why."""
 
 
 class WireClient(Protocol):
-    """Client of one service, announced in the graph with its first request."""
+    """The asking end of one service, shown in the graph from its first request on."""
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Send a request and wait at most `timeout` seconds for the response.
+        """Send a request and wait for the answer, `timeout` seconds at most.
 
         A wait that is cancelled takes the request back.
 
@@ -74,20 +74,20 @@ class WireClient(Protocol):
         """
 
     def close(self) -> None:
-        """Close the client."""
+        """Ask no more."""
 
 
 class Watcher(Protocol):
-    """Callbacks of a middleware to its link."""
+    """Receiver of a middleware's reports to its link."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Report an added or removed entity; None if only another domain was noticed."""
+        """Something came or went; None where only another domain was heard of."""
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
-        """Report an invalid message of a topic or service."""
+        """A message of a topic or service came in and is not what it should be."""
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning about others, once for each `what`."""
+        """Warn of something about the others; `what` it is, so that it is said once."""
 
 
 class Middleware(Protocol):
@@ -112,31 +112,31 @@ class Middleware(Protocol):
         """Call back on `loop` from now on, and report changes of the graph."""
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List this process's frames where other local commands find them."""
+        """List the frames this process knows where other commands of this machine find them."""
 
     def settle(self) -> None:
-        """Let other local processes join from now on."""
+        """Let other processes of this machine join from now on."""
 
     def close(self) -> None:
-        """Send queued messages, and leave; no callback follows."""
+        """Send what still waits, and leave; nothing is called back any more."""
 
     @property
     def lost(self) -> int:
-        """Messages dropped because the inbox was full."""
+        """Messages that were dropped because too many waited to be taken in."""
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Announce this process until the returned function is called."""
+        """Show this process to the others, until the returned function is called."""
 
     def node(self, name: str) -> Callable[[], None]:
-        """Announce a node until the returned function is called."""
+        """Show a node, until the returned function is called."""
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
-        """Publish a topic as a node of this process."""
+        """Publish a topic, as a node of this process."""
 
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Announce a node's subscription until the returned function is called.
+        """Show that a node subscribes a topic, until the returned function is called.
 
         Several subscriptions of a process share what one `listen` brings in.
         """
@@ -149,7 +149,7 @@ class Middleware(Protocol):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Call `on_message` with others' messages until the returned function is called.
+        """Have `on_message` called with what others publish, until the returned function is called.
 
         Args:
             name: The topic.
@@ -161,7 +161,7 @@ class Middleware(Protocol):
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Serve a service as a node of this process until the returned function is called."""
+        """Serve a service as a node of this process, until the returned function is called."""
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Call a service as a node of this process."""
+        """Ask a service as a node of this process."""

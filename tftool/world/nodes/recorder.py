@@ -1,4 +1,4 @@
-"""A recorder of a world's topics."""
+"""Messages of a world's topics, handed to a recording as they arrive."""
 
 from collections.abc import Callable, Collection
 from functools import partial
@@ -26,11 +26,11 @@ class Taker(Protocol):
     """Receiver of every message."""
 
     def take(self, channel: Channel, log_time: int, payload: bytes, transforms: int = 0) -> None:
-        """Receive one message, and its number of transforms."""
+        """Take one message, and how many transforms are in it."""
 
 
 class Recorder:
-    """Records topics of a world; of a joined session the original bytes.
+    """Records topics of a world; of a session that was joined, the bytes as they travel.
 
     Attributes:
         topics: Names of the topics that are recorded so far.
@@ -47,7 +47,7 @@ class Recorder:
         everything: bool = False,
         clock: Clock | None = None,
     ) -> None:
-        """Subscribe to the transforms.
+        """Begin to listen to the transforms.
 
         Args:
             world: Whose topics.
@@ -79,7 +79,7 @@ class Recorder:
         self.refresh()
 
     def refresh(self) -> None:
-        """Subscribe to new topics; call it now and then.
+        """Take in topics that have come up; call it now and then.
 
         Raises:
             InputError: If a message could not be taken.
@@ -101,11 +101,11 @@ class Recorder:
 
     @property
     def missing(self) -> list[str]:
-        """Return the requested topics that do not exist yet."""
+        """Topics that were named, and have not come up."""
         return sorted(self._names - self.topics - set(self.left_out))
 
     def close(self) -> None:
-        """Unsubscribe."""
+        """Listen no more."""
         for stop in self._stops:
             stop()
         self._stops.clear()
@@ -193,7 +193,7 @@ class Recorder:
         self._guarded(put)
 
     def _guarded(self, put: Callable[[], None]) -> None:
-        """Keep an exception for the next call, since one in a listener is only reported."""
+        """Keep a failure for the next call: an exception in a listener is only reported."""
         if self._failure is not None:
             return
         try:
@@ -202,7 +202,7 @@ class Recorder:
             self._failure = error
 
     def _channel(self, name: str, ros_type: str, node: str) -> Channel:
-        """Return a channel for each publisher, so that senders stay distinguishable."""
+        """A channel for each publisher: so it stays known who sent what."""
         key = name, ros_type, node
         found = self._channels.get(key)
         if found is None:

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bounds, linesOf, runs, Scale, shownGaps, ticks, told, valueAt, newestOf } from "../../../../tftool/screens/browser/page/ruler.js";
+import { bounds, extended, levels, linesOf, placeOf, runs, Scale, shownGaps, ticks, told, valueAt, newestOf } from "../../../../tftool/screens/browser/page/ruler.js";
 
 test("ticks are round, inside the span, and far enough apart", () => {
   for (const [oldest, newest, width] of [[0, 30, 600], [12.34, 12.9, 500], [-3, 700, 900], [0, 90_000, 400], [0, 1e-3, 300]]) {
@@ -69,4 +69,20 @@ test("the newest value of a line is the last one that is known", () => {
   assert.equal(newestOf([1, 2, null, null]), 2);
   assert.equal(newestOf([null]), null);
   assert.equal(newestOf([]), null);
+});
+
+test("levels are round and have room between them", () => {
+  assert.deepEqual(levels([-1.2, 2.3], 80).map(({ text }) => text), ["-1", "0", "1", "2"]);
+  assert.deepEqual(levels([0.01, 0.06], 60).map(({ text }) => text), ["0.02", "0.04", "0.06"]);
+});
+
+test("poses that came since go on where the series is no longer known", () => {
+  const none = [null, null, null];
+  const series = { times: [1, 2, 3], x: [5, 6, null], y: [0, 0, null], z: none, roll: none, pitch: none, yaw: none };
+  const pose = (moment, x) => ({ moment, x, y: 0, z: 0, roll: 0, pitch: 0, yaw: 0 });
+  const { times, x } = extended(series, [pose(1.5, 9), pose(2.5, 7)]);
+
+  assert.deepEqual([times, x], [[1, 2, 2.5], [5, 6, 7]]);
+  assert.equal(placeOf(times, 2.25), 1.5);
+  assert.equal(placeOf(times, 9), null);
 });

@@ -109,3 +109,24 @@ test("when the connection ends, play no longer waits", () => {
 
   assert.equal(line.awaiting, false);
 });
+
+test("a zoom keeps its moment in place, and a window stays within the buffer", () => {
+  const { line } = timeline(15);
+  line.zoom(14, 0.5);
+  assert.deepEqual(line.span, { oldest: 12, newest: 17 });
+  line.pan(99);
+  assert.deepEqual(line.span, { oldest: 15, newest: 20 });
+  line.zoom(17, Infinity);
+  assert.deepEqual(line.span, { oldest: 10, newest: 20 });
+});
+
+test("a window goes along with the moment shown, once that has been inside", () => {
+  const { line } = timeline();
+  line.zoom(20, 0.2);
+  line.setReach({ oldest: 10, newest: 30, now: 30 });
+  assert.deepEqual(line.span, { oldest: 28, newest: 30 });
+
+  line.pan(-10);
+  line.setReach({ oldest: 10, newest: 31, now: 31 });
+  assert.deepEqual(line.span, { oldest: 18, newest: 20 });
+});

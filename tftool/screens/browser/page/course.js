@@ -2,10 +2,13 @@
 // The ruler and the plot on the page: ask for what they show, draw it, and go where one clicks.
 import { number } from "./format.js";
 import { $ } from "./panels.js";
-import { bounds, linesOf, newestOf, PLOTS, runs, Scale, shownGaps, ticks, valueAt } from "./ruler.js";
+import { bounds, extended, levels, linesOf, newestOf, placeOf, PLOTS, runs, Scale, shownGaps, ticks, valueAt } from "./ruler.js";
 
 const THUMB = 8; // pixels from the slider's end to the middle of its handle there
+const GUTTER = 46; // pixels at the left, for values; the page's style has it too
 const NEAR = 5; // pixels
+const DRAGGED = 3; // pixels
+const ZOOM = 0.0015; // of a pixel of the wheel
 const LEGEND = 15; // pixels above the lines, for what they are called
 // Of lines and of what they are called, which has to be read.
 const [RED, GREEN, BLUE, BROWN] = [0, 1, 2, 3];
@@ -17,44 +20,88 @@ const TONE_OF = { x: RED, y: GREEN, z: BLUE, roll: RED, pitch: GREEN, yaw: BLUE,
 const SEVERITIES = { error: "#e5484d", warning: "#d08700", note: "#7a8699" };
 const MOST_MOMENTS = 1000;
 const SERIES_EVERY = 500; // milliseconds, while the present goes on
+const ZOOMED_EVERY = 120; // milliseconds, while a person zooms or pans
+const MOST_LATER = 5000; // poses kept beyond the series
 const MARKS_EVERY = 5000;
 
 export class Course {
   /**
-   * @param {{ want(type: string, fields: any): void, go(moment: number): void, now(): number }} hooks
+   * @param {import("./timeline.js").Timeline} timeline
+   * @param {{ want(type: string, fields: any): void, now(): number, redraw(): void }} hooks
    */
-  constructor(hooks) {
+  constructor(timeline, hooks) {
+    this.timeline = timeline;
     this.hooks = hooks;
+    /** @type {any[]} poses of the pair that came after the series */
+    this.later = [];
+    /** @type {number | null} pixel under the pointer */
+    this.pointer = null;
     this.ruler = $("ruler");
     this.plot = $("plot");
     /** @type {{ gaps: [string, number, number][], findings: any[] }} */
     this.marks = { gaps: [], findings: [] };
     /** @type {any} */
     this.series = null;
-    this.asked = { key: "", span: "", end: "", series: -Infinity, marks: -Infinity };
+    this.asked = { key: "", span: "", end: "", series: -Infinity, marks: -Infinity, zoomed: 0 };
     /** @type {{ from: number, to: number, frames: string[] }[]} */
     this.gaps = [];
     /** @type {[number, number]} */
     this.limits = [-1, 1];
+    this.legended = ""; // what is written above the lines
     this.scale = new Scale({ oldest: 0, newest: 0 }, 0, 1);
-    for (const canvas of [this.ruler, this.plot]) {
-      let held = false;
-      canvas.addEventListener("pointerdown", (event) => {
-        held = true;
-        canvas.setPointerCapture(event.pointerId);
-        this.go(event.offsetX);
-      });
-      canvas.addEventListener("pointermove", (event) => {
-        if (held) this.go(event.offsetX);
-        else this.tell(canvas, event.offsetX);
-      });
-      for (const type of ["pointerup", "pointercancel"]) canvas.addEventListener(type, () => (held = false));
-    }
+    for (const canvas of [this.ruler, this.plot]) this.wire(canvas);
+    $("line").addEventListener("wheel", (event) => this.turn(event), { passive: false });
+  }
+
+  /** A click goes to a moment, a drag too; on a plot that is zoomed in a drag pans. */
+  wire(canvas) {
+    /** @type {{ x: number, moved: boolean } | null} */
+    let held = null;
+    const pans = () => canvas === this.plot && this.timeline.window !== null;
+    canvas.addEventListener("pointerdown", (event) => {
+      held = { x: event.offsetX, moved: false };
+      canvas.setPointerCapture(event.pointerId);
+      if (!pans()) this.go(event.offsetX);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      this.point(event.offsetX);
+      if (!held) return this.tell(canvas, event.offsetX);
+      held.moved ||= Math.abs(event.offsetX - held.x) > DRAGGED;
+      if (!pans()) this.go(event.offsetX);
+      else if (held.moved) {
+        this.timeline.pan(this.scale.moment(held.x) - this.scale.moment(event.offsetX));
+        held.x = event.offsetX;
+      }
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      if (held && !held.moved && pans()) this.go(event.offsetX);
+      held = null;
+    });
+    canvas.addEventListener("pointercancel", () => (held = null));
+    canvas.addEventListener("pointerleave", () => this.point(null));
+    canvas.addEventListener("dblclick", () => this.timeline.zoom(0, Infinity));
+  }
+
+  point(pixel) {
+    this.pointer = pixel;
+    this.hooks.redraw();
+  }
+
+  /** The wheel zooms about the moment under the pointer; sideways, or with Shift, it pans. */
+  turn(event) {
+    event.preventDefault();
+    const sideways = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
+    const far = sideways ? event.deltaX || event.deltaY : event.deltaY;
+    const { oldest, newest } = this.timeline.span;
+    if (!(newest > oldest)) return;
+    if (sideways) this.timeline.pan((far / (this.scale.right - this.scale.left)) * (newest - oldest));
+    else this.timeline.zoom(this.scale.moment(event.clientX - this.ruler.getBoundingClientRect().left), Math.exp(far * ZOOM));
+    this.hooks.redraw();
   }
 
   /** Go to a pixel's moment; to the finding's own where there is one under it. */
   go(pixel) {
-    this.hooks.go(this.finding(pixel)?.since ?? this.scale.moment(pixel));
+    this.timeline.scrub(this.finding(pixel)?.since ?? this.scale.moment(pixel));
   }
 
   finding(pixel) {
@@ -77,6 +124,19 @@ export class Course {
   /** What was asked for has come. */
   setSeries(message) {
     this.series = message;
+    const from = message.times[0];
+    this.later = this.later.filter(({ moment }) => moment >= from);
+  }
+
+  /** Add the pair's newest pose to what is plotted: the series is asked for more rarely. */
+  add({ found, target, source, moment, translation, rpy }) {
+    const last = this.later[this.later.length - 1];
+    if (last && (last.target !== target || last.source !== source || last.moment > moment)) this.later = [];
+    if (!found || moment === null || last?.moment === moment) return;
+    const [x, y, z] = translation;
+    const [roll, pitch, yaw] = rpy;
+    this.later.push({ target, source, moment, x, y, z, roll, pitch, yaw });
+    if (this.later.length > MOST_LATER) this.later.shift();
   }
 
   setMarks(message) {
@@ -85,19 +145,19 @@ export class Course {
 
   /** The connection was made anew, or the tree is another: ask again. */
   forget() {
-    this.asked = { key: "", span: "", end: "", series: -Infinity, marks: -Infinity };
+    this.asked = { key: "", span: "", end: "", series: -Infinity, marks: -Infinity, zoomed: 0 };
   }
 
   /**
    * Ask for what is shown, where that is not known or has grown old.
-   * @param {import("./timeline.js").Reach} reach
    * @param {{ target?: string, source?: string, plot: string }} choices
    */
-  ask({ oldest, newest }, { target, source, plot }) {
+  ask({ target, source, plot }) {
     const now = this.hooks.now();
+    const { reach, zoomed, span: { oldest, newest } } = this.timeline;
     if (!(newest > oldest)) return;
     // A recording is asked about once; of what goes on there is soon more.
-    const end = `${oldest} ${newest}`;
+    const end = `${reach.oldest} ${reach.newest}`;
     if (now - this.asked.marks > MARKS_EVERY && this.asked.end !== end) {
       this.asked.marks = now;
       this.asked.end = end;
@@ -111,31 +171,33 @@ export class Course {
     const key = JSON.stringify([target, source]);
     const other = key !== this.asked.key;
     if (other) this.series = null;
-    if (!other && (now - this.asked.series < SERIES_EVERY || this.asked.span === end)) return;
+    const span = `${oldest} ${newest}`;
+    const wait = zoomed === this.asked.zoomed ? SERIES_EVERY : ZOOMED_EVERY;
+    if (!other && (now - this.asked.series < wait || this.asked.span === span)) return;
     const count = Math.max(2, Math.min(MOST_MOMENTS, Math.round(this.plot.clientWidth || 400)));
-    this.asked = { ...this.asked, key, series: now, span: end };
+    this.asked = { ...this.asked, key, series: now, span, zoomed };
     this.hooks.want("series", { target, source, from: oldest, to: newest, count });
   }
 
   /**
-   * @param {import("./timeline.js").Timeline} timeline
    * @param {{ target?: string, source?: string, plot: string, theme: string }} choices
    * @param {string[]} chain the frames between the pair
    */
-  draw({ at, reach }, choices, chain) {
+  draw(choices, chain) {
+    const { at, reach, span } = this.timeline;
     const width = this.ruler.clientWidth;
-    this.scale = new Scale(reach, THUMB, width - THUMB);
-    this.gaps = shownGaps(this.marks.gaps, new Set(chain), reach);
+    this.scale = new Scale(span, GUTTER, width - THUMB);
+    this.gaps = shownGaps(this.marks.gaps, new Set(chain), span);
     const style = getComputedStyle(document.documentElement);
     const ink = { text: style.getPropertyValue("--soft") || "#888", edge: style.getPropertyValue("--edge") || "#ccc", tones: TONES[choices.theme] };
-    this.drawRuler(ink, reach);
+    this.drawRuler(ink, span);
     const { series } = this;
     const plotted = choices.plot !== "none" && series !== null && series.target === choices.target && series.source === choices.source;
     if (this.plot.hidden === plotted) this.plot.hidden = !plotted;
-    if (plotted) this.drawPlot(ink, at, reach.newest, /** @type {keyof typeof PLOTS} */ (choices.plot));
+    if (plotted) this.drawPlot(ink, at, at ?? reach.newest, /** @type {keyof typeof PLOTS} */ (choices.plot));
   }
 
-  drawRuler(ink, reach) {
+  drawRuler(ink, span) {
     const { pen, width, height } = fresh(this.ruler);
     pen.font = "10.5px system-ui, sans-serif";
     pen.textBaseline = "top";
@@ -143,15 +205,15 @@ export class Course {
     for (const { from, to } of this.gaps) {
       pen.fillRect(this.scale.pixel(from), height - 6, Math.max(2, this.scale.pixel(to) - this.scale.pixel(from)), 6);
     }
-    for (const { at, text } of ticks(reach, width - 2 * THUMB)) {
+    for (const { at, text } of ticks(span, width - GUTTER - THUMB)) {
       const pixel = this.scale.pixel(at);
       pen.fillStyle = ink.text;
       pen.fillRect(Math.round(pixel), height - 5, 1, 5);
       const size = pen.measureText(text).width;
-      pen.fillText(text, Math.min(width - size, Math.max(0, pixel - size / 2)), 1);
+      pen.fillText(text, Math.min(width - size, Math.max(GUTTER - THUMB, pixel - size / 2)), 1);
     }
     for (const { since, severity } of [...this.marks.findings].reverse()) {
-      if (since < reach.oldest || since > reach.newest) continue;
+      if (since < span.oldest || since > span.newest) continue;
       const pixel = this.scale.pixel(since);
       pen.fillStyle = SEVERITIES[severity] ?? ink.text;
       pen.beginPath();
@@ -162,27 +224,52 @@ export class Course {
     }
   }
 
-  drawPlot(ink, at, newest, plot) {
+  drawPlot(ink, at, looked, plot) {
     const { pen, width, height } = fresh(this.plot);
-    const lines = linesOf(this.series, plot);
+    const series = extended(this.series, at === null ? this.later : []);
+    const lines = linesOf(series, plot);
+    const { unit } = PLOTS[plot];
     const [least, most] = (this.limits = bounds(lines));
-    const y = (value) => height - 2 - ((value - least) / (most - least)) * (height - LEGEND - 4);
+    const tall = height - LEGEND - 4;
+    const y = (value) => height - 2 - ((value - least) / (most - least)) * tall;
     pen.font = "10.5px system-ui, sans-serif";
+    pen.textBaseline = "middle";
+    pen.textAlign = "right";
+    for (const { value, text } of levels(this.limits, tall)) {
+      pen.fillStyle = ink.edge;
+      pen.fillRect(GUTTER, Math.round(y(value)), width - GUTTER - THUMB, 1);
+      pen.fillStyle = ink.text;
+      pen.fillText(text, GUTTER - 6, Math.min(height - 6, y(value)));
+    }
+    pen.textBaseline = "top";
+    pen.fillText(unit, GUTTER - 6, 1);
+    pen.textAlign = "left";
     pen.fillStyle = `${SEVERITIES.error}22`;
     for (const { from, to } of this.gaps) {
       pen.fillRect(this.scale.pixel(from), LEGEND, Math.max(1, this.scale.pixel(to) - this.scale.pixel(from)), height);
     }
-    if (least < 0 && most > 0) {
-      pen.fillStyle = ink.edge;
-      pen.fillRect(THUMB, Math.round(y(0)), width - 2 * THUMB, 1);
+    pen.save();
+    pen.beginPath();
+    pen.rect(GUTTER, 0, width - GUTTER - THUMB + 1, height);
+    pen.clip();
+    this.drawLines(pen, ink, series.times, lines, y, plot === "rpy");
+    pen.fillStyle = ink.text;
+    pen.fillRect(Math.round(this.scale.pixel(looked)), LEGEND, 1, height);
+    if (this.pointer !== null) {
+      pen.globalAlpha = 0.5;
+      pen.fillRect(Math.round(this.pointer), LEGEND, 1, height);
     }
+    pen.restore();
+    this.legend(pen, ink, series.times, lines, at, unit);
+  }
+
+  drawLines(pen, ink, times, lines, y, circular) {
     pen.lineWidth = 1.5;
     pen.lineJoin = "round";
-    const { times } = this.series;
     for (const { name, values } of lines) {
       pen.strokeStyle = ink.tones[TONE_OF[name]];
       pen.beginPath();
-      for (const run of runs(values, plot === "rpy")) {
+      for (const run of runs(values, circular)) {
         run.forEach(([at, value], place) => {
           const pixel = this.scale.pixel(times[at]);
           if (place === 0) pen.moveTo(pixel, y(value));
@@ -191,24 +278,22 @@ export class Course {
       }
       pen.stroke();
     }
-    pen.fillStyle = ink.text;
-    pen.fillRect(Math.round(this.scale.pixel(at ?? newest)), LEGEND, 1, height);
-    this.legend(pen, ink, lines, at, PLOTS[plot].unit);
-    pen.fillStyle = ink.text;
-    pen.textBaseline = "top";
-    pen.fillText(`${number(least, 2)} … ${number(most, 2)} ${PLOTS[plot].unit}`, THUMB, 1);
   }
 
-  /** Each line's name and value at the moment, or its newest one in the present, at the right end above the lines. */
-  legend(pen, ink, lines, at, unit) {
-    const { times } = this.series;
-    const exact = ((at - times[0]) / (times[times.length - 1] - times[0])) * (times.length - 1);
+  /** Each line's name and value under the pointer, at the moment, or in the present its newest, above the lines at the right. */
+  legend(pen, ink, times, lines, at, unit) {
+    const moment = this.pointer === null ? at : this.scale.moment(this.pointer);
+    const place = moment === null ? null : placeOf(times, moment);
+    const value = (values) =>
+      moment === null ? newestOf(values) : place === null ? null : valueAt(values, place, unit === "°");
+    const parts = lines.map(({ name, values }) => ({ text: `${name} ${number(value(values), 3)} ${unit}`, tone: ink.tones[TONE_OF[name]] }));
+    if (this.pointer !== null) parts.unshift({ text: `at ${number(moment, 3)} s`, tone: ink.text });
+    this.legended = parts.map(({ text }) => text).join("  ");
     let right = this.plot.clientWidth - THUMB;
     pen.textBaseline = "top";
-    for (const { name, values } of [...lines].reverse()) {
-      const text = `${name} ${number(at === null ? newestOf(values) : valueAt(values, exact, unit === "°"), 3)} ${unit}`;
+    for (const { text, tone } of parts.reverse()) {
       right -= pen.measureText(text).width;
-      pen.fillStyle = ink.tones[TONE_OF[name]];
+      pen.fillStyle = tone;
       pen.fillText(text, right, 1);
       right -= 12;
     }

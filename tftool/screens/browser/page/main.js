@@ -154,6 +154,7 @@ const handlers = {
     // The numbers of a moment that is still shown outlive the buffer's memory of it.
     if (timeline.forgotten && !message.found && pair?.found) return;
     server.pair = message;
+    if (!timeline.past) course.add(message);
     redraw.data(false);
   },
   trails(message) {
@@ -202,11 +203,15 @@ const wire = inside ? new Standalone(handlers, inside) : new Wire(handlers);
 
 const past = new Past((asked) => wire.trails(asked));
 
-const course = new Course({
+const course = new Course(timeline, {
   want: (type, fields) => wire.want(type, fields),
-  go: (moment) => timeline.scrub(moment),
   now: () => performance.now(),
+  redraw: drawCourse,
 });
+
+function drawCourse() {
+  course.draw(choices, server.pair?.found ? server.pair.chain : []);
+}
 
 const pickers = {
   fixed: new Picker($("fixed"), $("offers"), (name) => name && setFixed(name), false),
@@ -245,9 +250,9 @@ function render(now) {
     carry();
     paint();
   }
-  course.ask(timeline.reach, choices);
+  course.ask(choices);
   if (due.lists) {
-    course.draw(timeline, choices, server.pair?.found ? server.pair.chain : []);
+    drawCourse();
     if (!due.picture) retell(model, shown.frames, timeline.past); // ages go on without a picture
     tree.refresh(shown.frames, choices, robot);
     words();
@@ -823,6 +828,9 @@ Object.assign(globalThis, {
       findings: course.marks.findings.map(({ id, since }) => ({ id, since, pixel: course.scale.pixel(since) })),
       series: course.series,
       limits: course.limits,
+      legend: course.legended,
+      span: timeline.span,
+      later: course.later.length,
       pixel: (moment) => course.scale.pixel(moment),
     }),
     plain: () => stage.plain,

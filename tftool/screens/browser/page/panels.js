@@ -173,9 +173,9 @@ export function showCounts(model, hidden) {
  * Set the slider to what the buffer holds. Never under a hand that holds it.
  * @param {import("./timeline.js").Timeline} timeline
  */
-export function showReach({ at, ends, reach: { oldest, newest } }) {
+export function showReach({ at, ends, reach, span: { oldest, newest } }) {
   const line = $("scrub");
-  line.disabled = newest <= oldest;
+  line.disabled = reach.newest <= reach.oldest;
   // What ends and lasts no time has no moments to go to.
   $("time").hidden = ends && line.disabled;
   if (line.matches(":active")) return;

@@ -1,6 +1,8 @@
 // @ts-check
 // A ruler of time and a plot above it, as numbers: where ticks, gaps, findings and lines come to lie.
 
+import { round } from "./scale.js";
+
 const STEPS = [1, 2, 5];
 const MINUTES = [60, 120, 300, 600, 900, 1800, 3600, 7200, 14_400, 28_800, 86_400];
 
@@ -93,6 +95,55 @@ export function shownGaps(gaps, frames, { oldest, newest }) {
     }
   }
   return joined;
+}
+
+/**
+ * Round values to mark at the side of a plot, no nearer to each other than `apart` pixels.
+ * @param {[number, number]} limits
+ * @param {number} height pixels
+ * @returns {{ value: number, text: string }[]}
+ */
+export function levels([least, most], height, apart = 22) {
+  const step = round(((most - least) * apart) / Math.max(1, height));
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const found = [];
+  for (let number = Math.ceil(least / step); number * step <= most; number++) {
+    found.push({ value: number * step, text: digits > 4 ? (number * step).toExponential(1) : (number * step + 0).toFixed(digits) });
+  }
+  return found;
+}
+
+/**
+ * A series up to its last known place, and after it the poses that came since.
+ * @param {any} series
+ * @param {any[]} poses each with `moment` and the series' columns
+ */
+export function extended(series, poses) {
+  const columns = ["x", "y", "z", "roll", "pitch", "yaw"];
+  let end = series.x.length;
+  while (end > 0 && series.x[end - 1] === null) end--;
+  const later = poses.filter(({ moment }) => end === 0 || moment > series.times[end - 1]);
+  const all = { ...series, times: [...series.times.slice(0, end), ...later.map(({ moment }) => moment)] };
+  for (const name of columns) all[name] = [...series[name].slice(0, end), ...later.map((pose) => pose[name])];
+  return all;
+}
+
+/**
+ * The place of a moment in a series, with a fraction; null outside of it.
+ * @param {number[]} times
+ * @param {number} moment
+ */
+export function placeOf(times, moment) {
+  const step = (times[times.length - 1] - times[0]) / Math.max(1, times.length - 1);
+  if (!times.length || moment < times[0] - step || moment > times[times.length - 1] + step) return null;
+  let low = 0;
+  let high = times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= moment) low = middle;
+    else high = middle;
+  }
+  return high === low ? low : low + Math.min(1, Math.max(0, (moment - times[low]) / (times[high] - times[low] || 1)));
 }
 
 /** What can be plotted of a pair, and what each line is called. */

@@ -12,6 +12,7 @@
  * @typedef {{ ask(at: number | null): void, moved(): void, reached(reach: Reach): void }} Hooks
  */
 
+const SHORTEST = 0.01; // seconds that the ruler is zoomed to at most
 const LONGEST_TICK = 0.25; // seconds; a page that was hidden does not leap
 
 export class Timeline {
@@ -26,6 +27,11 @@ export class Timeline {
     this.awaiting = false; // poses were requested and have not come yet
     /** @type {Reach} */
     this.reach = { oldest: 0, newest: 0, now: 0 };
+    /** The part of the reach that the ruler and the plot show. */
+    this.span = { oldest: 0, newest: 0 };
+    /** @type {{ from: number, length: number, follows: boolean } | null} zoomed to, null for all */
+    this.window = null;
+    this.zoomed = 0; // how often a person zoomed or panned
     this.rate = 1; // session seconds per second
     this.speed = 1; // of play, chosen by a person
     this.tickedAt = 0;
@@ -47,6 +53,52 @@ export class Timeline {
    */
   setReach({ oldest, newest, now }) {
     this.reach = { oldest, newest, now };
+    this.settle();
+    this.hooks.reached(this.reach);
+  }
+
+  /** Keep the window within the buffer, and along with the moment shown once it has been inside. */
+  settle() {
+    const { window, reach } = this;
+    const { oldest, newest } = reach;
+    if (!window || window.length >= newest - oldest) {
+      this.window = null;
+      this.span = { oldest, newest };
+      return;
+    }
+    const looked = this.at ?? newest;
+    if (looked >= window.from && looked <= window.from + window.length) window.follows = true;
+    else if (window.follows) window.from = looked < window.from ? looked : looked - window.length;
+    window.from = Math.min(Math.max(window.from, oldest), newest - window.length);
+    this.span = { oldest: window.from, newest: window.from + window.length };
+  }
+
+  /**
+   * Show a shorter or longer span, with a moment at the same place of the ruler.
+   * @param {number} moment
+   * @param {number} factor of the span; Infinity for all of it
+   */
+  zoom(moment, factor) {
+    const { oldest, newest } = this.span;
+    const length = Math.max(SHORTEST, (newest - oldest) * factor);
+    this.window = { from: moment - (moment - oldest) * (length / (newest - oldest)), length, follows: false };
+    this.turned();
+  }
+
+  /**
+   * Show an earlier or later part.
+   * @param {number} seconds
+   */
+  pan(seconds) {
+    if (!this.window) return;
+    this.window.from += seconds;
+    this.window.follows = false;
+    this.turned();
+  }
+
+  turned() {
+    this.zoomed++;
+    this.settle();
     this.hooks.reached(this.reach);
   }
 
@@ -110,6 +162,7 @@ export class Timeline {
   show(at) {
     this.at = at;
     this.awaiting = at !== null;
+    this.settle();
     this.hooks.ask(at);
     this.hooks.moved();
   }
