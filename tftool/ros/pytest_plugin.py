@@ -1,4 +1,4 @@
-"""pytest: test ROS nodes without ROS.
+"""pytest plugin: test ROS nodes without ROS.
 
 The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`. With `pytest --ros-free`
 every test has one, and test files may say `import rclpy` at their top. A fixture for
@@ -22,7 +22,7 @@ _shared: list[Any] = []
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Offer `--ros-free`."""
+    """Add the option `--ros-free`."""
     parser.getgroup("tftool").addoption(
         "--ros-free",
         action="store_true",
@@ -31,7 +31,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Answer to ROS 2's modules before test files are imported."""
+    """Provide ROS 2's modules before test files are imported."""
     if config.getoption("--ros-free"):
         from tftool.ros.host import program
         from tftool.ros.host.importing import ros_modules
@@ -51,7 +51,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
-    """Give the imports back."""
+    """Restore the imports."""
     if _imports:
         from tftool.ros.host import program
 
@@ -64,7 +64,7 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
-    """Say how a test file gets its `import rclpy`, where it has failed."""
+    """Explain a failed `import rclpy` in a test file."""
     outcome: Any = yield
     report = outcome.get_result()
     if not _imports and report.failed and "No module named 'rclpy" in report.longreprtext:
@@ -75,14 +75,14 @@ def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_fixture_setup(fixturedef: Any) -> Iterator[None]:
-    """Note which fixture is being set up."""
+    """Record the fixture being set up."""
     _set_up.append(fixturedef)
     yield
     _set_up.pop()
 
 
 def _program_of_fixture() -> Any:
-    """Return the owner of a fixture that uses rclpy before its tests have begun."""
+    """Return the program of a fixture that uses rclpy before its tests start."""
     if not _set_up:
         return None
     from tftool.ros.testing import RosRuntime
@@ -102,7 +102,7 @@ def _program_of_fixture() -> Any:
 
 @pytest.fixture
 def ros_runtime() -> Iterator[Any]:
-    """A world on simulated time; the test is a program in it and may use rclpy."""
+    """World on simulated time; the test is a program in it and may use rclpy."""
     from tftool.ros.testing import RosRuntime
 
     if _shared:
@@ -114,6 +114,6 @@ def ros_runtime() -> Iterator[Any]:
 
 @pytest.fixture(autouse=True)
 def _ros_free(request: pytest.FixtureRequest) -> None:
-    """With `--ros-free`, every test has a runtime."""
+    """Give every test a runtime, with `--ros-free`."""
     if request.config.getoption("--ros-free"):
         request.getfixturevalue("ros_runtime")

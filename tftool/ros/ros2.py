@@ -59,7 +59,7 @@ SESSIONLESS = ("interface", "pkg")
 
 
 def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[], None]:
-    """Make the body that runs `ros2 WORDS`, for a `Program`; it prints by `show`.
+    """Return the body of a `Program` that runs `ros2 WORDS` and prints by `show`.
 
     Raises:
         UsageError: If the words are no command, or a type they name is not known.
@@ -91,7 +91,7 @@ def _show_lines(text: str, show: Print) -> None:
 
 
 def _message(asked: argparse.Namespace) -> Any:
-    """Make the message to send from its YAML text.
+    """Make a message from its YAML text.
 
     Raises:
         UsageError: If it does not fit its type.
@@ -130,7 +130,7 @@ def _topic_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _type_of_topic(node: Node, topic: str) -> str:
-    """A topic's type, waited for.
+    """Wait for a topic, and return its type.
 
     Raises:
         UsageError: If the topic does not appear.
@@ -157,7 +157,7 @@ def _wait_until(found: Callable[[], object]) -> None:
 
 
 def _wanted_quality(asked: argparse.Namespace, otherwise: QoSProfile) -> QoSProfile:
-    """Return the profile that `--qos-…` options ask for; the rest is as in `otherwise`."""
+    """Return the profile from `--qos-…` options, completed from `otherwise`."""
     profile = otherwise
     if asked.qos_profile:
         profile = copy(QoSPresetProfiles[asked.qos_profile.upper()].value)
@@ -178,7 +178,7 @@ _POLICIES: dict[str, Any] = {
 
 
 def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None]) -> None:
-    """Subscribe to a topic as those who publish it do, or as `--qos-…` options ask."""
+    """Subscribe with the publishers' QoS, or that of `--qos-…` options."""
     name = getattr(asked, "type", None) or _type_of_topic(node, asked.topic)
     ends = [one.qos_profile for one in node.get_publishers_info_by_topic(_full(asked.topic))]
     latched = bool(ends) and all(one.durability is DurabilityPolicy.TRANSIENT_LOCAL for one in ends)
@@ -218,7 +218,7 @@ def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _field(message: Any, path: str) -> Any:
-    """Return the field of a message that "points[0].x" names.
+    """Return a message's field by a path like "points[0].x".
 
     Raises:
         UsageError: If the message has no such field.
@@ -240,7 +240,7 @@ def _measured(
     value: Callable[[Any], Any],
     tell: Callable[[list[Any]], None],
 ) -> None:
-    """Keep a value of each message; call `tell` with the last ones once a second."""
+    """Collect a value of each message; call `tell` with the last ones once a second."""
     values: list[Any] = []
     _heard(node, asked, lambda message: values.append(value(message)))
 
@@ -311,7 +311,7 @@ def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _find(pairs: Any, kind: str, show: Print) -> None:
-    """Show the names that have a type, of "package/msg/Name" or "package/Name"."""
+    """Print the names with a type, "package/msg/Name" or "package/Name"."""
     parts = kind.split("/")
     for name, kinds in pairs:
         if any(kind == one or parts == [one.split("/")[0], one.split("/")[-1]] for one in kinds):
@@ -421,7 +421,7 @@ def _service_call(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _parameters(node: Node, name: str) -> AsyncParameterClient:
-    """Return a client for the parameters of a node.
+    """Return a client for a node's parameters.
 
     Raises:
         UsageError: If the node does not answer.
@@ -529,7 +529,7 @@ _TYPES = {
 
 
 def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    """Set a node's parameters from a file; its line and the reason for each that is refused.
+    """Set a node's parameters from a file; print each, with the reason if refused.
 
     Raises:
         UsageError: If the file cannot be read, or says nothing of that node.

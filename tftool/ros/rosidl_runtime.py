@@ -1,4 +1,4 @@
-"""rosidl_runtime_py: messages as mappings, YAML and CSV, and interfaces by their names."""
+"""rosidl_runtime_py: messages as mappings, YAML and CSV, and interfaces by name."""
 
 from collections import OrderedDict
 from collections.abc import Mapping
@@ -21,7 +21,7 @@ def message_to_yaml(msg: Any, **_: Any) -> str:
 
 
 def message_to_csv(msg: Any, **_: Any) -> str:
-    """Return the single values of a message, one after the other, with commas between them."""
+    """Return the values of a message, separated by commas."""
     return ",".join(str(value) for value in _single_values(ros2_words.plain(msg)))
 
 
@@ -34,7 +34,7 @@ def _single_values(value: Any) -> list[Any]:
 
 
 def get_message_slot_types(msg: Any) -> "OrderedDict[str, str]":
-    """Return the type of each field of a message, by the field's name."""
+    """Return the type of each field of a message, by name."""
     return OrderedDict(msg.get_fields_and_field_types())
 
 

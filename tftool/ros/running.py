@@ -34,12 +34,12 @@ FILES = (".py", ".xml", ".yaml", ".yml")
 
 
 def is_file(word: str) -> bool:
-    """Whether a word of the command line means a file, rather than a package."""
+    """Whether a word of the command line is a file, rather than a package."""
     return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
 
 
 def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
-    """Refuse words that `start_program` would refuse, before there is a world.
+    """Refuse words that `start_program` would refuse, before a world is made.
 
     Raises:
         UsageError: If no executable is named, or there is none of that name, or what follows
@@ -61,7 +61,7 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
 
 
 def _file(workspace: Workspace, word: str) -> Path:
-    """The file that a word of the command line names.
+    """Return the file that a word names.
 
     Raises:
         InputError: If there is none, but one of that name in a package: its path is told.
@@ -136,7 +136,7 @@ def start_program(
 
 
 def tell_unfound(workspace: Workspace, file: Path | None) -> str:
-    """Return a line about what ROS 2 would not find of a node or launch file; "" for nothing."""
+    """Return a line about parts of a node or launch file that ROS 2 would not find; "" for none."""
     for name, package in workspace.packages.items() if file is not None else ():
         if file is not None and file.is_relative_to(package.path):
             faults = faults_about(package, file, workspace.packages)
@@ -147,7 +147,7 @@ def tell_unfound(workspace: Workspace, file: Path | None) -> str:
 
 
 def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> Path | None:
-    """Return the file of a package's executable; None for other words, and for nodes of ours."""
+    """Return the file of a package's executable; None for other words, and for our own nodes."""
     package = workspace.packages.get(target)
     if package is None or not rest or is_file(target):
         return None
@@ -158,7 +158,7 @@ def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> P
 
 
 def driven_turtle(words: Sequence[str]) -> str:
-    """The turtle that a turtle_teleop_key drives when it is started with these words.
+    """Return the turtle that a turtle_teleop_key with these arguments drives.
 
     It publishes on `turtle1/cmd_vel`, which a rule of `--ros-args` may lead elsewhere.
 
@@ -176,7 +176,7 @@ def driven_turtle(words: Sequence[str]) -> str:
 
 
 def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
-    """The launch file that the first word, or the first two, mean; and the words after it.
+    """Return the launch file named by the first word or two; and the remaining words.
 
     Raises:
         UsageError: If there is none; the ones of the package are told.
@@ -202,7 +202,7 @@ def _listed(folder: Path) -> str:
 
 
 def arguments_of(words: Sequence[str]) -> dict[str, str]:
-    """The `name:=value` words.
+    """Return the `name:=value` words.
 
     Raises:
         UsageError: If one is something else.
@@ -228,24 +228,24 @@ def show_arguments(path: Path, workspace: Workspace) -> str:
 
 
 class TurtlesOnDemand:
-    """Hosts a turtlesim in a world once a program shows that it means turtles."""
+    """Hosts a turtlesim in a world as soon as a program uses turtles."""
 
     def __init__(self, world: World) -> None:
         self._world = world
         self._is_asked = False
 
     def host_from_program(self) -> None:
-        """Host it for the program that runs, unless somebody simulates turtles already."""
+        """Host it for the running program, unless turtles are simulated already."""
         program.current().ask(self.host)
 
     def host_for_topics(self) -> None:
-        """Host it when somebody publishes or subscribes on a topic of the first turtle."""
+        """Host it when a topic of the first turtle is used."""
         if not self._is_asked and TURTLE_TOPICS & self._world.topics().keys():
             # Not at once: the world is entering the topic at this moment.
             asyncio.get_running_loop().call_soon(self.host)
 
     def host(self) -> None:
-        """Host it, unless somebody simulates turtles already (on the loop's thread)."""
+        """Host it, unless turtles are simulated already (in the loop's thread)."""
         if self._is_asked:
             return
         self._is_asked = True
@@ -257,7 +257,7 @@ class TurtlesOnDemand:
 
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
-    """Wait until something is over, at most so long."""
+    """Wait until something is over, at most for a duration."""
     if limit is not None:
         end = world.clock.now() + limit
         world.clock.limit(end)
@@ -267,7 +267,7 @@ async def until(world: World, over: asyncio.Event, limit: Duration | None) -> No
 
 
 class Ending:
-    """End of a run of a user's programs."""
+    """The end of a run of users' programs."""
 
     def __init__(self, world: World) -> None:
         self.world = world
@@ -275,12 +275,12 @@ class Ending:
         self.over: asyncio.Event = asyncio.Event()
 
     def __call__(self, program: Program) -> None:
-        """Note that a program has ended; the run is over."""
+        """Record that a program has ended; the run is over."""
         self.program = program
         self.over.set()
 
     def judge(self) -> int:
-        """The exit status of the run.
+        """Return the exit status of the run.
 
         Raises:
             NodeFailed: If a node raised.
@@ -289,7 +289,7 @@ class Ending:
 
 
 def status_of(program: Program) -> int:
-    """The exit status of a program that has ended.
+    """Return the exit status of a program that has ended.
 
     Raises:
         NodeFailed: If it raised.
@@ -305,7 +305,7 @@ def status_of(program: Program) -> int:
 
 
 class ProgramFailed(NodeFailed):
-    """A program raised; said with the user's own line."""
+    """Error for a program that raised, with the user's own line."""
 
     def __init__(self, name: str, error: BaseException) -> None:
         super().__init__(name, error)

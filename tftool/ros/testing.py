@@ -57,7 +57,7 @@ class RosRuntime:
             raise self._failure
 
     def _ended(self) -> BaseException:
-        """Return the reason for a test that waits in a world that has ended."""
+        """Return why a test waits for a world that has ended."""
         failure = self.world.failure
         if failure is None:
             return EndedError("the world has ended")
@@ -71,7 +71,7 @@ class RosRuntime:
             self._failure = error
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Have something done in the world, and awaited if it can be: `ask(lambda: …)`.
+        """Run something in the world, and await it if possible: `ask(lambda: …)`.
 
         Raises:
             NodeFailed: If a program beside the test, or a node, has failed.
@@ -80,7 +80,7 @@ class RosRuntime:
         return self.program.ask(request)
 
     def sleep(self, duration: float) -> None:
-        """Let `duration` seconds pass; everything due in them happens.
+        """Let `duration` seconds pass, with everything due in them.
 
         Raises:
             NodeFailed: If a program beside the test, or a node, has failed.
@@ -89,7 +89,7 @@ class RosRuntime:
         self.program.ask(lambda: self.clock.sleep(seconds(duration), Phase.WATCH))
 
     def elapsed(self) -> float:
-        """Seconds since the start."""
+        """Return seconds since the start."""
         return (self.clock.now() - self.clock.epoch) / 1e9
 
     def start(
@@ -98,7 +98,7 @@ class RosRuntime:
         *argv: str,
         on_exit: Callable[[Program], object] | None = None,
     ) -> Program:
-        """Start a node's file, or a function such as a module's `main`, as a program of its own.
+        """Start a node's file, or a function such as a module's `main`, as a program.
 
         Args:
             what: The file, or the function.

@@ -30,7 +30,7 @@ _UNEXPECTED = re.compile(r"([\w.]+)\(\) got an unexpected keyword argument '(\w+
 
 
 def _near_name(error: BaseException) -> str:
-    """Return the known name that a misspelt one resembles, as the end of a sentence."""
+    """Return the known name similar to a misspelt one, as the end of a sentence."""
     frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
     if not frames or "did you mean" in str(error):
         return ""
@@ -45,7 +45,7 @@ def _near_name(error: BaseException) -> str:
 
 
 def syntax_sentence(error: SyntaxError) -> str:
-    """Return the place of a syntax error, and the user's own line with a caret below it."""
+    """Return the position of a syntax error, and the user's line with a caret below it."""
     where = f"{error.filename}:{error.lineno}:{error.offset}"
     sentence = f"{where}: {type(error).__name__}: {error.msg}"
     text = (error.text or "").rstrip("\n")

@@ -1,4 +1,4 @@
-"""asyncio for users' programs: event loops that wait in the world's time."""
+"""asyncio for users' programs: event loops in the world's time."""
 
 import asyncio
 import selectors
@@ -13,7 +13,7 @@ SLICE: Duration = seconds(0.01)
 
 
 class _WorldSelector(selectors.DefaultSelector):
-    """Looks for arrivals, and waits as `time.sleep` does in a user's program."""
+    """Selector that waits for input the way `time.sleep` waits in a user's program."""
 
     def select(self, timeout: float | None = None) -> Any:
         ready = super().select(0)
@@ -27,21 +27,21 @@ class _WorldSelector(selectors.DefaultSelector):
 
 
 class UserEventLoop(asyncio.SelectorEventLoop):
-    """The event loop of a user's program; its seconds are the world's."""
+    """Event loop of a user's program; its seconds are the world's."""
 
     def __init__(self) -> None:
-        """Make one for the program that is running; it closes with the program."""
+        """Make a loop for the running program; it closes with the program."""
         super().__init__(_WorldSelector())
         self._owner = running_program()
         self._owner.event_loops.append(self)
 
     def time(self) -> float:
-        """Seconds since the world began."""
+        """Return seconds since the world began."""
         return float(self._owner.now() - self._owner.clock.epoch) / NANOSECONDS
 
 
 def get_event_loop() -> asyncio.AbstractEventLoop:
-    """The thread's loop; one is made where there is none, as in a process's main thread."""
+    """Return the thread's loop; create one if there is none, as in a process's main thread."""
     try:
         return asyncio.get_event_loop()
     except RuntimeError:
@@ -53,12 +53,12 @@ def get_event_loop() -> asyncio.AbstractEventLoop:
 
 
 def new_event_loop() -> asyncio.AbstractEventLoop:
-    """A loop of the world's in a user's program, Python's own elsewhere."""
+    """Return a loop in the world's time for a user's program, Python's own elsewhere."""
     return asyncio.new_event_loop() if running_program() is None else UserEventLoop()
 
 
 def run(main: Coroutine[Any, Any, Any], *, debug: bool | None = None) -> Any:
-    """Run a coroutine to its end in a loop of its own, as `asyncio.run` does."""
+    """Run a coroutine to its end in a new loop, as `asyncio.run` does."""
     factory: Callable[[], asyncio.AbstractEventLoop] | None = None
     if running_program() is not None:
         factory = UserEventLoop

@@ -1,4 +1,4 @@
-"""Executables of packages: a user's console script or file, or a node of ours."""
+"""Executables of packages: a user's console script or file, or one of our nodes."""
 
 import shlex
 from collections.abc import Callable, Mapping, Sequence
@@ -36,12 +36,12 @@ if TYPE_CHECKING:
 
 
 class HasItsOwnCommand(UsageError):
-    """A program that people look at, or press keys in, was to be started among others."""
+    """Error for starting an interactive program among others; it has its own command."""
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """Request to start an executable of ours.
+    """Request to start one of our executables.
 
     Attributes:
         world: Where it lives.
@@ -60,11 +60,11 @@ class Asked:
     options: RosOptions
 
     def text(self, name: str, default: str) -> str:
-        """A text parameter; asked for, so it counts as known."""
+        """Return a text parameter, and declare it."""
         return str(self.parameters.pop(name, default))
 
     def flag(self, name: str, default: bool) -> bool:
-        """A parameter that is true or false.
+        """Return a boolean parameter.
 
         Raises:
             UsageError: If it is neither.
@@ -75,7 +75,7 @@ class Asked:
         return value
 
     def number(self, name: str, default: float) -> float:
-        """A parameter that is a finite number.
+        """Return a parameter that is a finite number.
 
         Raises:
             UsageError: If it is none.
@@ -86,7 +86,7 @@ class Asked:
         return float(value)
 
     def channel(self, name: str, default: int) -> int:
-        """A parameter that is a channel of a colour.
+        """Return a parameter that is a colour channel.
 
         Raises:
             UsageError: If it is none.
@@ -150,7 +150,7 @@ def _mimic(asked: Asked) -> Node:
 
 
 def _robot_of(asked: Asked) -> "Robot | None":
-    """The robot a node is given: by parameter robot_description, or by a file's name.
+    """Return a node's robot: by parameter robot_description, or by a file's name.
 
     Raises:
         UsageError: If neither is one; the mistakes are told.
@@ -292,7 +292,7 @@ OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
 
 
 def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
-    """Return every executable by package and name, and its file where it has one of its own."""
+    """Return every executable by package and name, and its file if it has one."""
     found: dict[tuple[str, str], Path | None] = dict.fromkeys(_OURS)
     for package in workspace.packages.values():
         found |= {(package.name, name): package.place_of_script(name) for name in package.scripts}
@@ -300,7 +300,7 @@ def names(workspace: Workspace) -> dict[tuple[str, str], Path | None]:
 
 
 def check(workspace: Workspace, package: str, executable: str) -> None:
-    """Refuse an executable that there is not.
+    """Refuse an unknown executable.
 
     Raises:
         HasItsOwnCommand: If it is one for a terminal of its own.

@@ -1,4 +1,4 @@
-"""Users' blocking code and the event loop, taking turns.
+"""Fibers: users' blocking code and the event loop taking turns.
 
 A fiber is a thread whose code may block as ROS nodes do (`rclpy.spin`,
 `time.sleep`, `client.call`). It never touches the world itself: it asks, the
@@ -50,11 +50,11 @@ _local = threading.local()
 
 
 class EndedError(TftoolError):
-    """Something was asked of a world that lives no more."""
+    """Error for a request to a world that has ended."""
 
 
 class StuckError(TftoolError):
-    """A callback came to no end while simulated time waited for it."""
+    """Error for a callback that did not end while simulated time waited for it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class CodeLine:
 
 
 def user_line(frame: FrameType | None) -> CodeLine | None:
-    """The innermost line of a stack that is neither ours nor Python's own."""
+    """Return the innermost line of a stack outside our code and Python's own."""
     while frame is not None:
         file = frame.f_code.co_filename
         if is_users_file(file):
@@ -89,7 +89,7 @@ def user_line(frame: FrameType | None) -> CodeLine | None:
 
 
 def user_line_of_error(trace: TracebackType | None) -> CodeLine | None:
-    """The innermost line of a traceback that is neither ours nor Python's own."""
+    """Return the innermost line of a traceback outside our code and Python's own."""
     found = None
     while trace is not None:
         code = trace.tb_frame.f_code
@@ -104,7 +104,7 @@ def _place(file: str, line: int, function: str) -> CodeLine:
 
 
 class Fiber:
-    """One thread of users' code.
+    """One thread of users' code, which alternates with the event loop.
 
     Attributes:
         name: Whose code it is.
@@ -171,7 +171,7 @@ class Fiber:
 
     @classmethod
     def adopt(cls, name: str) -> "Fiber":
-        """Make the calling thread a fiber; `drive` it from a loop on another thread."""
+        """Make the calling thread a fiber; `drive` it from a loop in another thread."""
         fiber = cls(name, lambda: None, strict=True)
         # No thread to start, and none to raise in: the caller's own code is driven.
         fiber._thread = None
@@ -180,14 +180,14 @@ class Fiber:
         return fiber
 
     def release(self) -> None:
-        """End an adopted fiber; its thread is an ordinary one from now on."""
+        """Release an adopted fiber; its thread is an ordinary one from now on."""
         _local.fiber = None
         self._post(None)
 
     # The fiber's side.
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Have `request` called on the loop's thread, and wait for its result.
+        """Call `request` in the loop's thread, and wait for its result.
 
         If it returns an awaitable, that is awaited first. Called on the fiber's own thread only.
 
@@ -234,7 +234,7 @@ class Fiber:
     # The loop's side.
 
     async def drive(self) -> None:
-        """Run the body to its end, doing what it asks for.
+        """Run the body to its end, and carry out its requests.
 
         Cancelling this interrupts the fiber: the wait it is in raises KeyboardInterrupt,
         as Ctrl-C does in a ROS node, and it is driven on until it has ended.
@@ -281,7 +281,7 @@ class Fiber:
         self._leave_alone()
 
     def _leave_alone(self) -> None:
-        """Note that the code did not end when it was asked to; its thread ends with the process."""
+        """Record that the code ignored its interruption; its thread ends with the process."""
         self.ended = True
         self.error = StuckError(
             f"'{self.name}' has not returned after the end of the run: "
@@ -289,7 +289,7 @@ class Fiber:
         )
 
     async def _turn(self, answer: tuple[Any, BaseException | None], *, go: bool) -> None:
-        """Let the thread run until it asks for something or ends."""
+        """Let the thread run until its next request or its end."""
         if self._strict:
             self._hand_over(answer, go)
             self._wait_for_rest()
@@ -339,7 +339,7 @@ class Fiber:
         )
 
     def _rests_within(self, limit: float) -> bool:
-        """Whether the thread comes to rest within `limit` real seconds, unless told to end."""
+        """Whether the thread pauses within `limit` real seconds, unless told to end."""
         while limit > 0.0 and not self._told_to_end():
             # In short parts, so that a signal that comes meanwhile is noticed.
             part = min(limit, GRACE)
@@ -349,7 +349,7 @@ class Fiber:
         return self._rest.acquire(blocking=False)
 
     def _end_now(self) -> None:
-        """End code that a signal found busy; what does not heed it is left alone."""
+        """End code that was busy when a signal came; code that ignores it is abandoned."""
         if not self.interrupted:
             self.interrupted = True
             self._raise_in_thread(KeyboardInterrupt)
@@ -357,7 +357,7 @@ class Fiber:
             self._leave_alone()
 
     async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
-        """End code that is running right now: politely first, then by raising in it."""
+        """Interrupt running code: first by a request, then by raising in it."""
         self.interrupted = True
         # A person at Ctrl-C waits and wants it broken off; at the end of --for that is a fault.
         signalled = self._told_to_end()
@@ -386,7 +386,7 @@ class Fiber:
         self._on_busy(self.place())
 
     def place(self) -> CodeLine | None:
-        """The line of users' code this fiber is at."""
+        """Return the line of users' code at which this fiber is."""
         if self._thread is None or self._thread.ident is None:
             return None
         return user_line(sys._current_frames().get(self._thread.ident))
@@ -399,7 +399,7 @@ class Fiber:
 
 
 def current() -> Fiber | None:
-    """The fiber whose thread this is; None on the loop's and on foreign threads."""
+    """Return the fiber of the calling thread; None on the loop's and foreign threads."""
     return getattr(_local, "fiber", None)
 
 
@@ -411,13 +411,13 @@ def _taken_lock() -> threading.Lock:
 
 
 def finish(future: "asyncio.Future[None]") -> None:
-    """Set the result of a future that may be done or cancelled already."""
+    """Set a future's result unless it is done or cancelled."""
     if not future.done():
         future.set_result(None)
 
 
 def discard(awaitable: Any) -> None:
-    """Give up an awaitable that will not be awaited."""
+    """Close an awaitable that will not be awaited."""
     close = getattr(awaitable, "close", None) or getattr(awaitable, "cancel", None)
     if close is not None:
         close()

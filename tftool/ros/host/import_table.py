@@ -1,4 +1,4 @@
-"""Modules and names of ROS 2 that we answer to, and where ours are.
+"""Table of ROS 2's modules and names provided here, and where they are implemented.
 
 A line is "their module: our module: the names", a name alone or `theirs=ours`; a module of
 ours with a slash is a package of interfaces. The classes of some modules are found in modules
@@ -320,13 +320,13 @@ WHOLE_PACKAGES = ("rclpy", "launch", "launch_ros", "tf2_ros", "message_filters")
 
 
 def snake_case(name: str) -> str:
-    """The module in which ROS 2 defines a class: "execute_process" of ExecuteProcess."""
+    """Return the module in which ROS 2 defines a class: "execute_process" for ExecuteProcess."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 @dataclass(frozen=True, slots=True)
 class ImportedName:
-    """One name of a module of theirs.
+    """One name of a ROS 2 module.
 
     Attributes:
         module: Our module, below `tftool.ros`; or "package/kind" of an interface.
@@ -339,7 +339,7 @@ class ImportedName:
 
 @cache
 def table() -> Mapping[str, Mapping[str, ImportedName]]:
-    """Every module we answer to, and its names; parents without names of their own included."""
+    """Return every provided module with its names; empty parent modules are included."""
     found: dict[str, dict[str, ImportedName]] = {}
     for line in _TABLE.strip().splitlines():
         theirs, ours, names = (part.strip() for part in line.split(":", 2))

@@ -1,4 +1,4 @@
-"""Puts our modules in the way of `import rclpy` and its kin, while asked to.
+"""Import hooks that provide `rclpy` and related modules.
 
 Never by `import tftool`: only `tftool run`, `tftool launch` and the pytest fixture do.
 """
@@ -26,7 +26,7 @@ DISTRIBUTION = "jazzy"
 
 
 def real_ros() -> str:
-    """Return where a sourced ROS 2 has its rclpy; "" without one.
+    """Return the folder of a sourced ROS 2's rclpy; "" without one.
 
     `ROS_DISTRO` alone proves nothing: programs that run here find it set, and so do the
     processes that they start.
@@ -41,7 +41,7 @@ def real_ros() -> str:
 
 
 class _StandInModule(ModuleType):
-    """A module of theirs, made of ours."""
+    """A ROS 2 module made of our names."""
 
     def __init__(self, name: str, known: Sequence[str]) -> None:
         super().__init__(name, f"{name}, as far as it runs without ROS.")
@@ -71,7 +71,7 @@ def _is_import_from(frame: Any) -> bool:
 
 
 class _StandInLoader(Loader):
-    """Fills a module with our names."""
+    """Loader that fills a module with our names."""
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
         name = spec.name
@@ -106,7 +106,7 @@ class _StandInLoader(Loader):
 
 
 def _names_in(package: str, below: str) -> list[str]:
-    """The interfaces in `package.msg`, or in the module of one of them, `package.msg._string`."""
+    """Return the interfaces in `package.msg`, or in one's own module, `package.msg._string`."""
     kind, _, own = below.partition(".")
     names = INTERFACES.names(package, kind) if kind else []
     return [one for one in names if not own or own == f"_{import_table.snake_case(one)}"]
@@ -117,7 +117,7 @@ def _kinds(package: str) -> list[str]:
 
 
 class _Finder(MetaPathFinder):
-    """Finds our stand-in modules; and, below the roots of a workspace, users' own modules."""
+    """Finder of our stand-in modules and, below a workspace's roots, of users' own modules."""
 
     def __init__(self) -> None:
         self.roots: list[Path] = []
@@ -158,7 +158,7 @@ class _Finder(MetaPathFinder):
     def _tested(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
     ) -> importlib.machinery.ModuleSpec | None:
-        """Find as the others do; a file in the tests' folder is loaded with our builtins."""
+        """Find a module; files in the tests' folder are loaded with our builtins."""
         for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
             spec = finder.find_spec(fullname, path, target)
             if spec is None:
@@ -181,18 +181,18 @@ def _spec(name: str, *, is_package: bool) -> importlib.machinery.ModuleSpec:
 
 
 class _UserLoader(importlib.machinery.SourceFileLoader):
-    """Loads a user's module with builtins whose `import` knows our clock."""
+    """Loader of a user's module, with builtins whose `import` provides our clock."""
 
     def exec_module(self, module: ModuleType) -> None:
         module.__dict__["__builtins__"] = builtins_for_users()
         super().exec_module(module)
 
     def set_data(self, path: str, data: Any, *, _mode: int = 0o666) -> None:
-        """Leave no __pycache__ in a user's folders."""
+        """Do nothing: no __pycache__ is written to a user's folders."""
 
 
 class _TestedLoader(Loader):
-    """Another's loader, which may rewrite assertions, and our builtins."""
+    """Wrapper of another loader, which may rewrite assertions, that adds our builtins."""
 
     def __init__(self, loader: Loader) -> None:
         self._loader = loader
@@ -209,7 +209,7 @@ class _TestedLoader(Loader):
 
 
 class _Arguments(UserList[str]):
-    """`sys.argv` of whichever program asks."""
+    """`sys.argv` of the program that reads it."""
 
     def __init__(self, otherwise: list[str]) -> None:
         super().__init__()
@@ -224,7 +224,7 @@ class _Arguments(UserList[str]):
 
     @data.setter
     def data(self, value: list[str]) -> None:
-        """Nothing: programs' arguments are theirs."""
+        """Refuse to replace the list: each program has its own arguments."""
 
     # A part must be a plain list: pytest shows all arguments of such a list.
 
@@ -243,7 +243,7 @@ class _Arguments(UserList[str]):
     __rmul__ = __mul__
 
     def copy(self) -> Any:
-        """Its words, to be changed by themselves."""
+        """Return a copy of the running program's arguments."""
         return self.data.copy()
 
     __copy__ = copy
@@ -254,7 +254,7 @@ _finder: _Finder | None = None
 
 @contextmanager
 def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
-    """Answer to ROS 2's modules inside this block.
+    """Provide ROS 2's modules inside this block.
 
     Args:
         force: Also where a real ROS 2 is sourced.
@@ -274,7 +274,7 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
 
 @contextmanager
 def _distribution() -> Iterator[None]:
-    """Set `ROS_DISTRO` inside this block, where it is not set: launch files read it."""
+    """Set `ROS_DISTRO` inside this block if it is not set: launch files read it."""
     if "ROS_DISTRO" in os.environ:
         yield
         return
@@ -299,7 +299,7 @@ def own_arguments() -> Iterator[None]:
 
 @contextmanager
 def ros_modules() -> Iterator["_Finder"]:
-    """Answer to ROS 2's modules inside this block, whatever is sourced."""
+    """Provide ROS 2's modules inside this block, even if a ROS 2 is sourced."""
     global _finder
     if _finder is not None:
         yield _finder
@@ -332,19 +332,19 @@ def _is_below(module: ModuleType, roots: Sequence[Path]) -> bool:
 
 
 def look_in(root: Path) -> None:
-    """Look for users' modules in a folder too, before everything else."""
+    """Search users' modules in a folder, before everything else."""
     if _finder is not None and root not in _finder.roots:
         _finder.roots.insert(0, root)
 
 
 def look_behind(roots: Iterable[str]) -> None:
-    """Look for users' modules in folders too, behind those that programs bring themselves."""
+    """Search users' modules in folders, after programs' own."""
     if _finder is not None:
         _finder.roots += [root for root in map(Path, roots) if root not in _finder.roots]
 
 
 def import_fresh(module: str, root: Path) -> ModuleType:
-    """Import a user's module from a folder, and run it again as a process of its own would.
+    """Import a user's module from a folder, and run it again as a new process would.
 
     Two programs of one file then share no globals.
 

@@ -1,4 +1,4 @@
-"""Parts of a package that ROS 2 would not find once it is built: read, and not run."""
+"""Check, without running anything, whether ROS 2 would find a package's parts after a build."""
 
 import ast
 import re
@@ -26,7 +26,7 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 @dataclass(frozen=True, slots=True)
 class InstalledPart:
-    """One part of a package that has to be declared for ROS 2 to find it.
+    """One part of a package that must be declared for ROS 2 to find it.
 
     Attributes:
         subject: The part, and where it is declared: "chase/node.py: an entry point in setup.py".
@@ -40,7 +40,7 @@ class InstalledPart:
 
 
 def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[InstalledPart]:
-    """Yield what ROS 2 has to find of a package: nodes, launch files and dependencies.
+    """Yield the parts that ROS 2 must find: nodes, launch files and dependencies.
 
     Args:
         package: The package.
@@ -68,7 +68,7 @@ def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> 
 
 
 def entry_point_fault(package: Package, name: str) -> str:
-    """Return why a console script cannot begin, with the near name; "" if it can."""
+    """Return why a console script cannot start, with the nearest name; "" if it can."""
     module, _, function = package.scripts[name].partition(":")
     path = package.path.joinpath(*module.split("."))
     if not path.with_suffix(".py").is_file() and not (path / "__init__.py").is_file():
@@ -184,7 +184,7 @@ def _module(package: Package, file: Path) -> str:
 
 
 def _tree(file: Path) -> ast.Module:
-    """Parse a file; one that is no Python says so itself when it runs."""
+    """Parse a file; return None for invalid Python, which reports itself when run."""
     try:
         return ast.parse(read_text(file), str(file))
     except (InputError, SyntaxError, ValueError, RecursionError, MemoryError):

@@ -17,13 +17,13 @@ T = TypeVar("T")
 
 
 def running_program() -> Any:
-    """The program whose fiber is running; None on every other thread."""
+    """Return the program of the running fiber; None on every other thread."""
     fiber = fibers.current()
     return None if fiber is None else fiber.owner
 
 
 class StateMonitor:
-    """A state that threads change, and wait for.
+    """State that threads change and wait for.
 
     The mutex inside is held only for an instant, never while a thread waits.
     """
@@ -33,7 +33,7 @@ class StateMonitor:
         self._wakers: list[Callable[[], object]] = []
 
     def change(self, update: Callable[[], T]) -> T:
-        """Change the state, and have every thread that waits look again.
+        """Change the state, and wake every waiting thread to check it.
 
         Returns:
             What `update` gives; what it raises is raised.
@@ -46,7 +46,7 @@ class StateMonitor:
                     wake()
 
     def wait(self, take: Callable[[], bool], timeout: float | None = None) -> bool:
-        """Block until `take`, which looks at the state and may change it, says True.
+        """Block until `take`, which checks and may change the state, returns True.
 
         Args:
             take: Called with the state held.
@@ -100,7 +100,7 @@ class StateMonitor:
                 timer.cancel()
 
     def _block(self, take: Callable[[], bool], timeout: float | None) -> bool:
-        """Wait on a thread of no program, in real time."""
+        """Wait in real time, on a thread that belongs to no program."""
         changed = threading.Event()
         while True:
             with self._mutex:
@@ -119,7 +119,7 @@ class StateMonitor:
 
 
 def _limit(blocking: bool, timeout: float | None) -> float | None:
-    """The time limit that `acquire` was given, as `StateMonitor.wait` takes it.
+    """Return the timeout given to `acquire` in the form of `StateMonitor.wait`.
 
     Raises:
         ValueError: As Python's own locks do.
@@ -141,7 +141,7 @@ class UserLock:
         self._held = False
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock; whether it was taken in time."""
+        """Take the lock; return whether that succeeded in time."""
         return self._state.wait(self._take, _limit(blocking, timeout))
 
     def _take(self) -> bool:
@@ -149,7 +149,7 @@ class UserLock:
         return free
 
     def release(self) -> None:
-        """Give the lock back.
+        """Release the lock.
 
         Raises:
             RuntimeError: If it is not held.
@@ -167,11 +167,11 @@ class UserLock:
         return self._held
 
     def is_owned(self) -> bool:
-        """Whether a condition may take it for held by the caller."""
+        """Whether a condition may assume that the caller holds it."""
         return self._held
 
     def release_whole(self) -> int:
-        """Give it back for a condition's wait; how often to take it again."""
+        """Release it for a condition's wait; return how often to take it again."""
         self.release()
         return 1
 
@@ -195,7 +195,7 @@ class UserRLock:
         self._count = 0
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock, once more if this thread holds it; whether it was taken in time."""
+        """Take the lock, again if this thread holds it; return whether that succeeded in time."""
         return self._take(1, _limit(blocking, timeout))
 
     def _take(self, count: int, limit: float | None) -> bool:
@@ -211,7 +211,7 @@ class UserRLock:
         return self._state.wait(take, limit)
 
     def release(self) -> None:
-        """Give it back once.
+        """Release it once.
 
         Raises:
             RuntimeError: If this thread does not hold it.
@@ -232,7 +232,7 @@ class UserRLock:
         return bool(self._count) and self._owner == threading.get_ident()
 
     def release_whole(self) -> int:
-        """Give it back for a condition's wait; how often to take it again."""
+        """Release it for a condition's wait; return how often to take it again."""
         count = self._count
         self._give(count)
         return count
@@ -284,7 +284,7 @@ class UserCondition:
             self._lock.acquire_whole(count)
 
     def wait_for(self, predicate: Callable[[], T], timeout: float | None = None) -> T:
-        """Block until a predicate holds; its last value."""
+        """Block until a predicate is true; return its last value."""
         owner = running_program()
         start = 0 if owner is None else owner.now()
         left, result = timeout, predicate()
@@ -297,7 +297,7 @@ class UserCondition:
         return result
 
     def notify(self, n: int = 1) -> None:
-        """Have up to `n` threads that wait go on.
+        """Wake up to `n` waiting threads.
 
         Raises:
             RuntimeError: If the lock is not held.
@@ -311,7 +311,7 @@ class UserCondition:
         self._state.change(pick)
 
     def notify_all(self) -> None:
-        """Have all threads that wait go on."""
+        """Wake all waiting threads."""
         self.notify(len(self._waiting))
 
     def _check(self, verb: str) -> None:
@@ -329,7 +329,7 @@ class UserSemaphore:
         self._value = value
 
     def acquire(self, blocking: bool = True, timeout: float | None = None) -> bool:
-        """Take one; whether one was there in time."""
+        """Take one; return whether that succeeded in time."""
         return self._state.wait(self._take, _limit(blocking, timeout))
 
     def _take(self) -> bool:
@@ -339,7 +339,7 @@ class UserSemaphore:
         return True
 
     def release(self, n: int = 1) -> None:
-        """Give `n` back."""
+        """Release `n`."""
         if n < 1:
             raise ValueError("n must be one or more")
 
@@ -350,7 +350,7 @@ class UserSemaphore:
         self._state.change(give)
 
     def _check(self, n: int) -> None:
-        """Refuse to hold more than there may be."""
+        """Refuse to exceed the initial value."""
 
     def __enter__(self) -> bool:
         return self.acquire()
@@ -383,7 +383,7 @@ class UserEvent:
         return self._set
 
     def set(self) -> None:
-        """Set it; every thread that waits goes on."""
+        """Set it, and wake all waiting threads."""
         self._put(True)
 
     def clear(self) -> None:
@@ -397,7 +397,7 @@ class UserEvent:
         self._state.change(put)
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Block until it is set; whether it is."""
+        """Block until it is set; return whether it is."""
         owner = running_program()
         if owner is not None and owner.interrupted:
             return self._set

@@ -1,4 +1,4 @@
-"""Sentences about a name or a module of ROS 2 that we do not answer to."""
+"""Sentences about names and modules of ROS 2 that are not provided."""
 
 import inspect
 from collections.abc import Iterable, Sequence
@@ -23,7 +23,7 @@ DEFINED = (
 
 
 def missing_name(module: str, name: str, known: Sequence[str]) -> str:
-    """Return a sentence about a name that a module of ours lacks.
+    """Return a sentence about a name that one of our modules lacks.
 
     Args:
         module: The module.
@@ -49,13 +49,13 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
 
 
 def undeclared(parameter: str, known: Iterable[str]) -> str:
-    """Return a sentence about a parameter that was given and never declared."""
+    """Return a sentence about a parameter that was given but not declared."""
     hint = did_you_mean(parameter, known)
     return f"parameter '{parameter}' was given, but the node declares none of that name{hint}"
 
 
 def near_keyword(keyword: str, called: Any) -> str:
-    """Return the end of a sentence about a keyword that a function or class does not take."""
+    """Return the end of a sentence about an unknown keyword of a function or class."""
     kinds = getattr(called, "__mro__", None)
     known: set[str] = set()
     for function in [called] if kinds is None else [vars(one).get("__init__") for one in kinds]:
@@ -67,7 +67,7 @@ def near_keyword(keyword: str, called: Any) -> str:
 
 
 def missing_module(name: str) -> str:
-    """Return a sentence about a missing module of a ROS 2 package that we answer to."""
+    """Return a sentence about a missing module of a package that we provide."""
     package = name.partition(".")[0]
     known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
     near = near_names(name, known, alike=0.8)
@@ -76,7 +76,7 @@ def missing_module(name: str) -> str:
 
 
 def missing_package(name: str) -> str:
-    """Return a sentence about a package that is neither installed nor answered by us."""
+    """Return a sentence about a package that is neither installed nor provided."""
     packages = sorted(
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )

@@ -1,4 +1,4 @@
-"""ROS 2's names: expanding them, and what `--ros-args` says about them.
+"""Names in ROS 2: expansion, and the `--ros-args` about them.
 
 World topics are full names without the leading slash.
 """
@@ -21,7 +21,7 @@ _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
 
 
 class Fault(NamedTuple):
-    """Reason why a name is refused.
+    """Why a name is invalid.
 
     Attributes:
         reason: What a name must be like.
@@ -33,7 +33,7 @@ class Fault(NamedTuple):
 
 
 def named_twice(name: str) -> str:
-    """Return the warning for a node whose name a node of another process has already."""
+    """Return the warning for a node whose name another process's node already has."""
     return (
         f"another process of this session has a node named '{name}': both publish and answer. "
         "End one, or give this one a name of its own: --ros-args -r __node:=…"
@@ -42,7 +42,7 @@ def named_twice(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Remap:
-    """One rule `node:old:=new`; without a node it holds for all of them."""
+    """A rule `node:old:=new`; without a node it applies to all."""
 
     node: str | None
     old: str
@@ -70,12 +70,12 @@ class RosOptions:
     logs_to_rosout: bool = True
 
     def parameters_for(self, name: str, namespace: str) -> dict[str, Any]:
-        """The values given for a node, by parameter."""
+        """Return the values given for a node, by parameter."""
         full = join(namespace, name)
         return {key: value for node, key, value in self.parameters if _fits(node, full, name)}
 
     def remapped(self, full: str, name: str, namespace: str) -> str:
-        """Another full name for `full`, if a rule of this node says so."""
+        """Return the new full name for `full` by this node's rules; `full` if none applies."""
         for rule in self.remaps:
             if rule.node is not None and rule.node.strip("/") not in (name, join(namespace, name)):
                 continue
@@ -97,7 +97,7 @@ def _fits(pattern: str, full: str, name: str) -> bool:
 
 
 def join(namespace: str, name: str) -> str:
-    """A full name without leading slash."""
+    """Return a full name without leading slash."""
     return f"{namespace.strip('/')}/{name}".strip("/")
 
 
@@ -105,7 +105,7 @@ _STRANGE_CHARACTER = "it must not contain characters other than letters, digits,
 
 
 def node_name_fault(name: str) -> Fault | None:
-    """Return the reason why ROS 2 refuses a node's name, None if it takes it."""
+    """Return why ROS 2 refuses a node's name; None if it accepts it."""
     strange = _STRANGE.search(name)
     if not name:
         return Fault("it must not be empty", 0)
@@ -117,7 +117,7 @@ def node_name_fault(name: str) -> Fault | None:
 
 
 def namespace_fault(namespace: str) -> Fault | None:
-    """Return the reason why ROS 2 refuses an absolute namespace, None if it takes it."""
+    """Return why ROS 2 refuses an absolute namespace; None if it accepts it."""
     if not namespace:
         return Fault("it must not be empty", 0)
     if not namespace.startswith("/"):
@@ -129,7 +129,7 @@ def namespace_fault(namespace: str) -> Fault | None:
 
 
 def topic_name_fault(name: str) -> Fault | None:
-    """Return why ROS 2 refuses a relative, absolute or private topic name, None if it takes it."""
+    """Return why ROS 2 refuses a relative, absolute or private topic; None if it accepts it."""
     strange = _STRANGE_IN_TOPIC.search(name)
     if not name:
         return Fault("it must not be empty", 0)
@@ -156,7 +156,7 @@ def _fault_of_parts(name: str) -> Fault | None:
 
 
 def check_node_name(name: str) -> None:
-    """Refuse what ROS 2 refuses as a node's name.
+    """Refuse an invalid node name.
 
     Raises:
         UsageError: If it is no name.
@@ -167,7 +167,7 @@ def check_node_name(name: str) -> None:
 
 
 def check_namespace(namespace: str) -> None:
-    """Refuse what ROS 2 refuses as a namespace.
+    """Refuse an invalid namespace.
 
     Raises:
         UsageError: If it is none.
@@ -178,7 +178,7 @@ def check_namespace(namespace: str) -> None:
 
 
 def expand(given: str, name: str, namespace: str) -> str:
-    """The full name of a topic or service, without leading slash.
+    """Return the full name of a topic or service, without leading slash.
 
     Args:
         given: Relative, absolute (`/x`) or private (`~/x`).
@@ -275,7 +275,7 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
 
 
 def add_parameter(options: RosOptions, text: str) -> None:
-    """Take `name:=value` or `node:name:=value` in."""
+    """Add `name:=value` or `node:name:=value`."""
     name, found, value = text.partition(":=")
     if not found or not name:
         raise UsageError(f"'{text}' sets no parameter: write name:=value")
@@ -284,7 +284,7 @@ def add_parameter(options: RosOptions, text: str) -> None:
 
 
 def add_remap(options: RosOptions, text: str) -> None:
-    """Take `old:=new` or `node:old:=new` in; `__node:=` and `__ns:=` name the node itself."""
+    """Add `old:=new` or `node:old:=new`; `__node:=` and `__ns:=` rename the node itself."""
     old, found, new = text.partition(":=")
     if not found or not old or not new:
         raise UsageError(f"'{text}' renames nothing: write old:=new")
@@ -305,7 +305,7 @@ def add_remap(options: RosOptions, text: str) -> None:
 
 
 def yaml_value(text: str) -> Any:
-    """A parameter's value as ROS 2 reads it: YAML, so `2` is an int and `2.0` a float."""
+    """Parse a parameter's value as ROS 2 does: YAML, so `2` is an int and `2.0` a float."""
     try:
         return strict_yaml_value(text)
     except ValueError:
@@ -313,7 +313,7 @@ def yaml_value(text: str) -> Any:
 
 
 def strict_yaml_value(text: str) -> Any:
-    """Parse strictly: text that is no YAML is refused.
+    """Parse strictly: text that is not valid YAML is refused.
 
     Raises:
         ValueError: If it is no YAML.
@@ -333,7 +333,7 @@ def strict_yaml_value(text: str) -> Any:
 
 @cache
 def _loader() -> Any:
-    """A loader that takes for numbers what ROS 2 does: `12:30` and `2024-01-05` are texts."""
+    """Return a loader with ROS 2's rules for numbers: `12:30` and `2024-01-05` are texts."""
     import yaml
 
     class Loader(yaml.SafeLoader):
@@ -358,7 +358,7 @@ def _loader() -> Any:
 def read_parameters(
     path: Path, substitute: Callable[[str], str] = str
 ) -> list[tuple[str, str, Any]]:
-    """The (node, name, value) of a ROS 2 parameter file.
+    """Return the (node, name, value) of a ROS 2 parameter file.
 
     Args:
         path: The file.
@@ -393,7 +393,7 @@ def read_parameters(
 
 
 def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
-    """Each (node, name, value) of a tree of YAML's nodes, in which a key may come several times."""
+    """Yield each (node, name, value) of YAML nodes, in which keys may be repeated."""
     import yaml
 
     from tftool.base import yaml_guard
@@ -409,7 +409,7 @@ def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
 
 
 def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:
-    """Nested settings as (dotted name, value)."""
+    """Yield nested settings as (dotted name, value)."""
     found: list[tuple[str, Any]] = []
     for key, value in tree.items() if isinstance(tree, Mapping) else ():
         if isinstance(value, Mapping):

@@ -1,4 +1,4 @@
-"""Facts from a package's own files, read and not run: package.xml, setup.py and their kin."""
+"""Facts from a package's files, read without running them: package.xml, setup.py and others."""
 
 import ast
 import configparser
@@ -19,7 +19,7 @@ MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
 
 @dataclass(frozen=True, slots=True)
 class Package:
-    """One package's sources.
+    """The sources of one package.
 
     Attributes:
         name: What it is called.
@@ -39,7 +39,7 @@ class Package:
     data_files: frozenset[str] | None = None
 
     def script_file(self, name: str) -> Path | None:
-        """A node's file of that name, for packages that install scripts as they are."""
+        """Return a node's file of that name, for packages that install scripts directly."""
         for folder in ("scripts", "nodes", self.name, "."):
             for file in (name, f"{name}.py"):
                 path = self.path / folder / file
@@ -48,11 +48,11 @@ class Package:
         return None
 
     def place_of_script(self, name: str) -> Path:
-        """Return the path of a console script, were the package installed where its sources are."""
+        """Return a console script's path, as if the package were installed in its source folder."""
         return self.path / "lib" / self.name / name
 
     def executable_at(self, path: Path) -> str | None:
-        """The name of the executable whose file that is, or would be; None if it is none's."""
+        """Return the executable whose file that is, or would be; None if there is none."""
         if path.name in self.scripts and path == self.place_of_script(path.name):
             return path.name
         is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()
@@ -65,7 +65,7 @@ def _is_python(path: Path) -> bool:
 
 
 def read_package(folder: Path) -> Package | None:
-    """The package whose sources a folder holds; None if it holds none.
+    """Return the package with sources in a folder; None if there is none.
 
     Raises:
         InputError: If one of its files cannot be read.
@@ -96,7 +96,7 @@ def read_package(folder: Path) -> Package | None:
 
 
 def _listed_files(data_files: Any) -> frozenset[str] | None:
-    """Return the files of a setup.py's `data_files`; None if a part of them is not known."""
+    """Return the files of a setup.py's `data_files`; None if they are not fully known."""
     if not isinstance(data_files, list):
         return None
     listed: set[str] = set()
@@ -110,14 +110,14 @@ def _listed_files(data_files: Any) -> frozenset[str] | None:
 
 
 def _modules_of_cmake(path: Path) -> list[str]:
-    """Return the Python packages that a CMakeLists.txt installs; none without such a file."""
+    """Return the Python packages that a CMakeLists.txt installs; none without that file."""
     if not path.is_file():
         return []
     return re.findall(r"ament_python_install_package\(\s*(\w+)", read_text(path))
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
-    """Return the files installed into the share directory under another path."""
+    """Return files installed under another path into the share directory."""
     for entry in data_files if isinstance(data_files, list) else ():
         if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
             continue
@@ -133,7 +133,7 @@ def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Pat
 
 
 def read_text(path: Path) -> str:
-    """A file's text.
+    """Return a file's text.
 
     Raises:
         InputError: If it cannot be read, or is no UTF-8.
@@ -145,7 +145,7 @@ def read_text(path: Path) -> str:
 
 
 def _from_setup_py(path: Path) -> tuple[str, dict[str, str], Any]:
-    """Name, console scripts and data files of a setup.py, read and not run."""
+    """Return name, console scripts and data files of a setup.py, without running it."""
     try:
         tree = ast.parse(read_text(path), str(path))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -174,7 +174,7 @@ def _called(function: ast.expr) -> str:
 
 
 class _Literals:
-    """Values of expressions in a setup.py, as far as known without running it.
+    """Evaluator of expressions in a setup.py, as far as possible without running it.
 
     Literals, names, joined texts, and the two calls that name files: `glob` and `os.path.join`.
     """
@@ -189,7 +189,7 @@ class _Literals:
                 self._names[statement.targets[0].id] = self.value(statement.value)
 
     def value(self, node: ast.expr) -> Any:
-        """Its value; None for what only running it would tell."""
+        """Return its value; None if that needs running it."""
         match node:
             case ast.Constant():
                 return node.value
@@ -220,7 +220,7 @@ class _Literals:
         return None
 
     def _files(self, pattern: Any, *, deep: bool) -> list[str]:
-        """Return the files of a pattern in the package's own folder, and nowhere else."""
+        """Return the files that match a pattern inside the package's own folder."""
         if not isinstance(pattern, str) or Path(pattern).is_absolute() or ".." in pattern:
             return []
         return sorted(glob.glob(pattern, root_dir=self._folder, recursive=deep))
@@ -253,7 +253,7 @@ def _from_setup_cfg(path: Path) -> tuple[str, dict[str, str]]:
 
 
 def _from_pyproject(path: Path) -> tuple[str, dict[str, str]]:
-    """Name and [project.scripts]; nothing of a file that is no TOML, which names no package."""
+    """Return name and [project.scripts]; nothing of a file that is not TOML."""
     try:
         project = tomllib.loads(read_text(path)).get("project", {})
     except (tomllib.TOMLDecodeError, RecursionError):

@@ -1,4 +1,4 @@
-"""A program of the user's: what `ros2 run` would start as a process of its own.
+"""A user's program, which `ros2 run` would start as a process.
 
 It has its arguments, its rclpy context and a fiber on which its `main` runs. To
 the world it is a node; the nodes it makes join beside it.
@@ -42,7 +42,7 @@ _living: "set[Program]" = set()
 
 
 class ProgramNode(Node):
-    """A node that a program made: a name, and whatever it subscribes to and serves."""
+    """A node made by a program: its name, subscriptions and services."""
 
     _is_passive: ClassVar[bool] = True
 
@@ -82,7 +82,7 @@ class Program(Node):
         options: RosOptions | None = None,
         on_exit: Callable[["Program"], object] | None = None,
     ) -> None:
-        """Join the world; `body` is what runs, None adopts the calling thread.
+        """Join the world; `body` is the code to run, None adopts the calling thread.
 
         Args:
             world: Where to live.
@@ -126,7 +126,7 @@ class Program(Node):
 
     @property
     def is_begun(self) -> bool:
-        """Whether its turn has come."""
+        """Whether it has started."""
         return self._loop is not None
 
     @property
@@ -136,7 +136,7 @@ class Program(Node):
 
     @property
     def turn(self) -> Phase:
-        """Return the turn of its timers within an instant."""
+        """Return its timers' turn within an instant."""
         return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
 
     # The loop's side.
@@ -187,7 +187,7 @@ class Program(Node):
         self.event_loops.clear()
 
     def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
-        """Drive one more thread of this program (on the loop's thread)."""
+        """Drive one more thread of this program (in the loop's thread)."""
         self._own(fiber)
         task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
         self._others.add(task)
@@ -195,7 +195,7 @@ class Program(Node):
         return task
 
     def new_fiber(self, name: str, body: Callable[[], object], **settings: Any) -> Fiber:
-        """One more thread for this program, not begun yet."""
+        """Make one more thread for this program, not started yet."""
         return Fiber(
             name,
             body,
@@ -220,13 +220,13 @@ class Program(Node):
         self.say("WARN", self.name, text)
 
     def say(self, level: Level, speaker: str, text: str) -> None:
-        """Log a line of this program's (on the loop's thread)."""
+        """Log a line of this program (in the loop's thread)."""
         self.world.log.add(level, speaker, text, program=self.label)
 
     # The fibers' side.
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Have something done on the loop's thread, from any thread; see `Fiber.ask`."""
+        """Run something in the loop's thread, from any thread; see `Fiber.ask`."""
         __tracebackhide__ = True
         fiber = fibers.current()
         if fiber is not None:
@@ -252,16 +252,16 @@ class Program(Node):
         return value
 
     def now(self) -> Stamp:
-        """The moment it is, by the world's clock."""
+        """Return the world's time."""
         self._count(1.0 / READINGS)
         return self.clock.now()
 
     def looked_in_vain(self) -> None:
-        """Note that it asked for something that was not there, without waiting for it."""
+        """Record a failed query, such as for a missing transform, that did not wait."""
         self._count(1.0 / POLLS)
 
     def sleep(self, duration: Duration) -> None:
-        """Block this thread for a while; others go on. Asked to end, it returns at once."""
+        """Block this thread for a duration; when asked to end, return at once."""
         if self.interrupted:
             return
         self.ask(lambda: self.clock.sleep(max(0, duration), self.turn, self.rank))
@@ -281,7 +281,7 @@ class Program(Node):
             self._note_polling(now)
 
     def _note_polling(self, start: Stamp) -> None:
-        """Name a loop that has polled for long, without a word from the run; once."""
+        """Report a loop that has polled for long although nothing happens; once."""
         now = time.monotonic_ns()  # real, for simulated time hardly moves meanwhile
         if start != self._polled_until:
             self._polls_since = now
@@ -303,7 +303,7 @@ class Program(Node):
 
 
 def exit_status(error: SystemExit) -> int:
-    """The exit status a process would have had."""
+    """Return the exit status that a process would have."""
     code = error.code
     if code is None:
         return 0
@@ -319,7 +319,7 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
 
 
 def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
-    """Have `found` say whose code is running where no fiber is; None ends that."""
+    """Make `found` determine the running program on threads without a fiber; None ends that."""
     global _outsiders
     _outsiders = found
 
@@ -328,7 +328,7 @@ _outsiders: "Callable[[], Program | None] | None" = None
 
 
 def running() -> Program | None:
-    """The program whose code is running; None outside of one."""
+    """Return the program whose code is running; None outside of one."""
     fiber = fibers.current()
     owner: Program | None = None if fiber is None else fiber.owner
     if owner is None and fiber is None and len(_living) == 1:
@@ -340,7 +340,7 @@ def running() -> Program | None:
 
 
 def current() -> Program:
-    """The program whose code is running.
+    """Return the program whose code is running.
 
     Raises:
         TftoolError: Outside of one.

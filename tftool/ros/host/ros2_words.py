@@ -1,4 +1,4 @@
-"""The words of ROS 2's own command line, read: `ros2 topic list`, `ros2 service call` and so on."""
+"""Parser of ROS 2's command line: `ros2 topic list`, `ros2 service call` and so on."""
 
 import argparse
 import math
@@ -16,7 +16,7 @@ PROFILES = ("default", "system_default", "sensor_data", "services_default", "par
 
 
 class _Parser(argparse.ArgumentParser):
-    """Refuses wrong words with a sentence, as all commands do."""
+    """Parser that refuses wrong words with a sentence, as all commands do."""
 
     def error(self, message: str) -> NoReturn:
         usage = self.format_usage().removeprefix("usage: ").strip()
@@ -24,7 +24,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """Parse `ros2 WORDS`; `noun` and `verb` say which of the commands it is.
+    """Parse `ros2 WORDS`; `noun` and `verb` give the command.
 
     Raises:
         UsageError: If there is no such command, or its words are wrong.
@@ -34,7 +34,7 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def verbs() -> dict[str, list[str]]:
-    """The verbs there are of each command, in the order of the help."""
+    """Return the verbs of each command, in the order of the help."""
     return _parser()[1]
 
 
@@ -58,7 +58,7 @@ _Argument: TypeAlias = tuple[tuple[str, ...], dict[str, Any]]
 
 
 def _arguments() -> dict[str, dict[str, list[_Argument]]]:
-    """Return what each verb of each command takes, as argparse's `add_argument` does."""
+    """Return the arguments of each command's verbs, as for argparse's `add_argument`."""
 
     def flag(*names: str) -> _Argument:
         return names, {"action": "store_true"}
@@ -157,7 +157,7 @@ def _count(text: str) -> int:
 
 
 def interface(name: str, kind: str) -> Any:
-    """The class of an interface, "package/srv/Name" or "package/Name".
+    """Return the class of an interface, "package/srv/Name" or "package/Name".
 
     Raises:
         UsageError: If it is not known; the nearest is told.
@@ -176,7 +176,7 @@ def interface(name: str, kind: str) -> Any:
 
 
 def definition(name: str) -> str:
-    """The text of an interface's definition.
+    """Return the text of an interface's definition.
 
     Raises:
         UsageError: If it is not known.
@@ -195,7 +195,7 @@ KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
 def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:
-    """Return the full names of the interfaces of some kinds, of one package or of all.
+    """Return the full names of the interfaces of some kinds, of one package or all.
 
     Raises:
         UsageError: If there is no such package; a near name is offered.
@@ -225,7 +225,7 @@ def prototype(name: str) -> Any:
 
 
 def fill(message: Any, values: Any, where: str = "") -> None:
-    """Set a message's fields from what YAML gave.
+    """Set a message's fields from parsed YAML.
 
     Raises:
         UsageError: If a field is not there, or a value does not fit it; the field is named.
@@ -274,7 +274,7 @@ def _fitting(field: Any, value: Any, path: str) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """A message as YAML can show it: mappings, lists and single values."""
+    """Convert a message for YAML: mappings, lists and single values."""
     if isinstance(value, Message):
         return {field.name: plain(getattr(value, field.name)) for field in value.fields__}
     if isinstance(value, bytes | bytearray):

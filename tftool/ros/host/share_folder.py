@@ -1,4 +1,4 @@
-"""A package's share directory, laid out as an installation would, without copying a file."""
+"""A package's share directory, laid out as installed, without copying files."""
 
 import os
 import shutil
@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 
 
 class ShareFolder:
-    """A folder that shows a package's sources, and some of its files at other places as well.
+    """A folder that shows a package's sources, and some files at other paths as well.
 
     Attributes:
         path: The folder; it goes when this object does.
@@ -33,7 +33,7 @@ class ShareFolder:
                 _link(file, target)
 
     def _show(self, source: Path, below: str, parents: set[str]) -> None:
-        """Show the files of one folder of the sources, except folders that are generated."""
+        """Link the files of one source folder, except generated folders."""
         (self.path / below).mkdir(parents=True, exist_ok=True)
         there = source / below
         for one in there.iterdir() if there.is_dir() else ():

@@ -1,4 +1,4 @@
-"""Replacements of four standard modules for users' files.
+"""Replacements of four standard modules in users' files.
 
 In a user's own files `import time` gives a module whose `sleep` and clocks are the
 world's, `import threading` one whose threads take turns too and whose locks wait in the
@@ -63,12 +63,12 @@ def _elapsed_ns() -> int:
 
 
 class UserThread(threading.Thread):
-    """A thread of a user's program: a fiber more."""
+    """A thread of a user's program: an additional fiber."""
 
     _fiber: Fiber | None = None
 
     def start(self) -> None:
-        """Run it beside the code that started it."""
+        """Start the thread."""
         owner = running_program()
         if owner is None:
             super().start()
@@ -79,7 +79,7 @@ class UserThread(threading.Thread):
         (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def _run_told(self) -> None:
-        """Run it; what it raises ends it alone, and is said, as Python does for its threads."""
+        """Run it; an exception ends only this thread, and is printed as in Python."""
         try:
             self.run()
         except Exception as error:
@@ -114,7 +114,7 @@ class UserThread(threading.Thread):
 
 
 class UserTimer(UserThread):
-    """A thread of a user's program that calls a function after so many of the world's seconds."""
+    """A thread that calls a function after a number of the world's seconds."""
 
     def __init__(
         self,
@@ -131,7 +131,7 @@ class UserTimer(UserThread):
         self.finished = locks.UserEvent()
 
     def cancel(self) -> None:
-        """Call it no more."""
+        """Cancel the call."""
         self.finished.set()
 
     def run(self) -> None:
@@ -183,7 +183,7 @@ def _shims() -> dict[str, ModuleType]:
 
 @cache
 def _queues() -> ModuleType:
-    """The standard queues, over the threading and the time that users get."""
+    """Return the standard queues, based on users' threading and time."""
     spec = importlib.util.find_spec("queue")
     if spec is None or spec.loader is None:
         return queue

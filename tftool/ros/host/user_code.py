@@ -1,4 +1,4 @@
-"""Users' code: loading it, and running it as a program."""
+"""Loading users' code, and running it as a program."""
 
 import inspect
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from tftool.ros.host.shims import builtins_for_users
 
 
 def file_body(path: Path) -> Callable[[], None]:
-    """Make the body that runs a node's file as `python3 FILE` would.
+    """Return the body that runs a node's file as `python3 FILE` would.
 
     A file that defines `main`, does not call it and never comes to rclpy is made for a console
     script, as the tutorial's listings are: its `main` is called.
@@ -50,7 +50,7 @@ def file_body(path: Path) -> Callable[[], None]:
 
 
 def _reads(code: CodeType, name: str) -> bool:
-    """Whether a file's own lines, outside of its functions, read a global name: as to call it."""
+    """Whether a file's own statements, outside functions, use a global name."""
     import dis  # Only for those that have ended without a node.
 
     return any(
@@ -59,7 +59,7 @@ def _reads(code: CodeType, name: str) -> bool:
 
 
 def compile_file(path: Path) -> Any:
-    """A file's code.
+    """Compile a file.
 
     Raises:
         InputError: If it cannot be read or is no Python.
@@ -81,7 +81,7 @@ def compile_file(path: Path) -> Any:
 
 
 def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
-    """Make the body that runs a console script as its installed wrapper would, from `root`."""
+    """Return the body that runs a console script as its installed wrapper would, from `root`."""
 
     def body() -> None:
         try:
@@ -107,13 +107,13 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
 
 
 def _end_with(status: object) -> None:
-    """End as a console script does with what its function returned."""
+    """End with the value that a console script's function returned."""
     if status is not None:
         raise SystemExit(status)
 
 
 def _warn_of_unserved(owner: program.Program) -> None:
-    """Say of a program that ended without ever serving its nodes that it has not."""
+    """Warn about a program that ended without ever spinning its nodes."""
     for node in owner.nodes:
         if not node.was_served and not owner.interrupted:
             waits = [one for one in node.entities if one.is_a_callback]
@@ -125,7 +125,7 @@ def _warn_of_unserved(owner: program.Program) -> None:
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:
-    """A program's body that destroys what it leaves behind, as the end of a node should."""
+    """Wrap a program's body so that everything it leaves is destroyed at the end."""
 
     def run() -> None:
         owner = program.current()

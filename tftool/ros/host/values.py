@@ -1,4 +1,4 @@
-"""Between the messages of users' nodes and what the world carries.
+"""Conversion between users' messages and the world's values.
 
 Messages are copied on their way in and out, and turtlesim's of a newer release become those of
 the older one, which the world knows. tf's topics carry tuples of samples.
@@ -16,7 +16,7 @@ TF_TOPICS = ("tf", "tf_static")
 
 
 def carried(kind: type[Message], topic: str) -> type[Any]:
-    """Return the class of the world's topic for a message class of a user's node (full name)."""
+    """Return the class of the world's topic for a user's message class (by full name)."""
     if kind.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
         return TransformMessage
     plain = plain_name(kind.interface__)
@@ -24,30 +24,30 @@ def carried(kind: type[Message], topic: str) -> type[Any]:
 
 
 def pack(message: Any, kind: type[Any]) -> Any:
-    """A message as a topic of `kind` carries it; the message itself is not kept."""
+    """Convert a message for a topic of `kind`; the message itself is not kept."""
     return _pack_transforms(message) if kind is TransformMessage else recast(message, kind)
 
 
 def unpack(value: Any, kind: type[Message]) -> Any:
-    """Convert the value of a topic, a service or an action to a new message of a class."""
+    """Convert the value of a topic, service or action to a new message of a class."""
     if isinstance(value, TransformMessage):
         return unpack_transforms(value)
     return kind() if value is None else recast(value, kind)
 
 
 def stamp_of(message: Any) -> Stamp:
-    """Nanoseconds of a builtin_interfaces Time or Duration."""
+    """Return the nanoseconds of a builtin_interfaces Time or Duration."""
     return int(message.sec) * NANOSECONDS + int(message.nanosec)
 
 
 def time_message(stamp: Stamp, kind: str = "Time") -> Any:
-    """A builtin_interfaces Time (or Duration) of `stamp` nanoseconds."""
+    """Return `stamp` nanoseconds as a builtin_interfaces Time (or Duration)."""
     seconds, rest = divmod(stamp, NANOSECONDS)
     return INTERFACES.message(f"builtin_interfaces/{kind}")(sec=seconds, nanosec=rest)
 
 
 def pack_transform(message: Any) -> TransformStamped:
-    """Our sample of a geometry_msgs TransformStamped; a leading slash of a name is dropped."""
+    """Convert a geometry_msgs TransformStamped to our sample; a leading slash is dropped."""
     moved, turned = message.transform.translation, message.transform.rotation
     return TransformStamped(
         stamp_of(message.header.stamp),
@@ -59,7 +59,7 @@ def pack_transform(message: Any) -> TransformStamped:
 
 
 def unpack_transform(sample: TransformStamped) -> Any:
-    """The geometry_msgs TransformStamped of a sample."""
+    """Convert a sample to a geometry_msgs TransformStamped."""
     message: Any = INTERFACES.message("geometry_msgs/TransformStamped")()
     message.header.stamp = time_message(sample.stamp)
     message.header.frame_id = sample.frame_id
@@ -75,6 +75,6 @@ def _pack_transforms(message: Any) -> TransformMessage:
 
 
 def unpack_transforms(value: TransformMessage) -> Any:
-    """Return the tf2_msgs TFMessage of a value on `tf`."""
+    """Convert a value on `tf` to a tf2_msgs TFMessage."""
     kind = INTERFACES.message("tf2_msgs/TFMessage")
     return kind(transforms=[unpack_transform(one) for one in value.transforms])

@@ -1,4 +1,4 @@
-"""Packages found in a workspace's sources, as they lie there: nothing is built or installed."""
+"""Packages found in a workspace's sources; nothing is built or installed."""
 
 import sys
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ _TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", 
 
 
 class Workspace:
-    """The packages below a folder, and above them those of the workspace it belongs to.
+    """Packages below a folder, and those of the workspace that contains it.
 
     Attributes:
         start: The folder.
@@ -30,7 +30,7 @@ class Workspace:
     """
 
     def __init__(self, start: Path) -> None:
-        """Look round from `start`; a package that cannot be read is skipped."""
+        """Search from `start`; unreadable packages are skipped."""
         self.start = start.resolve()
         self.packages: dict[str, Package] = {}
         self.skipped: list[str] = []
@@ -70,7 +70,7 @@ class Workspace:
         return roots
 
     def module_folders(self) -> list[str]:
-        """The folders that the packages' own Python modules lie in, as when they are installed.
+        """Return the folders of the packages' Python modules, as if installed.
 
         A package named like one of Python's own modules, or of ours, is left out: it would hide it.
         """
@@ -84,7 +84,7 @@ class Workspace:
         ]
 
     def folder_without_mark(self, name: str) -> Path | None:
-        """A folder of that name with Python in it that would be a package, had it a package.xml."""
+        """Return a folder of that name with Python files that only lacks a package.xml."""
         for root in self._roots():
             for folder in _folders(root, _DEPTH):
                 if folder.name == name and any(
@@ -94,7 +94,7 @@ class Workspace:
         return None
 
     def file_named(self, path: Path) -> Path | None:
-        """A package's file that a path would name from another folder of the workspace.
+        """Return a package's file by its path from another folder of the workspace.
 
         Returns:
             `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to the start
@@ -111,7 +111,7 @@ class Workspace:
         return None
 
     def package(self, name: str) -> Package:
-        """The package of a name.
+        """Return the package of a name.
 
         Raises:
             UsageError: If there is none; the nearest is told.
@@ -122,7 +122,7 @@ class Workspace:
         return found
 
     def share(self, name: str) -> Path:
-        """A package's share directory: its sources, or our stand-in's launch files.
+        """Return a package's share directory: its sources, or our own launch files.
 
         Files that its setup.py installs at another place than where they lie are there too.
 
@@ -140,7 +140,7 @@ class Workspace:
 
 
 def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ()) -> str:
-    """A sentence: there is no such package, and which there are."""
+    """Return a sentence about an unknown package, with the known ones."""
     known = [*workspace.packages, *ours]
     near = near_names(name, known)
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}"

@@ -1,4 +1,4 @@
-"""launch's Action: one thing to do."""
+"""launch's Action."""
 
 import sys
 from typing import Any, ClassVar
@@ -11,7 +11,7 @@ from tftool.ros.launch.events import ExecutionComplete
 
 
 class Action(LaunchDescriptionEntity):
-    """One thing to do: `execute` gives further actions, or None.
+    """One step of a launch: `execute` returns further actions, or None.
 
     What takes time is handed to the launch (`context.launch`).
 
@@ -37,7 +37,7 @@ class Action(LaunchDescriptionEntity):
             raise TypeError(f"{type(self).__name__} takes no argument {named} here{hint}")
 
     def visit(self, context: LaunchContext) -> Any:
-        """Do it, if its condition holds; return the next actions."""
+        """Execute the action if its condition is true; return the next actions."""
         if self.condition is not None and not self.condition.evaluate(context):
             return None
         following = self.execute(context)
@@ -52,14 +52,14 @@ class Action(LaunchDescriptionEntity):
 
     @classmethod
     def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
-        """Parse an XML or YAML element into a maker of its action, for actions of people's own.
+        """Parse an XML or YAML element of a user's own action class.
 
         Its condition is read by the launch, whatever class it is.
         """
         return cls, {}
 
     def execute(self, context: LaunchContext) -> Any:
-        """Do it."""
+        """Execute the action."""
         return None
 
     def describe(self) -> str:

@@ -1,4 +1,4 @@
-"""Arguments of launch files: which there are, which may be passed, how they are shown."""
+"""Arguments of launch files: declarations, checks, and their display."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,7 +15,7 @@ from tftool.ros.launch.substitutions import perform
 
 
 def declared(description: LaunchDescription, context: LaunchContext) -> list[DeclareLaunchArgument]:
-    """The arguments a description declares, those of files it includes too."""
+    """Return the arguments a description declares, with those of included files."""
     found: dict[str, DeclareLaunchArgument] = {}
 
     def look(entities: Iterable[Any]) -> None:
@@ -53,7 +53,7 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
 def refuse_unknown(
     path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
 ) -> None:
-    """Refuse arguments that a launch file neither declares nor so much as mentions.
+    """Refuse arguments that a launch file neither declares nor mentions.
 
     Some are used by a LaunchConfiguration with a default, or by a function, undeclared.
 

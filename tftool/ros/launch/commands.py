@@ -1,4 +1,4 @@
-"""Commands of the system, run beside the nodes."""
+"""System commands, run beside the nodes."""
 
 import asyncio
 import contextlib
@@ -23,7 +23,7 @@ LONGEST_RUN: Final = 60.0
 
 @dataclass(frozen=True, slots=True)
 class SystemCommand:
-    """A command of the system.
+    """A system command.
 
     Attributes:
         words: It and its arguments.
@@ -39,7 +39,7 @@ class SystemCommand:
 
 
 def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[int, str]:
-    """Run a command to its end, killing it if that does not come; `say` is told its lines.
+    """Run a command to its end, or kill it after a timeout; `say` receives its output lines.
 
     Returns:
         Its exit status, and why it was killed ("" if it was not).
@@ -75,7 +75,7 @@ def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[i
 
 
 def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
-    """Run a command whose output is a terminal to its end; return its output and exit status.
+    """Run a command with a terminal as its output; return its output and exit status.
 
     Raises:
         subprocess.TimeoutExpired: If that takes longer than `LONGEST_RUN`; it is killed.
@@ -119,7 +119,7 @@ def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
 async def begin(
     command: SystemCommand,
 ) -> tuple[asyncio.subprocess.Process, asyncio.StreamReader]:
-    """Start a command, leading a group of its own; return it and its output.
+    """Start a command in its own process group; return it and its output.
 
     Raises:
         UsageError: If it cannot be run.

@@ -1,4 +1,4 @@
-"""launch_ros's components: nodes in C++ that are loaded into a container's process.
+"""launch_ros's components: C++ nodes loaded into a container's process.
 
 None runs here. A container that answers in the session, of ROS 2's or of one's own, is asked to
 load them, and one that the launch itself starts is waited for; what can be neither started nor
@@ -28,7 +28,7 @@ from tftool.ros.rclpy.parameters import Parameter
 
 
 class ComposableNode:
-    """A node that is loaded into a container."""
+    """A node to load into a container."""
 
     def __init__(
         self,
@@ -50,14 +50,14 @@ class ComposableNode:
         self._condition = condition
 
     def condition(self) -> Any:
-        """Whether it is loaded at all; None for always."""
+        """Condition for loading it; None for always."""
         return self._condition
 
 
 def get_composable_node_load_request(
     composable_node_description: ComposableNode, context: LaunchContext
 ) -> Any:
-    """Return the request that loads a node; None where its condition does not hold."""
+    """Return the request that loads a node; None if its condition is false."""
     node = composable_node_description
     condition = node.condition()
     if condition is not None and not condition.evaluate(context):
@@ -85,7 +85,7 @@ def get_composable_node_load_request(
 
 
 class LoadComposableNodes(Action):
-    """Has nodes loaded by a container that runs."""
+    """Loads nodes into a running container."""
 
     def __init__(
         self, *, composable_node_descriptions: Iterable[Any], target_container: Any, **kwargs: Any
@@ -95,7 +95,7 @@ class LoadComposableNodes(Action):
         self.target_container = target_container
 
     def execute(self, context: LaunchContext) -> Any:
-        """Ask the container for each of them, one after the other."""
+        """Ask the container for each node, one after the other."""
         made = (
             get_composable_node_load_request(one, context)
             for one in self.composable_node_descriptions
@@ -143,7 +143,7 @@ class ComposableNodeContainer(Node):
         self.composable_node_descriptions = list(composable_node_descriptions or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start it where it is a program in Python, and have its components loaded."""
+        """Start it if it is a Python program, and load its components."""
         self._perform_substitutions(context)
         reason = self._missing(context)
         if reason:
@@ -158,7 +158,7 @@ class ComposableNodeContainer(Node):
         )
 
     def _missing(self, context: LaunchContext) -> str:
-        """Return the reason why it is no program in Python; "" if it is."""
+        """Return why it is not a Python program; "" if it is."""
         package = None if self.package is None else perform(context, self.package)
         try:
             if package is None:

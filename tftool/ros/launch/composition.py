@@ -1,4 +1,4 @@
-"""launch's actions that hold other actions: groups, other launch files, functions, timers."""
+"""launch's actions that contain actions: groups, other launch files, functions, timers."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -33,12 +33,12 @@ class OpaqueFunction(Action):
         self._call: Callable[..., Any] = lambda context: function(context, *args, **(kwargs or {}))
 
     def execute(self, context: LaunchContext) -> Any:
-        """Call it; what it returns is done next."""
+        """Call the function; return its result as the next actions."""
         return self._call(context)
 
 
 class GroupAction(Action):
-    """Actions in a scope of their own."""
+    """Actions in their own scope."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class GroupAction(Action):
         self.launch_configurations = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Do them all."""
+        """Return all actions."""
         # Asked for outside, where they are passed from.
         inside: list[Any] = [
             SetLaunchConfiguration(perform(context, name), perform(context, value))
@@ -68,12 +68,12 @@ class GroupAction(Action):
         return [*begin, *inside, *self.actions, Pop()]
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """The actions inside."""
+        """Return the actions inside."""
         return self.actions
 
 
 class IncludeLaunchDescription(Action):
-    """Another launch file."""
+    """Includes another launch file."""
 
     def __init__(
         self, launch_description_source: Any, *, launch_arguments: Any = None, **kwargs: Any
@@ -91,7 +91,7 @@ class IncludeLaunchDescription(Action):
         self.launch_arguments = list(launch_arguments or ())
 
     def execute(self, context: LaunchContext) -> Any:
-        """Its actions, after its arguments."""
+        """Return its actions, after its arguments."""
         description, path = self.source.load(context)
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         if path is None:
@@ -100,27 +100,27 @@ class IncludeLaunchDescription(Action):
 
 
 class _EnterFile(Action):
-    """Goes into a launch file that is included."""
+    """Enters an included launch file."""
 
     def __init__(self, path: Path) -> None:
         super().__init__()
         self.path = path
 
     def execute(self, context: LaunchContext) -> Any:
-        """Be there."""
+        """Change the current file."""
         context.enter_file(self.path)
 
 
 class _LeaveFile(Action):
-    """Goes back to the launch file that included this one."""
+    """Returns to the including launch file."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Be there again."""
+        """Change back the current file."""
         context.files = context.files[:-1]
 
 
 class TimerAction(Action):
-    """Actions after a while."""
+    """Actions after a delay."""
 
     takes_time: ClassVar[bool] = True
 
@@ -131,7 +131,7 @@ class TimerAction(Action):
         self.period, self.actions = period, list(actions)
 
     def execute(self, context: LaunchContext) -> Any:
-        """Have them done later.
+        """Schedule the actions.
 
         Raises:
             UsageError: If the period is no number of seconds.
@@ -140,5 +140,5 @@ class TimerAction(Action):
         context.launch.later(self, period, self.actions)
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """The actions inside."""
+        """Return the actions inside."""
         return self.actions

@@ -9,17 +9,17 @@ from tftool.ros.launch.substitutions import describe, is_true, perform
 
 
 class InvalidConditionExpressionError(UsageError):
-    """A text that is neither true nor false."""
+    """Error for a text that is neither true nor false."""
 
 
 class Condition:
-    """Whether an action is carried out; without a predicate it is not."""
+    """Condition for an action; without a predicate it is false."""
 
     def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Whether it holds."""
+        """Whether it is true."""
         return self._predicate is not None and self._predicate(context)
 
     def describe(self) -> str:
@@ -28,7 +28,7 @@ class Condition:
 
 
 def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bool:
-    """Whether a text is true.
+    """Return whether a text means true.
 
     Raises:
         InvalidConditionExpressionError: If it is neither true nor false.
@@ -41,7 +41,7 @@ def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bo
 
 
 class IfCondition(Condition):
-    """If a text is true."""
+    """Condition that a text is true."""
 
     def __init__(self, predicate_expression: Any) -> None:
         super().__init__(predicate=lambda c: evaluate_condition_expression(c, predicate_expression))
@@ -53,7 +53,7 @@ class IfCondition(Condition):
 
 
 class UnlessCondition(Condition):
-    """If a text is false."""
+    """Condition that a text is false."""
 
     def __init__(self, predicate_expression: Any) -> None:
         super().__init__(
@@ -67,7 +67,7 @@ class UnlessCondition(Condition):
 
 
 class LaunchConfigurationEquals(Condition):
-    """If an argument has a value."""
+    """Condition that an argument has a value."""
 
     def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
         name = launch_configuration_name
@@ -82,7 +82,7 @@ class LaunchConfigurationEquals(Condition):
 
 
 class LaunchConfigurationNotEquals(Condition):
-    """If an argument has another value."""
+    """Condition that an argument has another value."""
 
     def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
         same = LaunchConfigurationEquals(launch_configuration_name, expected_value)

@@ -16,7 +16,7 @@ DEEPEST = 50
 
 
 class LaunchContext:
-    """Arguments, environment, the scope one is in, and the launch itself.
+    """Arguments, environment, the current scope, and the launch itself.
 
     Attributes:
         launch_configurations: Arguments and their values; and settings for the nodes of the
@@ -58,18 +58,18 @@ class LaunchContext:
 
     @property
     def workspace(self) -> Workspace:
-        """Return the folder where packages are looked for: this one unless another was given."""
+        """Return the folder where packages are searched: this one unless another was given."""
         if self._workspace is None:
             self._workspace = Workspace(Path.cwd())
         return self._workspace
 
     @property
     def locals(self) -> SimpleNamespace:
-        """Return the local values: the event that is being handled, and added ones."""
+        """Local values: the event being handled, and added ones."""
         return SimpleNamespace(**self.get_locals_as_dict())
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
-        """Know more here."""
+        """Add local values."""
         self._locals.update(extensions)
 
     def get_locals_as_dict(self) -> dict[str, Any]:
@@ -78,7 +78,7 @@ class LaunchContext:
         return {**known, **self._locals}
 
     def register_event_handler(self, event_handler: Any) -> None:
-        """Register a handler of events.
+        """Register an event handler.
 
         Raises:
             UsageError: Where nothing is launched.
@@ -86,7 +86,7 @@ class LaunchContext:
         self._launched().handlers.append(event_handler)
 
     def unregister_event_handler(self, event_handler: Any) -> None:
-        """Have it told no more.
+        """Remove an event handler.
 
         Raises:
             UsageError: Where nothing is launched.
@@ -95,11 +95,11 @@ class LaunchContext:
         self._launched().handlers.remove(event_handler)
 
     def would_handle_event(self, event: Any) -> bool:
-        """Whether a handler waits for an event."""
+        """Whether a handler matches an event."""
         return bool(self._launched().is_awaited(event))
 
     def emit_event_sync(self, event: Any) -> None:
-        """Tell the handlers an event.
+        """Pass an event to the handlers.
 
         Raises:
             UsageError: Where nothing is launched.
@@ -107,7 +107,7 @@ class LaunchContext:
         self._launched().emit(event)
 
     async def emit_event(self, event: Any) -> None:
-        """Tell the handlers an event."""
+        """Pass an event to the handlers."""
         self.emit_event_sync(event)
 
     def _launched(self) -> Any:
@@ -116,15 +116,15 @@ class LaunchContext:
         return self.launch
 
     def number_of(self, name: str) -> int:
-        """A number for a name, the same one each time."""
+        """Return a number for a name, the same every time."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
     def perform_substitution(self, substitution: Any) -> str:
-        """The text of a substitution, for functions of a launch file."""
+        """Return the text of a substitution, for functions of a launch file."""
         return str(substitution.perform(self))
 
     def enter_file(self, path: Path) -> None:
-        """Be in a launch file from now on.
+        """Set the current launch file.
 
         Raises:
             UsageError: If it is included too deep to be meant.
@@ -134,7 +134,7 @@ class LaunchContext:
         self.files = (*self.files, path.absolute())
 
     def kept(self) -> tuple[Any, ...]:
-        """The scope one is in, to come back to."""
+        """Return the current scope, for `back_to`."""
         return (
             dict(self.launch_configurations),
             dict(self.environment),
@@ -143,16 +143,16 @@ class LaunchContext:
         )
 
     def push(self) -> None:
-        """Begin a scope."""
+        """Open a scope."""
         self._kept.append(self.kept())
 
     def pop(self) -> None:
-        """End it: everything is as before."""
+        """Close the scope, and restore everything."""
         self._restore(self._kept.pop())
 
     @contextmanager
     def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
-        """Be in another scope for a while."""
+        """Use another scope inside this block."""
         now = self.kept()
         self._restore(kept)
         try:

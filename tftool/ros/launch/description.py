@@ -1,4 +1,4 @@
-"""launch's descriptions: lists of actions, and where they come from."""
+"""launch's descriptions: lists of actions, and their sources."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -10,10 +10,10 @@ from tftool.ros.launch.substitutions import perform
 
 
 class LaunchDescriptionEntity:
-    """Entity of a launch description."""
+    """Base of actions and descriptions."""
 
     def visit(self, context: LaunchContext) -> Any:
-        """Carry it out; return the next actions."""
+        """Execute it; return the next actions."""
         return None
 
     def describe(self) -> str:
@@ -21,20 +21,20 @@ class LaunchDescriptionEntity:
         raise NotImplementedError
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Return the entities inside, for looking for arguments."""
+        """Return the entities inside, to search for arguments."""
         return []
 
     def describe_conditional_sub_entities(self) -> Sequence[tuple[str, Sequence[Any]]]:
-        """Return the conditional entities inside: under which condition, and which."""
+        """Return the conditional entities inside, with their conditions."""
         return []
 
     def get_asyncio_future(self) -> Any:
-        """Return the future of its end; None where that is at once."""
+        """Return the future of its end; None if it ends at once."""
         return None
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """Entities of a launch.
+    """List of actions of a launch.
 
     Attributes:
         entities: Its actions.
@@ -52,7 +52,7 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     @property
     def deprecated(self) -> bool:
-        """Whether it should be used no more."""
+        """Whether it is deprecated."""
         return self.deprecated_reason is not None
 
     def describe(self) -> str:
@@ -60,7 +60,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         return f"{type(self).__name__}()"
 
     def describe_sub_entities(self) -> Sequence[Any]:
-        """Its actions."""
+        """Return its actions."""
         return self.entities
 
     def add_action(self, action: Any) -> None:
@@ -70,7 +70,7 @@ class LaunchDescription(LaunchDescriptionEntity):
     add_entity = add_action
 
     def visit(self, context: LaunchContext) -> Sequence[Any]:
-        """Its actions."""
+        """Return its actions."""
         return self.entities
 
 
@@ -82,7 +82,7 @@ class LaunchDescriptionSource:
         self.location = location
 
     def load(self, context: LaunchContext) -> tuple[LaunchDescription, Path | None]:
-        """The description, and its file."""
+        """Return the description, and its file."""
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))
@@ -92,7 +92,7 @@ class LaunchDescriptionSource:
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
-    """A launch file in Python."""
+    """A Python launch file."""
 
     def __init__(self, launch_file_path: Any) -> None:
         super().__init__(None, launch_file_path)

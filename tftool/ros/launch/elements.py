@@ -1,4 +1,4 @@
-"""launch files in XML and in YAML, read: both give the same elements."""
+"""Parser of XML and YAML launch files into the same elements."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -38,12 +38,12 @@ class Element:
     known: set[str] = field(default_factory=set)
 
     def get(self, name: str, default: Any = None) -> Any:
-        """An attribute, or something else."""
+        """Return an attribute, or a default."""
         self.asked.add(name)
         return self.values.get(name, default)
 
     def need(self, *names: str) -> Any:
-        """An attribute that must be there, under one of its names.
+        """Return a required attribute, under one of its names.
 
         Raises:
             InputError: If it is missing.
@@ -56,17 +56,17 @@ class Element:
         raise InputError(f"{self.where}: '{self.tag}' needs '{names[0]}'")
 
     def inside(self, *tags: str) -> list["Element"]:
-        """The children with one of some tags."""
+        """Return the children with one of some tags."""
         self.known.update(tags)
         return [child for child in self.children if child.tag in tags]
 
     def all_inside(self) -> list["Element"]:
-        """Every child, whatever it is."""
+        """Return all children."""
         self.known.update(child.tag for child in self.children)
         return self.children
 
     def finish(self) -> None:
-        """Refuse attributes and children that were not read.
+        """Refuse unread attributes and children.
 
         Raises:
             InputError: If there is one; the nearest that is known is told.
@@ -80,11 +80,11 @@ class Element:
                 raise child.refusal(what, child.tag, self.known)
 
     def too_deep(self) -> InputError:
-        """The refusal of more levels than a file needs."""
+        """Return the refusal of too many levels."""
         return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
 
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
-        """Return the mistake here, and the nearest known word."""
+        """Return an error here, with the nearest known word."""
         hint = did_you_mean(word, known)
         return InputError(f"{self.where}: {what}{hint}")
 
@@ -93,7 +93,7 @@ class Element:
 
 
 def read(path: Path) -> list[Element]:
-    """The elements in an XML or a YAML file, which its ending tells apart.
+    """Read the elements of an XML or YAML file, by its suffix.
 
     Raises:
         InputError: If it cannot be read or is laid out otherwise; the line is told.
@@ -106,7 +106,7 @@ def read(path: Path) -> list[Element]:
 
 
 def read_xml(data: bytes, path: Path) -> list[Element]:
-    """The elements in what an XML file holds.
+    """Read the elements of an XML text.
 
     Raises:
         InputError: If it is no launch file; the line is told.
@@ -142,7 +142,7 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
 
 
 def read_yaml(data: bytes, path: Path) -> list[Element]:
-    """The elements in what a YAML file holds.
+    """Read the elements of a YAML text.
 
     Raises:
         InputError: If it is no YAML or laid out otherwise; the line is told.
@@ -165,13 +165,13 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
 
 
 class _Yaml:
-    """Hangs what the nodes of a YAML document say below elements."""
+    """Converter of YAML nodes to elements."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
     def children(self, node: Any, parent: Element, depth: int) -> None:
-        """Take a list of one-key mappings."""
+        """Convert a list of one-key mappings."""
         if not isinstance(node, yaml.SequenceNode):
             where = self.where(node)
             raise InputError(f"{where}: '{parent.tag}' is a list of actions, each begun with '- '")
@@ -183,7 +183,7 @@ class _Yaml:
             parent.children.append(self.element(self.word(key), value, depth))
 
     def element(self, tag: str, node: Any, depth: int) -> Element:
-        """Make an element of a mapping of attributes, or of a list of actions."""
+        """Convert a mapping of attributes, or a list of actions, to an element."""
         element = Element(tag, self.where(node))
         # An alias may stand inside what it stands for.
         if depth > DEEPEST:
@@ -209,7 +209,7 @@ class _Yaml:
         return element
 
     def word(self, node: Any) -> str:
-        """A key.
+        """Convert a key.
 
         Raises:
             InputError: If it is no single word.
@@ -219,7 +219,7 @@ class _Yaml:
         return str(node.value)
 
     def value(self, node: Any) -> Any:
-        """An attribute's value.
+        """Convert an attribute's value.
 
         Raises:
             InputError: If it is none that YAML knows by itself.
@@ -231,5 +231,5 @@ class _Yaml:
             raise InputError(f"{self.where(node)}: {reason}") from None
 
     def where(self, node: Any) -> str:
-        """The place of a node: "file:line"."""
+        """Return a node's position: "file:line"."""
         return f"{self.path}:{node.start_mark.line + 1}"

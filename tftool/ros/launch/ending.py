@@ -1,4 +1,4 @@
-"""Ends commands of the system as ROS 2 does: asked first, then told, then made."""
+"""Ending of system commands as in ROS 2: SIGINT, SIGTERM, SIGKILL."""
 
 import asyncio
 import os
@@ -11,7 +11,7 @@ PATIENCE = 5.0
 
 
 def interrupt(process: asyncio.subprocess.Process) -> None:
-    """End a process, and what it started: SIGINT, after a while SIGTERM, after that SIGKILL."""
+    """End a process and its children: SIGINT, after a while SIGTERM, then SIGKILL."""
     if sys.platform == "win32":
         process.terminate()
         return

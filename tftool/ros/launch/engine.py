@@ -1,4 +1,4 @@
-"""Carries a launch description out: all its nodes in one process, on one loop."""
+"""Execution of a launch description: all its nodes in one process, on one loop."""
 
 import asyncio
 import shlex
@@ -47,7 +47,7 @@ SOONEST = 0.1
 
 
 class Launch(Node):
-    """Launch as `ros2 launch` does it: starts what a description says, and watches it.
+    """A launch as by `ros2 launch`: starts a description's actions, and watches them.
 
     Attributes:
         failed: Labels of programs that ended with another exit status than 0.
@@ -70,7 +70,7 @@ class Launch(Node):
         name: str = "launch",
         contained: bool = False,
     ) -> None:
-        """Read a launch file, or take a description.
+        """Read a launch file, or use a description.
 
         Args:
             world: Where to launch.
@@ -114,7 +114,7 @@ class Launch(Node):
         world.log.listen(self._logged, name)
 
     async def run(self) -> None:
-        """Launch, and stay until everything has ended or a Shutdown is emitted.
+        """Launch, and wait until everything has ended or a Shutdown is emitted.
 
         Raises:
             UsageError: If something cannot be started as the description says.
@@ -142,7 +142,7 @@ class Launch(Node):
     # What actions ask for
 
     def do(self, entities: Any) -> None:
-        """Carry out entities, and what they give, one after the other.
+        """Execute entities and the actions they return, one after the other.
 
         Raises:
             UsageError: If one cannot be carried out as the launch file says; its line is told.
@@ -169,7 +169,7 @@ class Launch(Node):
             raise InputError(f"{where}: {error_sentence(error)}") from error
 
     def emit(self, event: Event) -> None:
-        """Tell the handlers an event, once the current action is done."""
+        """Pass an event to the handlers after the current action."""
         self._events.add(event)
 
     def _tell(self, event: Event) -> None:
@@ -194,11 +194,11 @@ class Launch(Node):
             self._end()
 
     def hear(self, topic: str, kind: type[Any], callback: Callable[[Any], object]) -> None:
-        """Have `callback` called with every message of a topic; what it raises ends the launch."""
+        """Call `callback` with every message of a topic; an exception in it ends the launch."""
         self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
 
     def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
-        """Take in a line that a process has written."""
+        """Handle a line written by a process."""
         event = ProcessIO(
             action=self._actions.get(label),
             name=label,
@@ -218,11 +218,11 @@ class Launch(Node):
         self._wrote(label, line, to_stdout=True)
 
     def is_awaited(self, event: Event) -> bool:
-        """Whether a handler waits for an event."""
+        """Whether a handler matches an event."""
         return any(handler.matches(event) for handler in self.handlers)
 
     def complete(self, action: Any) -> None:
-        """Tell that an action is done."""
+        """Report that an action is complete."""
         if action.is_awaited:
             self.emit(ExecutionComplete(action=action))
 
@@ -234,11 +234,11 @@ class Launch(Node):
         self._guarded(lambda: self.emit(event))
 
     def shut_down(self, reason: str) -> None:
-        """Have everything it started end, and then end itself."""
+        """End everything it started, then itself."""
         self._guarded(lambda: self.emit(Shutdown(reason=reason)))
 
     def info(self, text: str) -> None:
-        """Say something."""
+        """Log information."""
         self._say("INFO", "launch", text)
 
     def warn(self, text: str) -> None:
@@ -246,7 +246,7 @@ class Launch(Node):
         self._say("WARNING", "launch", text)
 
     def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
-        """Tell `then` whether a service is there, in the scope of now.
+        """Tell `then` whether a service exists, in the present scope.
 
         Args:
             service: The service's name.
@@ -283,7 +283,7 @@ class Launch(Node):
     def ask(
         self, service: str, requests: Iterable[Any], done: Callable[[Any, Any], object]
     ) -> None:
-        """Ask a service for one thing after the other.
+        """Send requests to a service one after the other.
 
         Args:
             service: The service's name.
@@ -302,7 +302,7 @@ class Launch(Node):
         self._start_task(work(), self._watches)
 
     def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
-        """Carry actions out after `period` seconds, in the present scope; `action` asks for it."""
+        """Execute actions after `period` seconds, in the present scope, on behalf of `action`."""
         kept = self.context.kept()
 
         async def wait() -> None:
@@ -355,7 +355,7 @@ class Launch(Node):
     def start_process(
         self, action: Any, name: str, command: SystemCommand, respawn: float | None
     ) -> None:
-        """Start a command of the system; on simulated time it takes no time.
+        """Start a system command; in simulated time it takes no time.
 
         Args:
             action: What asked for it, for events.
@@ -379,7 +379,7 @@ class Launch(Node):
         self._start(label, start, respawn)
 
     def start_ros2(self, action: Any, words: Sequence[str], respawn: float | None) -> None:
-        """Carry `ros2 WORDS` out as a program of the world.
+        """Run `ros2 WORDS` as a program of the world.
 
         Args:
             action: What asked for it, for events.
@@ -484,7 +484,7 @@ class Launch(Node):
         return True
 
     def _guarded(self, work: Callable[[], object]) -> None:
-        """Do something later than the launch began: a fault ends the launch."""
+        """Run something later; an error in it ends the launch."""
         try:
             work()
         except Exception as error:

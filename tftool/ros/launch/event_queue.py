@@ -1,4 +1,4 @@
-"""A launch's events, told in the order in which they came."""
+"""A launch's events, handled in order of arrival."""
 
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -12,25 +12,25 @@ MOST_EVENTS = 1000
 
 
 class EventQueue:
-    """Holds events back while something is carried out.
+    """Queue that delays events while an action is executed.
 
     A handler may stand further down in the file than the action whose event it handles.
     """
 
     def __init__(self, tell: Callable[[Event], object]) -> None:
-        """`tell` hands an event to the handlers that wait for it."""
+        """Make a queue; `tell` passes an event to the matching handlers."""
         self._tell = tell
         self._waiting: deque[Event] = deque()
         self._is_held = False
 
     def add(self, event: Event) -> None:
-        """Have an event told, at once where nothing is carried out."""
+        """Queue an event; without a running action it is handled at once."""
         with self.held():
             self._waiting.append(event)
 
     @contextmanager
     def held(self) -> Iterator[None]:
-        """Tell what happens inside this block after it, and what follows from that.
+        """Delay events from inside this block until after it.
 
         Raises:
             UsageError: If there is no end to what follows.

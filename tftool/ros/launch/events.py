@@ -1,4 +1,4 @@
-"""launch's events and who handles them."""
+"""launch's events and their handlers."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -11,7 +11,7 @@ class Event:
 
 
 class Shutdown(Event):
-    """The launch ends."""
+    """Event of the end of the launch."""
 
     name = "launch.events.Shutdown"
 
@@ -21,7 +21,7 @@ class Shutdown(Event):
 
 
 class RunningProcessEvent(Event):
-    """Something about a process.
+    """Event about a process.
 
     Attributes:
         action: What started it.
@@ -51,13 +51,13 @@ class RunningProcessEvent(Event):
 
 
 class ProcessStarted(RunningProcessEvent):
-    """A process began."""
+    """Event of a process's start."""
 
     name = "launch.events.process.ProcessStarted"
 
 
 class ProcessExited(RunningProcessEvent):
-    """A process ended.
+    """Event of a process's end.
 
     Attributes:
         returncode: Its exit status.
@@ -71,7 +71,7 @@ class ProcessExited(RunningProcessEvent):
 
 
 class ProcessIO(RunningProcessEvent):
-    """A process has written a line.
+    """Event of a line written by a process.
 
     Attributes:
         text: The line, as bytes.
@@ -90,7 +90,7 @@ class ProcessIO(RunningProcessEvent):
 
 
 class ShutdownProcess(Event):
-    """Processes are to end."""
+    """Event that asks processes to end."""
 
     name = "launch.events.process.ShutdownProcess"
 
@@ -104,7 +104,7 @@ def matches_action(target_action: Any) -> Callable[[Any], bool]:
 
 
 class ExecutionComplete(Event):
-    """An action is done."""
+    """Event of an action's completion."""
 
     name = "launch.events.ExecutionComplete"
 
@@ -119,7 +119,7 @@ def _entities(given: Any, event: Event, context: Any) -> Any:
 
 
 def _require_target(handler: str, target: Any) -> None:
-    """See that a target is an action, or says of one whether it is meant.
+    """Check that a target is an action, or a function that selects actions.
 
     Raises:
         TypeError: If it is neither.
@@ -132,7 +132,7 @@ def _require_target(handler: str, target: Any) -> None:
 
 
 class EventHandler:
-    """Does something when an event fits."""
+    """Does something when a matching event occurs."""
 
     def __init__(
         self,
@@ -146,11 +146,11 @@ class EventHandler:
         self.handle_once = handle_once
 
     def matches(self, event: Event) -> bool:
-        """Whether it is meant."""
+        """Whether it matches."""
         return self._matcher(event)
 
     def handle(self, event: Event, context: Any) -> Any:
-        """Return the actions to do."""
+        """Return the next actions."""
         return _entities(self._given, event, context)
 
 
@@ -163,7 +163,7 @@ def _targets(action: Any, target: Any) -> bool:
 
 
 class OnProcessExit(EventHandler):
-    """Handler for the end of a process."""
+    """Handler of the end of a process."""
 
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
         _require_target("OnProcessExit", target_action)
@@ -175,7 +175,7 @@ class OnProcessExit(EventHandler):
 
 
 class OnProcessStart(EventHandler):
-    """Handler for the start of a process."""
+    """Handler of the start of a process."""
 
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
         _require_target("OnProcessStart", target_action)
@@ -187,7 +187,7 @@ class OnProcessStart(EventHandler):
 
 
 class OnProcessIO(EventHandler):
-    """Handler for a line written by a process."""
+    """Handler of a line written by a process."""
 
     def __init__(
         self,
@@ -212,7 +212,7 @@ class OnProcessIO(EventHandler):
 
 
 class OnExecutionComplete(EventHandler):
-    """Handler for the end of an action: what it starts has ended, and is not started again.
+    """Handler of an action's end: what it started has ended, and is not started again.
 
     Attributes:
         target: The action, something that says whether one is meant, or None for any.
@@ -231,7 +231,7 @@ class OnExecutionComplete(EventHandler):
 
 
 class OnShutdown(EventHandler):
-    """Handler for the end of the launch."""
+    """Handler of the end of the launch."""
 
     def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
         super().__init__(matcher=lambda e: isinstance(e, Shutdown), entities=on_shutdown, **kwargs)

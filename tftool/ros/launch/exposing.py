@@ -1,4 +1,4 @@
-"""launch.frontend: elements and `$(…)` of people's own, for launch files in XML and YAML."""
+"""launch.frontend: users' own elements and `$(…)` in XML and YAML launch files."""
 
 import os
 import typing
@@ -47,7 +47,7 @@ class Entity:
         optional: bool = False,
         can_be_str: bool = True,
     ) -> Any:
-        """An attribute; with `List[Entity]`, the elements inside that are called so.
+        """Return an attribute; with `List[Entity]`, the child elements of that name.
 
         Raises:
             AttributeError: If it is missing.
@@ -77,7 +77,7 @@ class Entity:
         return AttributeError(f"{self.element.where}: '{self.type_name}' needs '{name}'")
 
     def assert_entity_completely_parsed(self) -> None:
-        """Refuse attributes and elements inside that were not read.
+        """Refuse unread attributes and child elements.
 
         Raises:
             InputError: If there is one.
@@ -100,7 +100,7 @@ class Parser:
 
     @classmethod
     def load(cls, file: Any) -> tuple[Entity, "Parser"]:
-        """A launch file in XML or YAML, open or by its path: its root, and what reads it.
+        """Load an XML or YAML launch file: return its root and its parser.
 
         Raises:
             InputError: If it cannot be read or is laid out otherwise; the line is told.
@@ -121,39 +121,39 @@ class Parser:
         return LaunchDescription(actions_of(entity.element.all_inside()))
 
     def parse_substitution(self, value: Any) -> list[Any]:
-        """A text with its `$(…)` parts as substitutions."""
+        """Parse a text with `$(…)` parts into substitutions."""
         return parse_substitution(value)
 
     def parse_if_substitutions(self, value: Any) -> Any:
-        """A text as substitutions where it has any, and otherwise as it is."""
+        """Parse a text into substitutions if it has any."""
         return parse_if_substitutions(value)
 
     def parse_action(self, entity: Entity) -> Any:
-        """The action an element stands for."""
+        """Return the action of an element."""
         from tftool.ros.launch.frontend import actions_of
 
         (action,) = actions_of([entity.element])
         return action
 
     def escape_characters(self, value: str) -> str:
-        """A text in which nothing stands for a substitution."""
+        """Escape a text so that nothing in it is a substitution."""
         return value.replace("\\", "\\\\").replace("$", "\\$")
 
 
 def parse_substitution(value: Any) -> list[Any]:
-    """A text with its `$(…)` parts as substitutions."""
+    """Parse a text with `$(…)` parts into substitutions."""
     return parsing.parsed(value, "a text") or [TextSubstitution(text="")]
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """A text as substitutions where it has any, and otherwise as it is; each one of a list."""
+    """Parse a text into substitutions if it has any; each text of a list."""
     if isinstance(value, list):
         return [parse_if_substitutions(one) for one in value]
     return parse_substitution(value) if isinstance(value, str) and "$(" in value else value
 
 
 def expose_action(name: str) -> Callable[[T], T]:
-    """Decorate a class with a method `parse`, or a function like it: what reads an element."""
+    """Decorate a class with a method `parse`, or a function like it, as an element's reader."""
 
     def expose(exposed: T) -> T:
         ACTIONS[name.replace("-", "_")] = _parser_of(exposed)
@@ -163,7 +163,7 @@ def expose_action(name: str) -> Callable[[T], T]:
 
 
 def expose_substitution(name: str) -> Callable[[T], T]:
-    """Decorate a class with a method `parse`, or a function like it: what reads `$(name …)`."""
+    """Decorate a class with a method `parse`, or a function, as reader of `$(name …)`."""
 
     def expose(exposed: T) -> T:
         read = _parser_of(exposed)

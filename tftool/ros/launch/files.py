@@ -1,4 +1,4 @@
-"""Launch files: Python, XML or YAML in, a description out."""
+"""Loading of launch files: Python, XML or YAML to a description."""
 
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -16,7 +16,7 @@ MAKES = "generate_launch_description"
 
 
 def load_file(path: Path) -> LaunchDescription:
-    """The description in a launch file.
+    """Return the description in a launch file.
 
     Raises:
         InputError: If it cannot be read, is none, or raises; the user's own line is shown.

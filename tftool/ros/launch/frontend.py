@@ -1,4 +1,4 @@
-"""Elements of XML and YAML launch files, as the actions of Python's."""
+"""Conversion of XML and YAML elements to actions."""
 
 import shlex
 from collections.abc import Callable, Iterable, Mapping
@@ -28,7 +28,7 @@ from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
 
 def actions_of(elements: Iterable[Element]) -> list[Any]:
-    """The actions that elements stand for.
+    """Return the actions of elements.
 
     Raises:
         InputError: If one says something unknown; its line is told, and the nearest known word.
@@ -61,7 +61,7 @@ def _condition(element: Element) -> Any:
 
 
 def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
-    """An action of people's own."""
+    """Return a user's own action."""
     try:
         kind, settings = read(exposing.Entity(element), exposing.Parser())
         return kind(**settings)
@@ -83,7 +83,7 @@ YAML_FLAGS = {"yes": True, "on": True, "no": False, "off": False}
 
 
 def _flag(element: Element, name: str, default: str) -> bool:
-    """An attribute that decides while the file is read, so no substitution."""
+    """Return an attribute needed while reading the file, which cannot be a substitution."""
     text = str(element.get(name, default))
     if (word := text.strip().lower()) in YAML_FLAGS:
         return YAML_FLAGS[word]
@@ -95,7 +95,7 @@ def _flag(element: Element, name: str, default: str) -> bool:
 
 
 def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
-    """Parse the children of one kind, with nothing in them left over."""
+    """Parse the children of one kind, and refuse unread parts."""
     found = []
     for child in element.inside(*tags):
         found.append(read(child))
@@ -118,7 +118,7 @@ def _arg(element: Element) -> Any:
 
 
 def _startable(element: Element) -> dict[str, Any]:
-    """Parse the attributes that nodes and commands have in common."""
+    """Parse the attributes that nodes and commands share."""
     for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout"):
         element.get(name)
     on_exit = element.get("on_exit")
@@ -189,7 +189,7 @@ def _load_composable_node(element: Element) -> Any:
 
 
 def _words(text: Any, element: Element) -> list[Any]:
-    """The words of a command line, parted as a shell does; a substitution stays whole."""
+    """Split a command line as a shell does; substitutions stay whole."""
     if text is None:
         return []
     words: list[Any] = [[]]

@@ -1,4 +1,4 @@
-"""launch_ros's nodes with a life cycle: the events about them, and who handles those."""
+"""launch_ros's lifecycle nodes: their events and event handlers."""
 
 import itertools
 from collections.abc import Callable, Iterable
@@ -30,7 +30,7 @@ _TRANSITIONS = {
 
 
 class ChangeState(Event):
-    """A node with a life cycle is to go another way."""
+    """Event that asks a lifecycle node to change its state."""
 
     name = "launch_ros.events.lifecycle.ChangeState"
 
@@ -42,7 +42,7 @@ class ChangeState(Event):
 
 
 class StateTransition(Event):
-    """A node with a life cycle has gone from one state to another."""
+    """Event of a lifecycle node's change of state."""
 
     name = "launch_ros.events.lifecycle.StateTransition"
 
@@ -52,12 +52,12 @@ class StateTransition(Event):
 
     @property
     def start_state(self) -> str:
-        """The label of the state it was in."""
+        """Label of the previous state."""
         return str(self.msg.start_state.label)
 
     @property
     def goal_state(self) -> str:
-        """The label of the state it is in."""
+        """Label of the new state."""
         return str(self.msg.goal_state.label)
 
 
@@ -87,7 +87,7 @@ class OnStateTransition(EventHandler):
 
 
 class LifecycleNode(Node):
-    """A node that is configured and activated by others, or by itself, before it works."""
+    """A node that must be configured and activated before it works."""
 
     def __init__(
         self, *, name: Any, namespace: Any, autostart: bool = False, **kwargs: Any
@@ -96,7 +96,7 @@ class LifecycleNode(Node):
         self.autostart = autostart
 
     def execute(self, context: LaunchContext) -> Any:
-        """Start it, and listen to its transitions."""
+        """Start it, and subscribe to its transitions."""
         self._perform_substitutions(context)
         context.launch.handlers.append(
             EventHandler(matcher=self._is_meant, entities=lambda event, _: [self._change(event)])
@@ -135,7 +135,7 @@ def matches_node_name(node_name: str) -> Callable[[Any], bool]:
 
 
 class LifecycleTransition(Action):
-    """Takes nodes through transitions, one after the other."""
+    """Leads nodes through transitions, one after the other."""
 
     def __init__(
         self,
@@ -153,7 +153,7 @@ class LifecycleTransition(Action):
             raise ValueError("a LifecycleTransition needs names of nodes, and transitions")
 
     def execute(self, context: LaunchContext) -> Any:
-        """Ask each node for the first transition, and for the next once it is there."""
+        """Request each node's first transition, and each next one when that is done."""
         numbers = [int(perform(context, one)) for one in self.transition_ids]
         for label in self.transition_labels:
             text = perform(context, label)
@@ -180,7 +180,7 @@ _REACHED = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive"}
 
 
 class _After(EventHandler):
-    """Handler for the end of a node's transition."""
+    """Handler of the end of a node's transition."""
 
     def __init__(self, node: str, transition: int, entities: Any) -> None:
         def matches(event: Event) -> bool:

@@ -1,4 +1,4 @@
-"""launch.logging: loggers for what launch files say, apart from those of the process.
+"""launch.logging: loggers for launch files, separate from the process's own.
 
 A launch here writes no files of its own. One comes up where a launch file asks for its handler.
 """
@@ -20,7 +20,7 @@ _FORMATS = {"default": _PLAIN, "default_with_timestamp": "{created:.7f} " + _PLA
 
 
 class _Screen(Handler):
-    """Writes to what standard output is at that moment."""
+    """Writer to the present standard output."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write one line."""
@@ -28,14 +28,14 @@ class _Screen(Handler):
 
 
 class LaunchConfig:
-    """Configuration of loggers: level, format, place."""
+    """Configuration of loggers: level, format, folder."""
 
     def __init__(self) -> None:
         self._files: dict[str, Handler] = {}
         self.reset()
 
     def reset(self) -> None:
-        """Be as at the beginning."""
+        """Restore the initial state."""
         for handler in self._files.values():
             handler.close()
         self.manager = logging.Manager(logging.RootLogger(logging.INFO))
@@ -49,7 +49,7 @@ class LaunchConfig:
 
     @property
     def level(self) -> int:
-        """From which level on lines are said."""
+        """Level from which lines are logged."""
         return self.manager.root.level
 
     @level.setter
@@ -58,7 +58,7 @@ class LaunchConfig:
 
     @property
     def log_dir(self) -> str:
-        """The folder for files: the one that was set, else where ROS 2 has its logs."""
+        """Folder for log files: the one set, else ROS 2's."""
         return self._log_dir or os.path.normpath(get_logging_directory())
 
     @log_dir.setter
@@ -77,11 +77,11 @@ class LaunchConfig:
         self._factory = factory or FileHandler
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Say lines in a format: a name of launch's, or one of Python's, with braces."""
+        """Set the format of lines: a name of launch's, or one of Python's, with braces."""
         self._screen.setFormatter(_formatter(screen_format, screen_style))
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Write lines to files in a format."""
+        """Set the format of lines in files."""
         if log_format == "default":
             # Alone on the screen it is plain.
             _formatter(log_format, log_style)
@@ -91,7 +91,7 @@ class LaunchConfig:
             handler.setFormatter(self._log_format)
 
     def get_screen_handler(self) -> Handler:
-        """Return the handler that writes to the screen."""
+        """Return the handler for the screen."""
         return self._screen
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
@@ -99,7 +99,7 @@ class LaunchConfig:
         return os.path.join(self.log_dir, file_name)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> Handler:
-        """Return the handler that writes to a file."""
+        """Return the handler for a file."""
         if file_name not in self._files:
             Path(self.log_dir).mkdir(parents=True, exist_ok=True)
             made = self._factory(self.get_log_file_path(file_name), encoding="utf-8")
@@ -109,7 +109,7 @@ class LaunchConfig:
 
 
 def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
-    """Set a format as an environment variable has it, else launch's own."""
+    """Set a format from an environment variable, else launch's own."""
     given = os.environ.get(name) or "default"
     try:
         set_format(given)
@@ -130,7 +130,7 @@ launch_config = LaunchConfig()
 
 
 def get_logger(name: str | None = None) -> logging.Logger:
-    """A logger that writes to the screen."""
+    """Return a logger that writes to the screen."""
     logger = launch_config.manager.getLogger(name or "launch")
     logger.propagate = False
     logger.addHandler(launch_config.get_screen_handler())
@@ -138,5 +138,5 @@ def get_logger(name: str | None = None) -> logging.Logger:
 
 
 def reset() -> None:
-    """Forget every logger and setting."""
+    """Remove every logger and setting."""
     launch_config.reset()

@@ -1,4 +1,4 @@
-"""launch's substitutions that say true or false, or choose by it."""
+"""launch's substitutions for truth values, and choices by them."""
 
 import math
 from collections.abc import Iterable
@@ -12,7 +12,7 @@ _TRUTHS = {"true": True, "1": True, "false": False, "0": False}
 
 
 def _holds(context: LaunchContext, value: Any) -> bool:
-    """Whether a text is true.
+    """Return whether a text means true.
 
     Raises:
         SubstitutionFailure: If it is neither true nor false.
@@ -24,7 +24,7 @@ def _holds(context: LaunchContext, value: Any) -> bool:
 
 
 def _truths(context: LaunchContext, values: Iterable[Any]) -> list[bool]:
-    """Whether each text is true; as in ROS 2 every one is looked at."""
+    """Return the truth of each text; as in ROS 2 all are evaluated."""
     return [_holds(context, value) for value in values]
 
 
@@ -89,7 +89,7 @@ class IfElseSubstitution(Substitution):
     """One text or another."""
 
     def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        """Choose by a condition.
+        """Make a choice by a condition.
 
         Raises:
             RuntimeError: If there is nothing to choose.
@@ -99,7 +99,7 @@ class IfElseSubstitution(Substitution):
         self.condition, self.if_value, self.else_value = condition, if_value, else_value
 
     def perform(self, context: LaunchContext) -> str:
-        """The text chosen."""
+        """Return the chosen text."""
         word = perform(context, self.condition).strip().lower()
         chosen = _holds(
             context, {"on": "true", "yes": "true", "off": "false", "no": "false"}.get(word, word)

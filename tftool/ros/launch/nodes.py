@@ -81,13 +81,13 @@ class Node(Startable):
         return self.executable
 
     def is_node_name_fully_specified(self) -> bool:
-        """Whether both its name and its namespace are known to the launch."""
+        """Whether the launch knows both its name and its namespace."""
         return bool(self.expanded_node_namespace) and (
             self.UNSPECIFIED_NODE_NAME not in self.node_name
         )
 
     def _perform_substitutions(self, context: LaunchContext) -> None:
-        """Know its name, its namespace and its remappings, as classes made of it expect."""
+        """Evaluate its name, namespace and remappings, as subclasses expect."""
         name = self.UNSPECIFIED_NODE_NAME
         if self.name is not None:
             name = perform(context, self.name)
@@ -140,7 +140,7 @@ class Node(Startable):
 
 
 def python_file(executable: str) -> str:
-    """The file a node without a package is, looked for as a shell does.
+    """Return the file of a node without a package, searched as a shell does.
 
     Raises:
         UsageError: If there is none, or it is no Python.
@@ -159,7 +159,7 @@ def python_file(executable: str) -> str:
 
 
 def _listed(given: Any) -> list[Any]:
-    """A list of words; a single text is split as a shell would."""
+    """Return a list of words; a single text is split as a shell would."""
     if given is None:
         return []
     if isinstance(given, str):

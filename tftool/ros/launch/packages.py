@@ -1,4 +1,4 @@
-"""ament_index_python: where packages are."""
+"""ament_index_python: paths of packages."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from tftool.ros.host.workspace import Workspace
 
 
 class PackageNotFoundError(KeyError):
-    """There is no such package."""
+    """Error for an unknown package."""
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
@@ -17,7 +17,7 @@ _current: list[Workspace] = []
 
 
 def use(workspace: Workspace) -> None:
-    """Look in this workspace from now on."""
+    """Search this workspace from now on."""
     _current[:] = [workspace]
 
 
@@ -28,7 +28,7 @@ def _workspace() -> Workspace:
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """A package's share directory: in a workspace, its sources.
+    """Return a package's share directory: in a workspace, its sources.
 
     Raises:
         PackageNotFoundError: If there is no such package.
@@ -45,17 +45,17 @@ def get_package_share_path(package_name: str, print_warning: bool = True) -> Pat
 
 
 def get_package_prefix(package_name: str) -> str:
-    """A package's prefix; without an installation, the same folder."""
+    """Return a package's prefix; without an installation, the same folder."""
     return get_package_share_directory(package_name)
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
-    """Every package and its folder."""
+    """Return every package and its folder."""
     return {name: str(package.path) for name, package in _workspace().packages.items()}
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """Return every resource of a type and its prefix; packages are the one type known here."""
+    """Return every resource of a type with its prefix; packages are the only type known here."""
     return get_packages_with_prefixes() if resource_type == "packages" else {}
 
 

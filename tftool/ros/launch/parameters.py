@@ -1,4 +1,4 @@
-"""launch_ros's descriptions of parameters: values with types, names with values, files."""
+"""launch_ros's parameters: typed values, names with values, files."""
 
 import os
 import tempfile
@@ -18,14 +18,14 @@ _SINGLE = (str, int, float, bool)
 
 
 class BadParameterError(UsageError, TypeError):
-    """Value that no parameter can have, found while the launch runs."""
+    """Error for a value that no parameter can have, found during the launch."""
 
 
 class ParameterValue:
-    """A parameter's value of a given type."""
+    """A parameter's value with a given type."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        """Take a value, or texts that are known when the launch runs.
+        """Take a value, or texts only known during the launch.
 
         Raises:
             TypeError: If it is a value already, and of another type.
@@ -41,7 +41,7 @@ class ParameterValue:
             raise TypeError(f"a parameter's value is to be {shown}, not {value!r}")
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """The value.
+        """Return the value.
 
         Raises:
             ValueError: If it is not of that type.
@@ -56,7 +56,7 @@ class ParameterValue:
 
 
 class ParameterDescription:
-    """A parameter: its name, and its value."""
+    """A parameter: its name and value."""
 
     def __init__(self, name: Any, value: Any, *, value_type: Any = None) -> None:
         self.name: Any = normalize_to_list_of_substitutions(name)
@@ -69,11 +69,11 @@ class ParameterDescription:
 
     @property
     def value_type(self) -> Any:
-        """The type its value is to have."""
+        """The type of its value."""
         return self._value.value_type
 
     def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
-        """Its name and its value.
+        """Return its name and value.
 
         Raises:
             ValueError: If the value is not of its type.
@@ -83,7 +83,7 @@ class ParameterDescription:
 
 
 class ParameterFile:
-    """A parameter file; with `allow_substs` its text may hold `$(…)`.
+    """A parameter file; with `allow_substs` its text may contain `$(…)`.
 
     Attributes:
         param_file: Its path: texts until it is evaluated.
@@ -108,7 +108,7 @@ class ParameterFile:
         return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """The path of a file without `$(…)`: where the text may hold some, of a copy.
+        """Return the path of a file without `$(…)`: of a copy, if the text may contain some.
 
         Raises:
             InputError: If a `$(…)` is not known.
@@ -131,7 +131,7 @@ class ParameterFile:
 
 
 def normalize_parameters(parameters: Any) -> list[Any]:
-    """A node's parameters, looked over: mappings from dotted names to values, and files.
+    """Normalise a node's parameters: mappings from dotted names to values, and files.
 
     Raises:
         TypeError: If they are no list, or one of them can be no parameter.
@@ -150,7 +150,7 @@ def normalize_parameters(parameters: Any) -> list[Any]:
 
 
 def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], Any]:
-    """A mapping of parameters without levels: the texts of a dotted name, and its value.
+    """Flatten a mapping of parameters: the texts of a dotted name, and its value.
 
     Raises:
         TypeError: If a name is no text, or a value can be no parameter's.
@@ -253,7 +253,7 @@ def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, st
 
 
 def _typed(text: str, kind: Any) -> Any:
-    """Parse a text as some type; as any type a parameter may have when None."""
+    """Parse a text as some type; None allows any type of a parameter."""
     if kind is str:
         return text
     value = names.strict_yaml_value(text)
@@ -305,7 +305,7 @@ def _parts_of(value: Any) -> list[Substitution]:
 
 
 def _is_text(value: Any) -> bool:
-    """Whether it is a text that is known when the launch runs."""
+    """Whether it is a text that is only known during the launch."""
     if isinstance(value, Substitution):
         return True
     return _is_parts(value) and any(isinstance(one, Substitution) for one in value)
@@ -320,5 +320,5 @@ def _is_parts(value: Any) -> bool:
 
 
 def _holds_texts(value: Any) -> bool:
-    """Whether some items of a list are texts known only when the launch runs."""
+    """Whether some items of a list are only known during the launch."""
     return isinstance(value, list | tuple) and any(_is_text(one) for one in value)

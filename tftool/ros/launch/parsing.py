@@ -1,4 +1,4 @@
-"""Texts of XML and YAML launch files: `$(var name)`, `$(find-pkg-share pkg)`, nested at will."""
+"""Parser of texts in XML and YAML launch files: `$(var name)`, `$(find-pkg-share pkg)`, nested."""
 
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -11,7 +11,7 @@ from tftool.ros.launch.substitutions import TextSubstitution
 
 
 def parsed(text: Any, where: str) -> list[Any]:
-    """A text with its `$(…)` parts as substitutions.
+    """Parse a text with `$(…)` parts into substitutions.
 
     Raises:
         InputError: If a part is not closed or not known, or there are too many.
@@ -25,7 +25,7 @@ def parsed(text: Any, where: str) -> list[Any]:
 
 
 class _Quoted(list[Any]):
-    """A word that stood in quotes."""
+    """A quoted word."""
 
 
 _ESCAPED = tuple("$()'\"\\")
@@ -33,7 +33,7 @@ _ESCAPED = tuple("$()'\"\\")
 
 
 def _end_of_quote(text: str, start: int) -> int:
-    """Return the end of the quote that opens at `start`; -1 if there is none."""
+    """Return the end of the quote that begins at `start`; -1 if there is none."""
     at = start + 1
     while at < len(text) and text[at] != text[start]:
         at += 2 if text[at] == "\\" else 1
@@ -65,7 +65,7 @@ def _parse(text: str, start: int, where: str, *, closing: bool) -> tuple[list[An
 
 
 def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
-    """One `$(name argument argument)`, from after its bracket."""
+    """Parse one `$(name argument argument)`, after its bracket."""
     words: list[list[Any]] = []
     at = start
     while at < len(text) and text[at] != ")":
@@ -128,7 +128,7 @@ SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
 
 
 def _expression(words: tuple[list[Any], ...]) -> substitutions.PythonExpression:
-    """`$(eval …)`: an expression; of two in quotes, the second names modules."""
+    """Return `$(eval …)`: an expression; of two in quotes, the second lists modules."""
     if len(words) == 2 and all(isinstance(word, _Quoted) for word in words):
         plain = "".join(part.text for part in words[1] if isinstance(part, TextSubstitution))
         modules = [name.strip() for name in plain.split(",") if name.strip()]

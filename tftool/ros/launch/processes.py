@@ -1,4 +1,4 @@
-"""launch's actions that start something with an end of its own."""
+"""launch's actions that start processes."""
 
 import re
 import shlex
@@ -22,7 +22,7 @@ LONGEST = 1e9
 
 @dataclass(frozen=True, slots=True)
 class Executable:
-    """An executable, ready to be started.
+    """An executable ready to start.
 
     Attributes:
         package: Its package; None for a file.
@@ -41,7 +41,7 @@ class Executable:
     argv: Sequence[str] | None = None
 
     def launched_argv(self) -> list[str]:
-        """The command line that launch_ros gives a node."""
+        """Return the command line that launch_ros gives a node."""
         options = self.options
         argv = [self.name, *self.arguments, "--ros-args"]
         if options.name:
@@ -54,7 +54,7 @@ class Executable:
 
 
 class Startable(Action):
-    """Action that starts something, which ends some time and may be started again."""
+    """Action that starts something, which ends some time and may be restarted."""
 
     takes_time: ClassVar[bool] = True
 
@@ -78,14 +78,14 @@ class Startable(Action):
         self.respawn, self.respawn_delay = respawn, respawn_delay
 
     def handle_exit(self, context: LaunchContext) -> None:
-        """Do what follows its end."""
+        """Handle its end."""
         if self.on_exit is not None:
             context.launch.handlers.append(
                 OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
             )
 
     def respawn_after(self, context: LaunchContext) -> float | None:
-        """After how many seconds it is started again; None if it is not.
+        """Return the delay of its restart in seconds; None for no restart.
 
         Raises:
             UsageError: If that is no number.
@@ -95,7 +95,7 @@ class Startable(Action):
         return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
 
     def say_unused(self, context: LaunchContext, *names: str) -> None:
-        """Name arguments without an effect here."""
+        """Report arguments without an effect here."""
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
             verb = "has" if len(given) == 1 else "have"
@@ -104,7 +104,7 @@ class Startable(Action):
 
 
 def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
-    """A number of seconds.
+    """Parse a number of seconds.
 
     Raises:
         UsageError: If it is none.
@@ -120,7 +120,7 @@ def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
 
 
 class ExecuteProcess(Startable):
-    """A command of the system."""
+    """A system command."""
 
     def __init__(
         self,
@@ -178,7 +178,7 @@ class ExecuteProcess(Startable):
         return None
 
     def _execute_ros2(self, context: LaunchContext, words: Sequence[str]) -> Any:
-        """Do what `ros2 WORDS` does, without a process: start a node, or ask the session."""
+        """Run `ros2 WORDS` without a process: start a node, or query the session."""
         if words[:1] == ["run"] and len(words) > 2:
             options, arguments = names.parse(words[3:])
             options.namespace = options.namespace or context.launch_configurations.get(
@@ -196,7 +196,7 @@ class ExecuteProcess(Startable):
 
 
 def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
-    """Return the words after `ros2` in a command; None for others and for a shell's script."""
+    """Return the words after `ros2` in a command; None for others and for shell scripts."""
     if shell:
         try:
             lexer = shlex.shlex(" ".join(words), posix=True, punctuation_chars=True)
@@ -212,7 +212,7 @@ def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
 
 
 def _rclpy_program(words: Sequence[str], cwd: str | None) -> Path | None:
-    """Return the file of `python3 FILE …` where it imports rclpy; None of any other command."""
+    """Return the file of `python3 FILE …` if it imports rclpy; None for other commands."""
     if len(words) < 2 or not re.fullmatch(r"python(3(\.\d+)?)?", Path(words[0]).name):
         return None
     file = Path(cwd or "", words[1])
@@ -221,6 +221,6 @@ def _rclpy_program(words: Sequence[str], cwd: str | None) -> Path | None:
 
 
 def _texts(context: LaunchContext, given: Any) -> dict[str, str]:
-    """Environment variables, from a mapping or from pairs."""
+    """Return environment variables from a mapping or pairs."""
     pairs = given.items() if isinstance(given, Mapping) else given
     return {perform(context, key): perform(context, value) for key, value in pairs}

@@ -1,4 +1,4 @@
-"""launch's actions that say something, wait for events, or make them happen."""
+"""launch's actions that log, wait for events, or emit them."""
 
 from typing import Any
 
@@ -11,26 +11,26 @@ from tftool.ros.launch.substitutions import perform
 
 
 class LogInfo(Action):
-    """Says something."""
+    """Logs a message."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.msg = msg
 
     def execute(self, context: LaunchContext) -> Any:
-        """Say it."""
+        """Log the message."""
         context.launch.info(perform(context, self.msg))
 
 
 class RegisterEventHandler(Action):
-    """Does something when something happens."""
+    """Registers an event handler."""
 
     def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.event_handler = event_handler
 
     def execute(self, context: LaunchContext) -> Any:
-        """Begin to listen."""
+        """Register the handler."""
         context.launch.handlers.append(self.event_handler)
         handler = self.event_handler
         if isinstance(handler, OnExecutionComplete) and getattr(handler.target, "is_begun", False):
@@ -45,27 +45,27 @@ def _kind(value: Any) -> str:
 
 
 class UnregisterEventHandler(Action):
-    """Does it no more."""
+    """Removes an event handler."""
 
     def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.event_handler = event_handler
 
     def execute(self, context: LaunchContext) -> Any:
-        """Listen no more."""
+        """Remove the handler."""
         if self.event_handler in context.launch.handlers:
             context.launch.handlers.remove(self.event_handler)
 
 
 class EmitEvent(Action):
-    """Makes something happen."""
+    """Emits an event."""
 
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.event = event
 
     def execute(self, context: LaunchContext) -> Any:
-        """Emit it.
+        """Emit the event.
 
         Raises:
             UsageError: If it is none.
@@ -84,5 +84,5 @@ class Shutdown(Action):
         self.reason = reason
 
     def execute(self, context: LaunchContext) -> Any:
-        """End it."""
+        """End the launch."""
         context.launch.emit(ShutdownEvent(reason=perform(context, self.reason)))

@@ -1,4 +1,4 @@
-"""Settings for all of launch_ros's nodes of a scope: a namespace, remappings, parameters.
+"""Settings for all of launch_ros's nodes in a scope: namespace, remappings, parameters.
 
 As in ROS 2 they are kept among the launch configurations, where a scope begins and ends them.
 """
@@ -24,17 +24,17 @@ def is_namespace_absolute(ns: str) -> bool:
 
 
 def is_root_namespace(ns: str) -> bool:
-    """Whether it is the root."""
+    """Whether it is the root namespace."""
     return ns == "/"
 
 
 def make_namespace_absolute(ns: str | None) -> str | None:
-    """The namespace from the root on; None stays None."""
+    """Return the absolute namespace; None stays None."""
     return ns if ns is None or is_namespace_absolute(ns) else f"/{ns}"
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """A namespace inside another; None is one that was not given."""
+    """Return a namespace inside another; None means not given."""
     if base_ns is None or ns is None:
         joined = base_ns if ns is None else ns
     elif is_namespace_absolute(ns) or not base_ns:
@@ -45,7 +45,7 @@ def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
 
 
 def namespace_in(context: LaunchContext, own: Any) -> str | None:
-    """The namespace of a node of the scope, from the root on; None where none was given.
+    """Return the absolute namespace of a node in the scope; None if none was given.
 
     Args:
         context: The scope.
@@ -63,7 +63,7 @@ def namespace_in(context: LaunchContext, own: Any) -> str | None:
 
 
 def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
-    """A remapping as two lists of substitutions.
+    """Return a remapping as two lists of substitutions.
 
     Raises:
         TypeError: If it is no pair.
@@ -75,7 +75,7 @@ def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
 
 
 def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any]]:
-    """Each remapping as two lists of substitutions.
+    """Return each remapping as two lists of substitutions.
 
     Raises:
         TypeError: If one is no pair.
@@ -84,7 +84,7 @@ def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any
 
 
 def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tuple[str, str]]:
-    """The remappings of a node of the scope: the first that fits counts."""
+    """Return the remappings for a node in the scope; the first match counts."""
     return [
         *_kept(context, _REMAPS),
         *((perform(context, old), perform(context, new)) for old, new in own),
@@ -92,7 +92,7 @@ def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tu
 
 
 def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
-    """Return the scope's parameters: (node, name, value); "" is each node."""
+    """Return the scope's parameters: (node, name, value); "" means every node."""
     found: list[tuple[str, str, Any]] = []
     for kept in _kept(context, _PARAMETERS):
         if isinstance(kept, str):
@@ -129,28 +129,28 @@ def _keep(context: LaunchContext, name: str, *more: Any) -> None:
 
 
 class PushRosNamespace(Action):
-    """Puts nodes of the scope into a namespace."""
+    """Moves the scope's nodes into a namespace."""
 
     def __init__(self, namespace: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.namespace = namespace
 
     def execute(self, context: LaunchContext) -> Any:
-        """Go into it."""
+        """Enter the namespace."""
         namespace = namespace_in(context, self.namespace)
         if namespace is not None:
             context.launch_configurations[_NAMESPACE] = namespace
 
 
 class SetRemap(Action):
-    """Renames a topic for all nodes of the scope."""
+    """Remaps a topic for all nodes of the scope."""
 
     def __init__(self, src: Any, dst: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.src, self.dst = src, dst
 
     def execute(self, context: LaunchContext) -> Any:
-        """Rename it."""
+        """Add the remapping."""
         _keep(context, _REMAPS, (perform(context, self.src), perform(context, self.dst)))
 
 
@@ -169,7 +169,7 @@ class SetParameter(Action):
         self.name = list(key)
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set it."""
+        """Set the parameter."""
         found = read_all(context, [self._normalized])
         _keep(context, _PARAMETERS, *((name, value) for _, name, value in found))
 
@@ -186,14 +186,14 @@ class SetUseSimTime(SetParameter):
 
 
 class SetParametersFromFile(Action):
-    """Sets what a parameter file says, for all nodes of the scope or one of them."""
+    """Sets the parameters in a file, for all nodes of the scope or one."""
 
     def __init__(self, filename: Any, node_name: Any = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.filename, self.node_name = filename, node_name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set it, for one node or for those the file names."""
+        """Set the parameters, for one node or for those named in the file."""
         path = perform(context, self.filename)
         if self.node_name is None:
             _keep(context, _PARAMETERS, path)
@@ -204,13 +204,13 @@ class SetParametersFromFile(Action):
 
 
 class ParameterSubstitution(Substitution):
-    """The value that the scope sets a parameter to."""
+    """Value of a parameter in the scope."""
 
     def __init__(self, name: Any, *, default: Any = None) -> None:
         self.name, self.default = name, default
 
     def perform(self, context: LaunchContext) -> str:
-        """The value now.
+        """Return the present value.
 
         Raises:
             SubstitutionFailure: If the scope sets none, and there is no default.

@@ -1,4 +1,4 @@
-"""launch's LaunchService: a launch that a program makes and runs by itself."""
+"""launch's LaunchService: a launch run by a program itself."""
 
 import asyncio
 import sys
@@ -14,7 +14,7 @@ from tftool.ros.launch.engine import Launch
 
 
 class LaunchService:
-    """Carries launch descriptions out, as the program it is made in."""
+    """Runs launch descriptions as the program that made it."""
 
     def __init__(
         self, *, argv: Any = None, noninteractive: bool = False, debug: bool = False
@@ -26,7 +26,7 @@ class LaunchService:
         self._loops: set[asyncio.AbstractEventLoop] = set()
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Carry a description out too, once it runs."""
+        """Add a description, which is executed when it runs."""
         self._entities.append(launch_description)
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
@@ -71,7 +71,7 @@ class LaunchService:
         return int(bool(launch.failed))
 
     def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
-        """End what runs, if anything does.
+        """End the launch, if it runs.
 
         Args:
             force_sync: Whether there is to be nothing to await.

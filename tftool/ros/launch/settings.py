@@ -1,4 +1,4 @@
-"""launch's actions that set what later ones find: arguments and environment variables."""
+"""launch's actions that set arguments and environment variables."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -11,7 +11,7 @@ from tftool.ros.launch.substitutions import describe, is_true, perform
 
 
 class DeclareLaunchArgument(Action):
-    """An argument that the launch file takes."""
+    """Declares an argument of the launch file."""
 
     def __init__(
         self,
@@ -32,7 +32,7 @@ class DeclareLaunchArgument(Action):
             self.description += f"{end} Valid choices are: {self.choices}"
 
     def execute(self, context: LaunchContext) -> Any:
-        """Take the default unless a value was passed.
+        """Set the default unless a value was given.
 
         Raises:
             UsageError: If there is neither, or the value is none of the choices.
@@ -53,36 +53,36 @@ class DeclareLaunchArgument(Action):
         return None
 
     def shown_default(self) -> str | None:
-        """The default as --show-args shows it."""
+        """Return the default as --show-args displays it."""
         return None if self.default_value is None else describe(self.default_value)
 
 
 class SetLaunchConfiguration(Action):
-    """Gives an argument a value."""
+    """Sets an argument."""
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name, self.value = name, value
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set it."""
+        """Set the argument."""
         context.launch_configurations[perform(context, self.name)] = perform(context, self.value)
 
 
 class UnsetLaunchConfiguration(Action):
-    """Takes an argument's value away."""
+    """Removes an argument."""
 
     def __init__(self, name: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name = name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Unset it."""
+        """Remove the argument."""
         context.launch_configurations.pop(perform(context, self.name), None)
 
 
 class ResetLaunchConfigurations(Action):
-    """Takes the values of all arguments away, or gives others in their place."""
+    """Removes all arguments, or replaces them."""
 
     def __init__(
         self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any
@@ -91,39 +91,39 @@ class ResetLaunchConfigurations(Action):
         self.kept = dict(launch_configurations or {})
 
     def execute(self, context: LaunchContext) -> Any:
-        """Reset them."""
+        """Reset the arguments."""
         given = {perform(context, key): perform(context, one) for key, one in self.kept.items()}
         context.launch_configurations = given
 
 
 class SetEnvironmentVariable(Action):
-    """Gives an environment variable a value, for processes to come."""
+    """Sets an environment variable for later processes."""
 
     def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name, self.value = name, value
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set it."""
+        """Set the variable."""
         context.environment[perform(context, self.name)] = perform(context, self.value)
 
 
 class SetLogFolder(Action):
-    """Says where nodes are to write their logs: nodes here write none, other programs do."""
+    """Sets the log folder: used by other programs, since nodes here write no logs."""
 
     def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.new_log_dir = new_log_dir
 
     def execute(self, context: LaunchContext) -> Any:
-        """Set it, below the one so far unless it is absolute."""
+        """Set the folder, inside the present one unless it is absolute."""
         before = context.environment.get("ROS_LOG_DIR", "")
         folder = os.path.join(before, perform(context, self.new_log_dir))
         context.environment["ROS_LOG_DIR"] = folder
 
 
 class AppendEnvironmentVariable(Action):
-    """Lengthens an environment variable, at its end or its beginning."""
+    """Appends to an environment variable, or prepends."""
 
     def __init__(
         self,
@@ -138,7 +138,7 @@ class AppendEnvironmentVariable(Action):
         self.prepend, self.separator = prepend, separator
 
     def execute(self, context: LaunchContext) -> Any:
-        """Lengthen it."""
+        """Extend the variable."""
         name, value = perform(context, self.name), perform(context, self.value)
         before = context.environment.get(name)
         parts = [value] if before is None else [before, value]
@@ -148,30 +148,30 @@ class AppendEnvironmentVariable(Action):
 
 
 class UnsetEnvironmentVariable(Action):
-    """Takes an environment variable away."""
+    """Removes an environment variable."""
 
     def __init__(self, name: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.name = name
 
     def execute(self, context: LaunchContext) -> Any:
-        """Unset it."""
+        """Remove the variable."""
         context.environment.pop(perform(context, self.name), None)
 
 
 class PushEnvironment(Action):
-    """Keeps the environment variables as they are, for a PopEnvironment."""
+    """Saves the environment variables for a PopEnvironment."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Keep them."""
+        """Save the variables."""
         context.environments.append(dict(context.environment))
 
 
 class PopEnvironment(Action):
-    """Brings back the environment variables of the last PushEnvironment."""
+    """Restores the environment variables of the last PushEnvironment."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Bring them back.
+        """Restore the variables.
 
         Raises:
             UsageError: If there was none.
@@ -182,24 +182,24 @@ class PopEnvironment(Action):
 
 
 class ResetEnvironment(Action):
-    """Brings back the environment variables that the launch began with."""
+    """Restores the environment variables of the launch's beginning."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Bring them back."""
+        """Restore the variables."""
         context.environment = dict(os.environ)
 
 
 class Push(Action):
-    """Begins a scope."""
+    """Opens a scope."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """Begin a scope."""
+        """Open a scope."""
         context.push()
 
 
 class Pop(Action):
-    """Ends a scope."""
+    """Closes a scope."""
 
     def execute(self, context: LaunchContext) -> Any:
-        """End it."""
+        """Close the scope."""
         context.pop()

@@ -1,4 +1,4 @@
-"""launch's substitutions: texts that are known when the launch runs."""
+"""launch's substitutions: texts known only during the launch."""
 
 import math
 import os
@@ -23,14 +23,14 @@ ON_STDERR: Final = ("fail", "warn", "ignore", "capture")
 
 
 class SubstitutionFailure(UsageError):
-    """A text that cannot be made."""
+    """Error for a text that cannot be produced."""
 
 
 class Substitution:
-    """A text to come."""
+    """Text known only during the launch."""
 
     def perform(self, context: LaunchContext) -> str:
-        """The text."""
+        """Return the text."""
         raise NotImplementedError
 
     def describe(self) -> str:
@@ -46,7 +46,7 @@ SomeSubstitutionsType = Any
 
 
 def perform(context: LaunchContext, value: Any) -> str:
-    """The text of anything that may be text: a substitution, or a list that is joined."""
+    """Return the text of a substitution, or the joined texts of a list."""
     if value is None:
         return ""
     if isinstance(value, Substitution):
@@ -61,7 +61,7 @@ def perform(context: LaunchContext, value: Any) -> str:
 
 
 def describe(value: Any) -> str:
-    """Return the text form of anything that may be text, before it is known."""
+    """Return the textual form of substitutions, before their evaluation."""
     if isinstance(value, Substitution):
         return value.describe()
     if isinstance(value, Sequence) and value and not isinstance(value, str):
@@ -70,7 +70,7 @@ def describe(value: Any) -> str:
 
 
 def is_true(text: str) -> bool:
-    """Return launch's truth of a text.
+    """Return a text's truth value by launch's rules.
 
     Raises:
         UsageError: If it is neither true nor false.
@@ -84,7 +84,7 @@ def is_true(text: str) -> bool:
 
 
 class TextSubstitution(Substitution):
-    """A plain text."""
+    """A constant text."""
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
@@ -94,23 +94,23 @@ class TextSubstitution(Substitution):
         self.text = text
 
     def perform(self, context: LaunchContext) -> str:
-        """The text."""
+        """Return the text."""
         return self.text
 
     def describe(self) -> str:
-        """The text, quoted."""
+        """Return the text in quotes."""
         return f"'{self.text}'"
 
 
 class LaunchConfiguration(Substitution):
-    """The value of a launch argument."""
+    """Value of a launch argument."""
 
     def __init__(self, variable_name: Any, *, default: Any = None) -> None:
         self.variable_name = variable_name
         self.default = default
 
     def perform(self, context: LaunchContext) -> str:
-        """The value now."""
+        """Return the present value."""
         name = perform(context, self.variable_name)
         if name in context.launch_configurations:
             return context.launch_configurations[name]
@@ -128,22 +128,22 @@ class LaunchConfiguration(Substitution):
 
 
 class LaunchLogDir(Substitution):
-    """The folder of the launch's logs, as `launch.logging` has it."""
+    """Folder of the launch's logs, as in `launch.logging`."""
 
     def perform(self, context: LaunchContext) -> str:
-        """The path."""
+        """Return the path."""
         return launch_config.log_dir
 
 
 class EnvironmentVariable(Substitution):
-    """The value of an environment variable."""
+    """Value of an environment variable."""
 
     def __init__(self, name: Any, *, default_value: Any = None) -> None:
         self.name = name
         self.default_value = default_value
 
     def perform(self, context: LaunchContext) -> str:
-        """The value now."""
+        """Return the present value."""
         name = perform(context, self.name)
         if name in context.environment:
             return context.environment[name]
@@ -157,14 +157,14 @@ class EnvironmentVariable(Substitution):
 
 
 class LocalSubstitution(Substitution):
-    """Value known at one place alone: 'event.reason' in what an event's handler does."""
+    """Value known only in a certain place: 'event.reason' in an event handler."""
 
     def __init__(self, expression: str, description: str | None = None) -> None:
         self.expression = expression
         self.description = description
 
     def perform(self, context: LaunchContext) -> str:
-        """The value now."""
+        """Return the present value."""
         value: Any = context.locals
         for name in self.expression.split("."):
             if not hasattr(value, name):
@@ -182,13 +182,13 @@ class LocalSubstitution(Substitution):
 
 
 class PathJoinSubstitution(Substitution):
-    """Path parts, joined."""
+    """Joined parts of a path."""
 
     def __init__(self, substitutions: Iterable[Any]) -> None:
         self.substitutions = list(substitutions)
 
     def perform(self, context: LaunchContext) -> str:
-        """The path."""
+        """Return the path."""
         return os.path.join(*(perform(context, one) for one in self.substitutions))
 
     def describe(self) -> str:
@@ -198,28 +198,28 @@ class PathJoinSubstitution(Substitution):
 
 
 class StringJoinSubstitution(Substitution):
-    """Texts, joined by a delimiter."""
+    """Texts joined by a delimiter."""
 
     def __init__(self, substitutions: Iterable[Any], delimiter: Any = "") -> None:
         self.substitutions = list(substitutions)
         self.delimiter = delimiter
 
     def perform(self, context: LaunchContext) -> str:
-        """The joined text."""
+        """Return the joined text."""
         return perform(context, self.delimiter).join(
             perform(context, one) for one in self.substitutions
         )
 
 
 class PythonExpression(Substitution):
-    """Value of a Python expression; it is the launch file's own code."""
+    """Value of a Python expression, which is the launch file's own code."""
 
     def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
         self.expression = expression
         self.python_modules = python_modules
 
     def perform(self, context: LaunchContext) -> str:
-        """The expression's value as text."""
+        """Return the expression's value as text."""
         text = perform(context, self.expression)
         given = self.python_modules
         modules = [given] if isinstance(given, str | Substitution) else given
@@ -249,46 +249,46 @@ def _this_file(context: LaunchContext) -> Path:
 
 
 class ThisLaunchFile(Substitution):
-    """The path of the launch file."""
+    """Path of the launch file."""
 
     def perform(self, context: LaunchContext) -> str:
-        """The path."""
+        """Return the path."""
         return str(_this_file(context))
 
 
 class ThisLaunchFileDir(Substitution):
-    """The folder of the launch file."""
+    """Folder of the launch file."""
 
     def perform(self, context: LaunchContext) -> str:
-        """The folder."""
+        """Return the folder."""
         return str(_this_file(context).parent)
 
 
 class AnonName(Substitution):
-    """A name that no other node has."""
+    """Name that no other node has."""
 
     def __init__(self, name: Any) -> None:
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """The name with a number, the same one each time in this launch."""
+        """Return the name with a number, the same one throughout this launch."""
         name = perform(context, self.name)
         return f"{name}_{context.number_of(name)}"
 
 
 class FindPackageShare(Substitution):
-    """A package's share directory."""
+    """Share directory of a package."""
 
     def __init__(self, package: Any) -> None:
         self.package = package
 
     def perform(self, context: LaunchContext) -> str:
-        """Its path: in a workspace, the package's sources."""
+        """Return its path: in a workspace, the package's sources."""
         return str(context.workspace.share(perform(context, self.package)))
 
     @staticmethod
     def find(package_name: str) -> str:
-        """A package's path at once, for launch files that join paths themselves."""
+        """Return a package's path at once, for launch files that join paths themselves."""
         return packages.get_package_share_directory(package_name)
 
     def describe(self) -> str:
@@ -300,13 +300,13 @@ FindPackage = FindPackagePrefix = FindPackageShare
 
 
 class FindExecutable(Substitution):
-    """The path of a command."""
+    """Path of a command."""
 
     def __init__(self, *, name: Any) -> None:
         self.name = name
 
     def perform(self, context: LaunchContext) -> str:
-        """Its path."""
+        """Return its path."""
         name = perform(context, self.name)
         if name in (ROS2, XACRO):
             # ExecuteProcess carries out the one itself, and Command the other.
@@ -324,7 +324,7 @@ class FileContent(Substitution):
         self.path = path
 
     def perform(self, context: LaunchContext) -> str:
-        """The text."""
+        """Return the text."""
         path = perform(context, self.path)
         try:
             return read_named_text(Path(path))
@@ -334,13 +334,13 @@ class FileContent(Substitution):
 
 
 class ExecutableInPackage(Substitution):
-    """The path of a package's executable."""
+    """Path of a package's executable."""
 
     def __init__(self, executable: Any, package: Any) -> None:
         self.executable, self.package = executable, package
 
     def perform(self, context: LaunchContext) -> str:
-        """Its file in the package's sources; of a console script, where it would be installed."""
+        """Return its file in the sources; for a console script its path after installation."""
         name = perform(context, self.executable)
         package = context.workspace.package(perform(context, self.package))
         if name in package.scripts:
@@ -376,7 +376,7 @@ class Command(Substitution):
     """Output of a command."""
 
     def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
-        """Prepare to run a command.
+        """Make a command's substitution.
 
         Args:
             command: It and its arguments, as in a shell.
@@ -387,7 +387,7 @@ class Command(Substitution):
         self.on_stderr = on_stderr
 
     def perform(self, context: LaunchContext) -> str:
-        """Its output."""
+        """Return its output."""
         import shlex
         import subprocess
 

@@ -1,4 +1,4 @@
-"""launch.utilities, for launch code that people wrote to extend launch."""
+"""launch.utilities, for users' extensions of launch."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -8,12 +8,12 @@ from tftool.ros.launch.substitutions import Substitution, TextSubstitution
 
 
 def perform_substitutions(context: LaunchContext, subs: Iterable[Substitution]) -> str:
-    """The joined texts of substitutions."""
+    """Return the joined texts of substitutions."""
     return "".join(context.perform_substitution(one) for one in subs)
 
 
 def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
-    """A text, a substitution or several of both as a list of substitutions.
+    """Return a text, a substitution, or several as a list of substitutions.
 
     Raises:
         TypeError: If something is neither.
@@ -41,7 +41,7 @@ def ensure_argument_type(
     argument_name: str,
     caller: str | None = None,
 ) -> None:
-    """See that an argument is of one of some types.
+    """Check that an argument has one of some types.
 
     Raises:
         TypeError: If it is not, or the types are none.
@@ -61,18 +61,18 @@ def is_a(obj: object, entity_type: type) -> bool:
 
 
 def is_a_subclass(obj: object, entity_type: type) -> bool:
-    """Whether a class is another, or below it; of an object, whether its class is."""
+    """Whether a class, or an object's class, is a subclass of another."""
     kind = obj if isinstance(obj, type) else type(obj)
     return issubclass(kind, entity_type)
 
 
 def isclassinstance(obj: object) -> bool:
-    """Whether it has a class, as everything has."""
+    """Whether it has a class, as every object has."""
     return hasattr(obj, "__class__")
 
 
 def normalize_to_list_of_entities(entities: Any) -> list[Any]:
-    """Actions and descriptions in a flat list."""
+    """Return actions and descriptions as a flat list."""
     if not isinstance(entities, Iterable):
         return [entities]
     return [one for entity in entities for one in normalize_to_list_of_entities(entity)]

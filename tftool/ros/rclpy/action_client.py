@@ -1,4 +1,4 @@
-"""rclpy.action's client: sends goals, hears of them, gives them up."""
+"""Client of rclpy.action: sends goals, follows and cancels them."""
 
 import asyncio
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from tftool.world.topics import new_goal_id
 
 
 class _Result:
-    """Answer of get_result: a status number and the result message."""
+    """Result of get_result: a status number and the result message."""
 
     def __init__(self, status: int, result: Any) -> None:
         self.status = status
@@ -34,7 +34,7 @@ class _Feedback:
 
 
 class ClientGoalHandle:
-    """A goal, as the one who sent it holds it."""
+    """A goal on its client's side."""
 
     def __init__(self, client: "ActionClient", goal_id: Any, goal: WorldGoal | None) -> None:
         self._client = client
@@ -45,30 +45,30 @@ class ClientGoalHandle:
         self._result: Future | None = None
 
     def get_result_async(self) -> Future:
-        """A future of the result: `.status` and `.result`."""
+        """Return a future of the result: `.status` and `.result`."""
         if self._result is None:
             self._result = self._client.watch(self, self._goal)
         return self._result
 
     def get_result(self) -> Any:
-        """Block until the result is there."""
+        """Block until the result arrives, and return it."""
         future = self.get_result_async()
         wait_for(self._client.seat, future, None)
         return future.result()
 
     def cancel_goal_async(self) -> Future:
-        """Ask the server to stop; a future of its answer."""
+        """Ask the server to cancel; return a future of its response."""
         return self._client.cancel(self, self._goal)
 
     def cancel_goal(self) -> Any:
-        """Ask the server to stop, and block until it has answered."""
+        """Ask the server to cancel, and block until it has responded."""
         future = self.cancel_goal_async()
         wait_for(self._client.seat, future, None)
         return future.result()
 
 
 class ActionClient(Requester):
-    """Sends goals to an action's server."""
+    """Client of an action."""
 
     def __init__(
         self,
@@ -104,7 +104,7 @@ class ActionClient(Requester):
         feedback_callback: Callable[[Any], Any] | None = None,
         goal_uuid: Any = None,
     ) -> Future:
-        """Send a goal; a future of its `ClientGoalHandle`.
+        """Send a goal; return a future of its `ClientGoalHandle`.
 
         Raises:
             TypeError: If the goal is of another type.
@@ -141,14 +141,14 @@ class ActionClient(Requester):
         return future
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
-        """Send a goal, and block until its result is there."""
+        """Send a goal, and block until its result arrives."""
         future = self.send_goal_async(goal, **kwargs)
         wait_for(self.seat, future, None)
         handle = future.result()
         return None if handle is None or not handle.accepted else handle.get_result()
 
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
-        """A future of a goal's end."""
+        """Return a future of a goal's end."""
         future = Future(executor=self.seat.executor)
 
         async def wait() -> None:
@@ -168,7 +168,7 @@ class ActionClient(Requester):
         return future
 
     def cancel(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
-        """A future of the answer to a cancellation."""
+        """Return a future of the response to a cancellation."""
         future = Future(executor=self.seat.executor)
 
         async def ask() -> None:
@@ -180,7 +180,7 @@ class ActionClient(Requester):
 
 
 async def _cancelled(goal: WorldGoal | None, goal_id: Any) -> Any:
-    """Ask for a cancellation; the response of CancelGoal, once the server has decided."""
+    """Request a cancellation; return the response of CancelGoal."""
     response: Any = INTERFACES.part("action_msgs/srv/CancelGoal_Response")
     if goal is None:
         return response(return_code=response.ERROR_UNKNOWN_GOAL_ID)

@@ -1,4 +1,4 @@
-"""Facts about a goal that both ends of an action know."""
+"""Facts about a goal known at both ends of an action."""
 
 from enum import IntEnum
 
@@ -6,7 +6,7 @@ from tftool.world.action_parts import ENDED
 
 
 class GoalStatus(IntEnum):
-    """Status of a goal, as action_msgs numbers it."""
+    """Status of a goal, with action_msgs' numbers."""
 
     STATUS_UNKNOWN = 0
     STATUS_ACCEPTED = 1

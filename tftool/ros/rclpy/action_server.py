@@ -1,4 +1,4 @@
-"""rclpy.action's server: takes goals and works on them."""
+"""Server of rclpy.action: accepts goals and executes them."""
 
 import asyncio
 import inspect
@@ -25,21 +25,21 @@ from tftool.world.topics import Status
 
 
 class GoalResponse(IntEnum):
-    """Answer of a server to a goal."""
+    """Response of a server to a goal."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(IntEnum):
-    """Answer of a server to a cancellation."""
+    """Response of a server to a cancellation."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class ServerGoalHandle:
-    """A goal, as its server holds it."""
+    """A goal on its server's side."""
 
     def __init__(self, server: "ActionServer", goal: WorldGoal, request: Any) -> None:
         self._server = server
@@ -62,12 +62,12 @@ class ServerGoalHandle:
 
     @property
     def is_cancel_requested(self) -> bool:
-        """Whether a cancellation was asked for and accepted."""
+        """Whether a cancellation was requested and accepted."""
         return self._canceling
 
     @property
     def status(self) -> int:
-        """Return its status, as a number of GoalStatus."""
+        """Its status, a number of GoalStatus."""
         if self._status is not None:
             return int(STATUS[self._status])
         if self._canceling:
@@ -75,7 +75,7 @@ class ServerGoalHandle:
         return int(GoalStatus.STATUS_EXECUTING if self._executing else GoalStatus.STATUS_ACCEPTED)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Tell the client how far it is.
+        """Send feedback to the client.
 
         Raises:
             TypeError: If the feedback is of another type.
@@ -87,41 +87,41 @@ class ServerGoalHandle:
         self._server.seat.program.ask(lambda: self._goal.publish_feedback(copy))
 
     def succeed(self, response: Any = None) -> None:
-        """It was reached."""
+        """Mark the goal as reached."""
         self._end("succeeded")
 
     def abort(self, response: Any = None) -> None:
-        """It was given up by the server."""
+        """Mark the goal as aborted by the server."""
         self._end("aborted")
 
     def canceled(self, response: Any = None) -> None:
-        """It was given up because the client said so."""
+        """Mark the goal as cancelled by the client."""
         self._end("canceled")
 
     def execute(self, execute_callback: Any = None) -> None:
-        """Start working on it."""
+        """Start executing it."""
         self._executing = True
         self._server.execute(self, execute_callback)
 
     def destroy(self) -> None:
-        """Nothing to do."""
+        """Do nothing."""
 
     def _end(self, status: Status) -> None:
         self._status = status
 
     def finish(self, result: Any) -> None:
-        """Hand the result over."""
+        """Send the result."""
         status = self._status or "aborted"
         copy = duplicate(result)
         self._server.seat.program.ask(lambda: self._goal.finish(status, copy))
 
     def request_cancel(self) -> None:
-        """Note that the client wants it stopped."""
+        """Record that the client asked for its cancellation."""
         self._canceling = True
 
 
 class ActionServer(WorkQueue):
-    """Works on goals."""
+    """Server of an action."""
 
     def __init__(
         self,
@@ -162,7 +162,7 @@ class ActionServer(WorkQueue):
         seat.keep(serve)
 
     def _show_parts(self, feedback_profile: QoSProfile, status_profile: QoSProfile) -> None:
-        """Serve and publish what ROS 2 makes of an action, as nodes that look behind it expect."""
+        """Announce an action's services and topics, for nodes that look for them."""
         seat, made = self.seat, self.type_.Impl
 
         def publisher(what: str, kind: Any, profile: QoSProfile) -> Publisher:
@@ -192,27 +192,27 @@ class ActionServer(WorkQueue):
             )
 
     def register_goal_callback(self, callback: Callable[[Any], Any]) -> None:
-        """Have `callback` decide about goals."""
+        """Set the callback that accepts or rejects goals."""
         self._on_goal = callback
 
     def register_cancel_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
-        """Have `callback` decide about cancellations."""
+        """Set the callback that accepts or rejects cancellations."""
         self._on_cancel = callback
 
     def register_handle_accepted_callback(
         self, callback: Callable[[ServerGoalHandle], Any]
     ) -> None:
-        """Have `callback` take accepted goals."""
+        """Set the callback for accepted goals."""
         self._on_accepted = callback
 
     def register_execute_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
-        """Have `callback` do the work."""
+        """Set the callback that executes goals."""
         self._execute = callback
 
     # On the loop's thread
 
     def arrived(self, goal: WorldGoal) -> None:
-        """Keep a goal until an executor takes it; refuse it where too many wait already."""
+        """Queue a goal for an executor; refuse it if too many wait."""
         goal.decided = asyncio.get_running_loop().create_future()
         if self.is_full:
             self._decide(goal, False)
@@ -224,7 +224,7 @@ class ActionServer(WorkQueue):
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Take no more goals; undecided ones are refused."""
+        """Accept no more goals; undecided ones are refused."""
         super().withdraw()
         for stop in self._stops:
             stop()
@@ -233,7 +233,7 @@ class ActionServer(WorkQueue):
             goal.decide_cancel(False)
 
     def _decide(self, goal: WorldGoal, accepted: bool) -> bool:
-        """Tell a goal's client whether it is taken; the first decision counts, and is returned."""
+        """Tell a goal's client whether it is accepted; return the first decision, which counts."""
         decided = goal.decided
         assert decided is not None
         if not decided.done():
@@ -267,7 +267,7 @@ class ActionServer(WorkQueue):
             self.seat.program.ask(lambda: goal.decide_cancel(accepted))
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
-        """Work on a goal, on the executor of the node."""
+        """Execute a goal on the node's executor."""
         chosen = callback or self._execute
 
         async def work() -> None:
@@ -293,5 +293,5 @@ class ActionServer(WorkQueue):
 
 
 async def _outcome(value: Any) -> Any:
-    """Return the result of a callback; of a coroutine, that of awaiting it."""
+    """Return a callback's result; a coroutine is awaited."""
     return await value if inspect.isawaitable(value) else value

@@ -1,4 +1,4 @@
-"""rclpy's context: whether a program has been initialised and not shut down."""
+"""Context of rclpy: whether a program is initialised and not shut down."""
 
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -7,7 +7,7 @@ from tftool.ros.host import names, program
 
 
 class Context:
-    """Between `rclpy.init` and `rclpy.shutdown`."""
+    """State between `rclpy.init` and `rclpy.shutdown`."""
 
     def __init__(self) -> None:
         self._program = program.current()
@@ -24,7 +24,7 @@ class Context:
         initialize_logging: bool = True,
         domain_id: int | None = None,
     ) -> None:
-        """Start.
+        """Initialise.
 
         Args:
             args: A command line; what follows `--ros-args` counts.
@@ -48,11 +48,11 @@ class Context:
         self._valid = True
 
     def ok(self) -> bool:
-        """Whether it is started and nothing has ended it."""
+        """Return whether it is initialised and not shut down."""
         return self._valid and not self._program.interrupted
 
     def shutdown(self) -> None:
-        """End; every call that spins returns.
+        """Shut down; every spinning call returns.
 
         Raises:
             RuntimeError: If it was not started.
@@ -64,7 +64,7 @@ class Context:
         self.try_shutdown()
 
     def try_shutdown(self) -> None:
-        """End, if that has not been done."""
+        """Shut down, unless that was done."""
         if not self._valid:
             return
         self._valid = False
@@ -75,16 +75,16 @@ class Context:
             listener()
 
     def on_shutdown(self, callback: Callable[[], object]) -> None:
-        """Have `callback` called at the end."""
+        """Register a call for the shutdown."""
         self._on_shutdown.append(callback)
 
     def on_change(self, callback: Callable[[], object]) -> Callable[[], None]:
-        """Notify waiting code of the end; call the returned function to stop that."""
+        """Notify waiting code of the shutdown; call the returned function to stop that."""
         self._listeners.append(callback)
         return lambda: self._listeners.remove(callback)
 
     def get_domain_id(self) -> int:
-        """The domain it was started with, else ROS 2's default domain, 0.
+        """Return the domain given at initialisation, else ROS 2's default, 0.
 
         A program does not know the domain of the session it lives in (`--domain`): that is the
         affair of the link to other processes.
@@ -92,7 +92,7 @@ class Context:
         return self._domain or 0
 
     def destroy(self) -> None:
-        """Be done with it."""
+        """Shut down."""
         self.try_shutdown()
 
     def __enter__(self) -> "Context":
@@ -105,7 +105,7 @@ class Context:
 
 
 def context_of(owner: Any) -> Context:
-    """The context a program uses unless it says otherwise."""
+    """Return the context a program uses by default."""
     if owner.context is None:
         owner.context = Context()
     context: Context = owner.context

@@ -1,4 +1,4 @@
-"""The functions of rclpy itself."""
+"""Functions of the module rclpy."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, List, Optional  # noqa: UP035
@@ -30,7 +30,7 @@ __all__ = [
 
 
 class InitContextManager:
-    """Result of `rclpy.init`: usable with `with`."""
+    """Result of `rclpy.init`, a context manager."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -49,7 +49,7 @@ def init(
     domain_id: int | None = None,
     signal_handler_options: Any = None,
 ) -> InitContextManager:
-    """Start rclpy in this program.
+    """Initialise rclpy in this program.
 
     Raises:
         RuntimeError: If it is started already.
@@ -64,37 +64,37 @@ def init(
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """End rclpy in this program."""
+    """Shut rclpy down in this program."""
     (context or context_of(program.current())).shutdown()
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """End rclpy in this program, if that has not been done."""
+    """Shut rclpy down in this program, unless that was done."""
     (context or context_of(program.current())).try_shutdown()
 
 
 def ok(*, context: Context | None = None) -> bool:
-    """Whether rclpy is started and nothing has ended it."""
+    """Return whether rclpy is initialised and not shut down."""
     return (context or context_of(program.current())).ok()
 
 
 def create_node(node_name: str, **kwargs: Any) -> Node:
-    """A node without a class of its own."""
+    """Create a node without a subclass."""
     return Node(node_name, **kwargs)
 
 
 def get_global_executor() -> Executor:
-    """The executor that `spin` uses."""
+    """Return the executor that `spin` uses."""
     return executor_of(program.current())
 
 
 def get_default_context() -> Context:
-    """The context that everything uses unless it says otherwise."""
+    """Return the default context."""
     return context_of(program.current())
 
 
 def spin(node: Node, executor: Executor | None = None) -> None:
-    """Serve a node until shutdown."""
+    """Execute a node's callbacks until shutdown."""
     chosen = executor or get_global_executor()
     added = chosen.add_node(node)
     warn_of_unused(node)
@@ -108,7 +108,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 def spin_once(
     node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
-    """Wait for one thing a node has to do, and do it."""
+    """Wait for one callback of a node, and execute it."""
     chosen = executor or get_global_executor()
     added = chosen.add_node(node)
     try:
@@ -124,7 +124,7 @@ def spin_until_future_complete(
     executor: Executor | None = None,
     timeout_sec: float | None = None,
 ) -> None:
-    """Serve a node until a future is done, or the time is up.
+    """Execute a node's callbacks until a future is done, or the time is up.
 
     Unlike in ROS 2 this may be called inside a callback.
     """
@@ -138,6 +138,6 @@ def spin_until_future_complete(
 
 
 def warn_of_unused(node: Node) -> None:
-    """Say which parameters were given and never declared."""
+    """Warn of parameters that were given but never declared."""
     for sentence in unused_parameters(node):
         node.get_logger().warning(sentence, once=False)

@@ -1,4 +1,4 @@
-"""rclpy's description of one end of a topic."""
+"""rclpy's description of a topic's publisher or subscription."""
 
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -16,7 +16,7 @@ from tftool.world.endpoints import PUBLISHER, Endpoint
 
 
 class TopicEndpointTypeEnum(IntEnum):
-    """End of a topic."""
+    """Kind of a topic's endpoint."""
 
     INVALID = 0
     PUBLISHER = 1
@@ -25,7 +25,7 @@ class TopicEndpointTypeEnum(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class TypeHash:
-    """The hash of an interface: a version of how it is made, and 32 bytes.
+    """Hash of an interface: a version of the algorithm, and 32 bytes.
 
     Attributes:
         version: 1; -1 where there is no hash.
@@ -92,7 +92,7 @@ def _time(length: Duration) -> str:
 
 
 def endpoint_info(end: Endpoint) -> TopicEndpointInfo:
-    """The description of a publisher or a subscription."""
+    """Return the description of a publisher or a subscription."""
     namespace, _, name = end.node.rpartition("/")
     publishes = end.role == PUBLISHER
     return TopicEndpointInfo(

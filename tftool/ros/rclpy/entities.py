@@ -1,4 +1,4 @@
-"""Entities of a node that can become ready.
+"""Entities of a node that executors wait for.
 
 Each thing keeps what arrived until an executor takes it. `ready` and `take` run on
 the loop's thread; what `take` returns runs on the fiber that spins.
@@ -21,7 +21,7 @@ MOST_WAITING: Final = 1000
 
 
 class RequiredHandle:
-    """Handle for the `with` block of an entity, once it is seen to be there."""
+    """Handle for an entity's `with` block, checked to exist."""
 
     def __init__(self, require: Callable[[], object]) -> None:
         self._require = require
@@ -31,11 +31,11 @@ class RequiredHandle:
         return self
 
     def __exit__(self, *args: object) -> None:
-        """Nothing to release."""
+        """Do nothing: there is nothing to release."""
 
 
 class NodeEntity:
-    """Something of a node that can become ready."""
+    """Entity of a node that can become ready."""
 
     passes_busy_group = False
     is_a_callback = False
@@ -48,23 +48,23 @@ class NodeEntity:
         self.callback_group = group
 
     def ready(self) -> bool:
-        """Whether there is something to take."""
+        """Whether there is work."""
         return False
 
     def take(self) -> Work:
-        """Return the next thing to do."""
+        """Return the next piece of work."""
         raise NotImplementedError
 
     def withdraw(self) -> None:
-        """Stop listening (on the loop's thread)."""
+        """Close it (in the loop's thread)."""
 
     def destroy(self) -> None:
-        """Stop listening, and leave the node."""
+        """Close it, and remove it from the node."""
         self.seat.forget(self)
 
     @property
     def handle(self) -> RequiredHandle:
-        """Return a handle that raises InvalidHandle once it is destroyed."""
+        """Handle that raises InvalidHandle once destroyed."""
         return RequiredHandle(lambda: self.seat.require_of(self))
 
     def __enter__(self) -> Self:
@@ -75,33 +75,33 @@ class NodeEntity:
 
 
 class WorkQueue(NodeEntity):
-    """Something whose work arrives piece by piece, and is done in that order."""
+    """Entity whose work arrives in pieces, executed in order."""
 
     def __init__(self, seat: NodeSeat, group: Any) -> None:
         super().__init__(seat, group)
         self._arrived: deque[Work] = deque()
 
     def put(self, work: Work) -> None:
-        """Take a piece in (on the loop's thread)."""
+        """Queue a piece of work (in the loop's thread)."""
         self._arrived.append(work)
         self.seat.wake()
 
     @property
     def is_full(self) -> bool:
-        """Whether so much waits that others' requests and goals are refused."""
+        """Whether the queue is so long that others' requests and goals are refused."""
         return len(self._arrived) >= MOST_WAITING
 
     def ready(self) -> bool:
-        """Whether a piece waits."""
+        """Whether a piece of work waits."""
         return bool(self._arrived)
 
     def take(self) -> Work:
-        """The piece that arrived first."""
+        """Return the oldest piece."""
         return self._arrived.popleft()
 
 
 class Requester(WorkQueue):
-    """Something that asks others in the world, and gets their answers as work."""
+    """Entity that sends requests to others, whose responses are its work."""
 
     # An answer completes a future and calls no callback by itself, so a callback that
     # waits for it gets it.
@@ -112,7 +112,7 @@ class Requester(WorkQueue):
         self._asking: set[asyncio.Task[None]] = set()
 
     def ask(self, question: Coroutine[Any, Any, None]) -> None:
-        """Have a question asked on the loop's thread; it ends with this entity."""
+        """Send a request in the loop's thread; it is cancelled with this entity."""
 
         def start() -> None:
             task = asyncio.get_running_loop().create_task(question)
@@ -122,7 +122,7 @@ class Requester(WorkQueue):
         self.seat.program.ask(start)
 
     def settle(self, future: Future, complete: Callable[[], object]) -> None:
-        """Complete a future while an executor serves this; that executor runs its callbacks."""
+        """Complete a future in the executor that serves this; it runs the callbacks."""
 
         def work() -> None:
             if not future.cancelled():
@@ -132,7 +132,7 @@ class Requester(WorkQueue):
         self.put(work)
 
     def withdraw(self) -> None:
-        """Wait for no answer any more."""
+        """Cancel all requests."""
         super().withdraw()
         for task in list(self._asking):
             task.cancel()
@@ -147,7 +147,7 @@ class GuardCondition(NodeEntity):
         self._triggered = False
 
     def trigger(self) -> None:
-        """Have the callback called soon."""
+        """Schedule the callback."""
 
         def set_off() -> None:
             self._triggered = True
@@ -160,6 +160,6 @@ class GuardCondition(NodeEntity):
         return self._triggered
 
     def take(self) -> Work:
-        """The callback."""
+        """Return the callback."""
         self._triggered = False
         return self.callback

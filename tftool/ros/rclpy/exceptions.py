@@ -6,47 +6,47 @@ from tftool.base.near_names import did_you_mean
 
 
 class NotInitializedException(Exception):
-    """rclpy.init() was not called, or the context is shut down."""
+    """Error for use before rclpy.init(), or after a shutdown."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.init() has not been called", *args)
 
 
 class ROSInterruptException(Exception):
-    """A sleep was cut short by shutdown."""
+    """Error for a sleep interrupted by a shutdown."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.shutdown() has been called", *args)
 
 
 class ExternalShutdownException(Exception):
-    """The context was shut down while an executor was spinning."""
+    """Error for a shutdown while an executor was spinning."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("context has been shut down", *args)
 
 
 class ShutdownException(Exception):
-    """The executor was shut down."""
+    """Error for an executor that was shut down."""
 
 
 class TimeoutException(Exception):
-    """An executor was asked to wait with a timeout, and it passed."""
+    """Error for an executor's wait that exceeded its timeout."""
 
 
 class ConditionReachedException(Exception):
-    """An executor's condition came true."""
+    """Signal that an executor's condition became true."""
 
 
 class NoTypeSupportImportedException(Exception):
-    """Something that is no message, service or action type is used as one."""
+    """Error for a type that is no message, service or action."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("no type_support imported", *args)
 
 
 class NameValidationException(ValueError):
-    """A name is not valid; shown with a caret below the place."""
+    """Error for an invalid name; shown with a caret below the position."""
 
     def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int) -> None:
         caret = " " * invalid_index + "^"
@@ -54,39 +54,39 @@ class NameValidationException(ValueError):
 
 
 class InvalidNamespaceException(NameValidationException):
-    """A namespace is not valid."""
+    """Error for an invalid namespace."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
         super().__init__("namespace", name, error_msg, invalid_index)
 
 
 class InvalidNodeNameException(NameValidationException):
-    """A node's name is not valid."""
+    """Error for an invalid node name."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
         super().__init__("node name", name, error_msg, invalid_index)
 
 
 class InvalidTopicNameException(NameValidationException):
-    """A topic's name is not valid."""
+    """Error for an invalid topic name."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
         super().__init__("topic name", name, error_msg, invalid_index)
 
 
 class InvalidServiceNameException(NameValidationException):
-    """A service's name is not valid."""
+    """Error for an invalid service name."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
         super().__init__("service name", name, error_msg, invalid_index)
 
 
 class InvalidHandle(Exception):
-    """Something is used that was destroyed."""
+    """Error for the use of something destroyed."""
 
 
 class ParameterException(Exception):
-    """A parameter cannot be used as asked."""
+    """Error for a parameter that cannot be used as requested."""
 
     def __init__(self, text: str, parameters: "str | Iterable[str]" = ()) -> None:
         super().__init__(text)
@@ -94,7 +94,7 @@ class ParameterException(Exception):
 
 
 class ParameterNotDeclaredException(ParameterException):
-    """A parameter is used before it is declared."""
+    """Error for a parameter used before its declaration."""
 
     def __init__(self, parameters: "str | Iterable[str]", known: Iterable[str] = ()) -> None:
         names = [parameters] if isinstance(parameters, str) else list(parameters)
@@ -105,7 +105,7 @@ class ParameterNotDeclaredException(ParameterException):
 
 
 class ParameterAlreadyDeclaredException(ParameterException):
-    """A parameter is declared twice."""
+    """Error for a parameter declared twice."""
 
     def __init__(self, parameters: "str | Iterable[str]") -> None:
         names = [parameters] if isinstance(parameters, str) else list(parameters)
@@ -113,15 +113,15 @@ class ParameterAlreadyDeclaredException(ParameterException):
 
 
 class InvalidParameterException(ParameterException):
-    """A parameter's name is not valid."""
+    """Error for an invalid parameter name."""
 
 
 class InvalidParameterTypeException(ParameterException):
-    """A parameter is given a value of another type."""
+    """Error for a parameter's value of another type."""
 
 
 class InvalidParameterValueException(ParameterException):
-    """A parameter is given a value that is refused."""
+    """Error for a parameter's value that is refused."""
 
     def __init__(self, parameter: str, value: object, reason: str) -> None:
         text = f"Invalid parameter value ({value!r}) for parameter '{parameter}'"
@@ -129,7 +129,7 @@ class InvalidParameterValueException(ParameterException):
 
 
 class ParameterImmutableException(ParameterException):
-    """A read-only parameter is set."""
+    """Error for setting a read-only parameter."""
 
     def __init__(self, parameters: "str | Iterable[str]") -> None:
         names = [parameters] if isinstance(parameters, str) else list(parameters)
@@ -137,7 +137,7 @@ class ParameterImmutableException(ParameterException):
 
 
 class ParameterUninitializedException(ParameterException):
-    """A parameter that was declared by type alone is read before it has a value."""
+    """Error for reading a parameter declared by type only, before it has a value."""
 
     def __init__(self, parameter: str) -> None:
         super().__init__(f"The parameter '{parameter}' is not initialized", parameter)

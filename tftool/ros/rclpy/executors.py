@@ -1,4 +1,4 @@
-"""rclpy's executors: they take ready entities, in a fixed order, and call the callbacks.
+"""rclpy's executors: they execute the callbacks of ready entities in a fixed order.
 
 Readiness is decided on the loop's thread; the callbacks run on the fiber that
 spins. Timers wait for their turn within an instant, so a listener's timer sees all
@@ -25,7 +25,7 @@ THREADS = 4
 
 
 class Executor:
-    """Calls the callbacks of its nodes.
+    """Executes the callbacks of its nodes.
 
     Attributes:
         spins_once: Whether it is in `spin_once`, which any traffic ends.
@@ -47,7 +47,7 @@ class Executor:
 
     @property
     def context(self) -> Context:
-        """Return the context whose shutdown ends it."""
+        """Context whose shutdown ends it."""
         return self._context
 
     def __enter__(self) -> "Executor":
@@ -57,19 +57,19 @@ class Executor:
         self.shutdown()
 
     def add_node(self, node: Any) -> bool:
-        """Serve a node too; False if it is served already."""
+        """Add a node; return False if it was added before."""
         return self.serve(seat_of(node))
 
     def remove_node(self, node: Any) -> None:
-        """Serve a node no more."""
+        """Remove a node."""
         self.leave(seat_of(node))
 
     def get_nodes(self) -> list[Any]:
-        """The nodes it serves."""
+        """Return its nodes."""
         return [seat.ros_node for seat in self._seats]
 
     def serve(self, seat: NodeSeat) -> bool:
-        """Serve a node's things too; False if they are served already."""
+        """Add a node's entities; return False if they were added before."""
         if seat in self._seats:
             return False
 
@@ -83,7 +83,7 @@ class Executor:
         return True
 
     def leave(self, seat: NodeSeat) -> None:
-        """Serve a node's things no more."""
+        """Remove a node's entities."""
 
         def remove() -> None:
             if seat in self._seats:
@@ -96,7 +96,7 @@ class Executor:
         self._program.ask(remove)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Serve no node any more."""
+        """Remove all nodes."""
         if not self._over:
             self._over = True
             self._leave_context()
@@ -106,13 +106,13 @@ class Executor:
         return True
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
-        """Run a callback or a coroutine soon; a future of its outcome."""
+        """Schedule a callback or coroutine; return a future of its result."""
         task = Task(callback, args, kwargs, executor=self)
         self._schedule(task)
         return task
 
     def wake(self) -> None:
-        """Look again (on the loop's thread)."""
+        """Check for work again (in the loop's thread)."""
         for waker in self._wakers:
             if not waker.done():
                 waker.set_result(None)
@@ -120,12 +120,12 @@ class Executor:
     # Spinning
 
     def spin(self) -> None:
-        """Serve until shutdown."""
+        """Execute callbacks until shutdown."""
         while self._context.ok() and not self._over:
             self._step(None)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Wait for one thing to do, and do it.
+        """Wait for one callback, and execute it.
 
         Raises:
             ShutdownException: If the executor was shut down.
@@ -142,7 +142,7 @@ class Executor:
             self.spins_once = False
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
-        """Serve until a future is done, or the time is up."""
+        """Execute callbacks until a future is done, or the time is up."""
         deadline = self._deadline(timeout_sec)
         future.watch(lambda _: self._wake_from_anywhere())
         while not (future.done() or future.cancelled()):
@@ -156,7 +156,7 @@ class Executor:
     def spin_once_until_future_complete(
         self, future: Future, timeout_sec: float | None = None
     ) -> None:
-        """Wait for one thing to do, or for a future."""
+        """Wait for one callback, or for a future."""
         if not (future.done() or future.cancelled()):
             future.watch(lambda _: self._wake_from_anywhere())
             self._step(self._deadline(timeout_sec), future)
@@ -170,7 +170,7 @@ class Executor:
         return deadline is not None and deadline + by <= self._program.clock.now()
 
     def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
-        """Do one thing; False when the time was up or there was another reason to look up."""
+        """Execute one callback; return False if the time was up, or on another wake-up."""
         if self._tasks:
             self._advance(self._tasks.popleft(), None)
             return True
@@ -232,7 +232,7 @@ class Executor:
     async def _next(
         self, deadline: Stamp | None, future: Future | None, takes: bool = True
     ) -> tuple[NodeEntity, Work] | None:
-        """The next thing to do, if something is to be taken; None for a reason to look up."""
+        """Return the next work, if any; None if it was woken for another reason."""
         clock = self._program.clock
         if self._finished:
             self._finished.clear()
@@ -274,7 +274,7 @@ class Executor:
         return None
 
     def _entities(self) -> Iterator[NodeEntity]:
-        """Everything that can become ready, in the order it is served: timers come first."""
+        """Return all entities in the order of execution: timers first."""
         for seat in list(self._seats):
             yield from (one for one in seat.entities if isinstance(one, Timer))
             yield from (one for one in seat.entities if not isinstance(one, Timer))
@@ -308,7 +308,7 @@ class Executor:
         return min(moments, default=None)
 
     async def _pause(self, waker: "asyncio.Future[None]", due: Stamp | None) -> None:
-        """Wait for something to arrive, or for a moment's turn."""
+        """Wait for arrivals, or for a turn at some time."""
         owner = self._program
         timer = None if due is None else owner.clock.timer(due, owner.turn, owner.rank)
 
@@ -328,7 +328,7 @@ class Executor:
 
 
 class _Continued(Task):
-    """A callback's coroutine that goes on; its group is busy until it has ended."""
+    """A callback's coroutine in progress; its group is busy until it ends."""
 
     def __init__(self, task: Task, group: Any, executor: Executor) -> None:
         super().__init__(lambda: None, executor=executor)
@@ -343,11 +343,11 @@ class _Continued(Task):
 
 
 class SingleThreadedExecutor(Executor):
-    """One callback at a time."""
+    """Executor that runs one callback at a time."""
 
 
 class MultiThreadedExecutor(Executor):
-    """Several callbacks at a time, as far as their groups allow, each on a fiber of its own.
+    """Executor that runs callbacks concurrently, as their groups allow, each on its own fiber.
 
     Who spins calls none of them itself: as in ROS 2, a callback that takes long keeps
     `spin_until_future_complete` from returning no longer than its future does.
@@ -361,11 +361,11 @@ class MultiThreadedExecutor(Executor):
         """Done when no thread spins any more; None while none does."""
 
     def spin(self) -> None:
-        """Serve until shutdown."""
+        """Execute callbacks until shutdown."""
         self._lead(Future(), None)
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
-        """Serve until a future is done, or the time is up."""
+        """Execute callbacks until a future is done, or the time is up."""
         if self._let_go is not None:
             # A callback waits: it may be what the last of the threads is busy with.
             super().spin_until_future_complete(future, timeout_sec)
@@ -373,7 +373,7 @@ class MultiThreadedExecutor(Executor):
             self._lead(future, self._deadline(timeout_sec))
 
     def _lead(self, future: Future, deadline: Stamp | None) -> None:
-        """Have the workers serve until a future is done."""
+        """Run the workers until a future is done."""
         future.watch(lambda _: self._wake_from_anywhere())
         let_go = self._let_go = Future()
         self._program.ask(lambda: self._hire(let_go))
@@ -412,7 +412,7 @@ class MultiThreadedExecutor(Executor):
 
 
 def executor_of(owner: "program.Program") -> Executor:
-    """The executor that `rclpy.spin` uses."""
+    """Return the executor that `rclpy.spin` uses."""
     if owner.executor is None:
         owner.executor = SingleThreadedExecutor()
     executor: Executor = owner.executor
@@ -420,7 +420,7 @@ def executor_of(owner: "program.Program") -> Executor:
 
 
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
-    """Block until a future is done, serving the node meanwhile if no executor does."""
+    """Block until a future is done, executing the node's callbacks if no executor does."""
     executor = seat.executor or executor_of(seat.program)
     if seat.executor is None and executor.context is not seat.context:
         with SingleThreadedExecutor(context=seat.context) as temporary:

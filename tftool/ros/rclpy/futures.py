@@ -1,4 +1,4 @@
-"""rclpy's futures, and the tasks that coroutines run in."""
+"""rclpy's futures, and the tasks of coroutines."""
 
 import asyncio
 import contextlib
@@ -9,7 +9,7 @@ from typing import Any
 
 
 class _Stepping(threading.local):
-    """Task of asyncio that carries an executor's task on, in each thread."""
+    """Asyncio task that advances an executor's task, in each thread."""
 
     beneath: "asyncio.Task[Any] | None" = None
 
@@ -25,7 +25,7 @@ def _asyncio_task() -> "asyncio.Task[Any] | None":
 
 
 class Future:
-    """An answer that is still to come."""
+    """A result that is not there yet."""
 
     def __init__(self, *, executor: Any = None) -> None:
         self._done = False
@@ -51,7 +51,7 @@ class Future:
         return self.result()
 
     def _over_there(self, loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
-        """Wait as a task of asyncio does, in its loop."""
+        """Wait inside asyncio's loop, as one of its tasks does."""
         over = loop.create_future()
 
         def settle() -> None:
@@ -66,15 +66,15 @@ class Future:
         yield from over
 
     def done(self) -> bool:
-        """Whether the answer is there."""
+        """Return whether there is a result."""
         return self._done
 
     def cancelled(self) -> bool:
-        """Whether it was given up."""
+        """Return whether it was cancelled."""
         return self._cancelled
 
     def cancel(self) -> None:
-        """Give it up; does nothing once it is done."""
+        """Cancel it; does nothing once it is done."""
         with self._mutex:
             if self._done:
                 return
@@ -82,7 +82,7 @@ class Future:
         self._tell()
 
     def result(self) -> Any:
-        """The answer, None while there is none.
+        """Return the result; None if there is none.
 
         Raises:
             BaseException: If an exception is the answer.
@@ -93,12 +93,12 @@ class Future:
         return self._result
 
     def exception(self) -> BaseException | None:
-        """The exception, if that is the answer."""
+        """Return the exception, if there is one."""
         self._asked = True
         return self._exception
 
     def set_result(self, result: Any) -> None:
-        """Answer."""
+        """Set the result."""
         with self._mutex:
             self._result = result
             self._done = True
@@ -106,7 +106,7 @@ class Future:
         self._tell()
 
     def set_exception(self, exception: BaseException) -> None:
-        """Answer with an exception."""
+        """Set an exception as the result."""
         with self._mutex:
             self._exception = exception
             self._asked = False
@@ -115,14 +115,14 @@ class Future:
         self._tell()
 
     def add_done_callback(self, callback: Callable[[Any], object]) -> None:
-        """Have `callback` called with this future once it is done (at once if it is).
+        """Call `callback` with this future when it is done (at once if it is).
 
         The executor that completes the future runs the callback as its next task, as in ROS 2.
         """
         self._add(callback, self._callbacks, self._call)
 
     def watch(self, callback: Callable[[Any], object]) -> None:
-        """Have `callback` called in the thread that completes the future, never as a task."""
+        """Call `callback` in the thread that completes the future, never as a task."""
         self._add(callback, self._watchers, lambda watcher: watcher(self))
 
     def _add(
@@ -139,7 +139,7 @@ class Future:
             call(callback)
 
     def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
-        """No longer call `callback`; whether it was registered."""
+        """Remove `callback`; return whether it was registered."""
         with self._mutex:
             found = callback in self._callbacks
             self._callbacks[:] = [one for one in self._callbacks if one != callback]
@@ -162,12 +162,12 @@ class Future:
             raise TypeError("a coroutine as done-callback needs a future with an executor")
 
     def set_executor(self, executor: Any) -> None:
-        """Name the executor that runs the callbacks; None runs them where the answer is set."""
+        """Set the executor for the callbacks; None runs them where the result is set."""
         self._executor = executor
 
 
 class Task(Future):
-    """A callback or coroutine that an executor runs, and its outcome."""
+    """A callback or coroutine that an executor runs, and its result."""
 
     def __init__(
         self,
@@ -187,7 +187,7 @@ class Task(Future):
             self._handler = lambda: function(*(args or ()), **(kwargs or {}))
 
     def __call__(self) -> Any:
-        """Run on until it waits or ends; what it waits for, if it does."""
+        """Run until it waits or ends; return what it waits for, if anything."""
         if self._done or self._cancelled:
             return None
         beneath, _STEPPING.beneath = _STEPPING.beneath, _asyncio_task()
@@ -211,11 +211,11 @@ class Task(Future):
         return None
 
     def executing(self) -> bool:
-        """Whether a step of it is running now."""
+        """Return whether a step of it is running."""
         return self._is_stepping
 
     def cancel(self) -> None:
-        """Give it up; a coroutine is closed."""
+        """Cancel it; a coroutine is closed."""
         if self._coroutine is not None and not self._done:
             self._coroutine.close()
         super().cancel()

@@ -1,4 +1,4 @@
-"""rclpy's lifecycle nodes: they go from state to state, by themselves or by services."""
+"""rclpy's lifecycle nodes, whose states change by calls or services."""
 
 from collections.abc import Callable
 from functools import wraps
@@ -26,45 +26,45 @@ SUCCESS = TransitionCallbackReturn.SUCCESS
 
 
 class ManagedEntity:
-    """Entity that is notified of every transition of its node."""
+    """Entity notified of every transition of its node."""
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Get ready."""
+        """Handle the configure transition."""
         return SUCCESS
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Be as before."""
+        """Handle the cleanup transition."""
         return SUCCESS
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """End."""
+        """Handle the shutdown transition."""
         return SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Start."""
+        """Handle the activate transition."""
         return SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop."""
+        """Handle the deactivate transition."""
         return SUCCESS
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Come back from an error."""
+        """Handle an error."""
         return SUCCESS
 
 
 class SimpleManagedEntity(ManagedEntity):
-    """Something that is enabled while its node is active."""
+    """Entity that is enabled while its node is active."""
 
     _enabled = False
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Be enabled."""
+        """Enable it."""
         self._enabled = True
         return SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Be enabled no more."""
+        """Disable it."""
         self._enabled = False
         return SUCCESS
 
@@ -77,7 +77,7 @@ class SimpleManagedEntity(ManagedEntity):
     def when_enabled(
         wrapped: F | None = None, *, when_not_enabled: Callable[[], object] | None = None
     ) -> Any:
-        """Decorate a method: while not enabled, only `when_not_enabled` is called."""
+        """Decorate a method: while disabled, only `when_not_enabled` is called."""
 
         def decorate(method: F) -> Any:
             @wraps(method)
@@ -92,16 +92,16 @@ class SimpleManagedEntity(ManagedEntity):
 
 
 class LifecyclePublisher(SimpleManagedEntity, Publisher):
-    """A publisher that sends while its node is active."""
+    """A publisher that sends only while its node is active."""
 
     def publish(self, msg: Any) -> None:
-        """Send a message, if the node is active."""
+        """Send a message if the node is active."""
         if self._enabled:
             super().publish(msg)
 
 
 def _telling(callback: str) -> Any:
-    """Make the default behaviour of a node in a transition."""
+    """Make a node's default callback of a transition."""
 
     def tell(self: "LifecycleNodeMixin", state: LifecycleState) -> TransitionCallbackReturn:
         for entity in list(self._managed_entities):
@@ -116,7 +116,7 @@ def _telling(callback: str) -> Any:
 
 
 class LifecycleNodeMixin(ManagedEntity):
-    """Parts that make a node a lifecycle node."""
+    """Methods of a lifecycle node."""
 
     on_configure = _telling("on_configure")
     on_cleanup = _telling("on_cleanup")
@@ -137,31 +137,31 @@ class LifecycleNodeMixin(ManagedEntity):
             _serve(self, callback_group)
 
     def trigger_configure(self) -> TransitionCallbackReturn:
-        """From unconfigured to inactive."""
+        """Change from unconfigured to inactive."""
         return change(self, "configure")
 
     def trigger_cleanup(self) -> TransitionCallbackReturn:
-        """From inactive to unconfigured."""
+        """Change from inactive to unconfigured."""
         return change(self, "cleanup")
 
     def trigger_activate(self) -> TransitionCallbackReturn:
-        """From inactive to active."""
+        """Change from inactive to active."""
         return change(self, "activate")
 
     def trigger_deactivate(self) -> TransitionCallbackReturn:
-        """From active to inactive."""
+        """Change from active to inactive."""
         return change(self, "deactivate")
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
-        """From wherever it is to finalized."""
+        """Change to finalized."""
         return change(self, "shutdown")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
-        """Notify an entity of every transition."""
+        """Add an entity to notify of every transition."""
         self._managed_entities.append(entity)
 
     def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
-        """A publisher that sends while this node is active."""
+        """Create a publisher that sends only while this node is active."""
         node: Any = self
         publisher: LifecyclePublisher = node.create_publisher(
             *args, publisher_class=LifecyclePublisher, **kwargs
@@ -170,7 +170,7 @@ class LifecycleNodeMixin(ManagedEntity):
         return publisher
 
     def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
-        """Withdraw a lifecycle publisher."""
+        """Close a lifecycle publisher."""
         if publisher in self._managed_entities:
             self._managed_entities.remove(publisher)
         node: Any = self
@@ -178,7 +178,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
 
 class LifecycleNode(LifecycleNodeMixin, Node):
-    """A node that is configured and activated before it works."""
+    """A node that must be configured and activated before it works."""
 
     def __init__(
         self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any
@@ -190,7 +190,7 @@ class LifecycleNode(LifecycleNodeMixin, Node):
 
 
 def change(node: LifecycleNodeMixin, wanted: str | int) -> TransitionCallbackReturn:
-    """Take a node through a transition; what its callback said.
+    """Run a transition of a node; return its callback's result.
 
     Raises:
         RuntimeError: If the transition does not begin where the node is.
@@ -233,7 +233,7 @@ def _describe(message: Any, transition: Transition) -> Any:
 
 
 def _serve(node: Any, callback_group: Any) -> None:
-    """Let others ask for a node's state, and change it."""
+    """Serve a node's state and transitions."""
     machine: StateMachine = node._state_machine
     described = INTERFACES.message("lifecycle_msgs/TransitionDescription")
     state_kind = INTERFACES.message("lifecycle_msgs/State")

@@ -1,30 +1,30 @@
-"""The state machine of a lifecycle node, as design.ros2.org and lifecycle_msgs number it."""
+"""State machine of a lifecycle node, as in design.ros2.org and lifecycle_msgs."""
 
 from enum import IntEnum
 from typing import NamedTuple
 
 
 class TransitionCallbackReturn(IntEnum):
-    """Answer of a callback to its transition."""
+    """Result of a transition's callback."""
 
     SUCCESS = 97
     FAILURE = 98
     ERROR = 99
 
     def to_label(self) -> str:
-        """The name of the transition that follows."""
+        """Return the name of the transition that follows."""
         return f"transition_{self.name.lower()}"
 
 
 class LifecycleState(NamedTuple):
-    """A state's name and number."""
+    """Name and number of a state."""
 
     label: str
     state_id: int
 
 
 class Transition(NamedTuple):
-    """A way from one state to another."""
+    """Transition between two states."""
 
     number: int
     label: str
@@ -92,16 +92,16 @@ class StateMachine:
 
     @property
     def current_state(self) -> tuple[int, str]:
-        """The state's number and name."""
+        """Number and name of the state."""
         return self.state.state_id, self.state.label
 
     @property
     def available_transitions(self) -> list[Transition]:
-        """The ways that lead on from here."""
+        """Return the transitions possible from here."""
         return [one for one in GRAPH if one.start == self.state.label]
 
     def take(self, wanted: str | int) -> Transition:
-        """Go a way, given by its name or its number.
+        """Start a transition by its name or number.
 
         Raises:
             RuntimeError: If it does not begin here.

@@ -1,4 +1,4 @@
-"""Getting and setting the levels of loggers by services, which a node may ask for."""
+"""Services for reading and setting the levels of a node's loggers, on request."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -11,7 +11,7 @@ _NO_LEVEL = "Failed reason: Invalid logger level."
 
 
 def logger_services() -> Iterator[tuple[str, Any, Callable[[Any, Any], Any]]]:
-    """Each service's name below its node, its type, and what answers it."""
+    """Yield each service's name below its node, its type, and its handler."""
     level_kind: Any = INTERFACES.message("rcl_interfaces/LoggerLevel")
     result_kind: Any = INTERFACES.message("rcl_interfaces/SetLoggerLevelsResult")
 

@@ -1,4 +1,4 @@
-"""rclpy's loggers, speaking into the world's log."""
+"""rclpy's loggers, which write to the world's log."""
 
 import inspect
 import os
@@ -31,14 +31,14 @@ class SkipFirst:
 
 
 class RcutilsLogger:
-    """Speaks under one name."""
+    """Logger of one name."""
 
     def __init__(self, name: str = "") -> None:
         self.name = name
         self._calls: dict[tuple[CodeType, int] | None, _Call] = {}
 
     def get_child(self, name: str) -> "RcutilsLogger":
-        """A logger named below this one.
+        """Return a child logger.
 
         Raises:
             ValueError: If the name is empty.
@@ -48,11 +48,11 @@ class RcutilsLogger:
         return RcutilsLogger(f"{self.name}.{name}" if self.name else name)
 
     def set_level(self, level: int) -> None:
-        """Say nothing that matters less."""
+        """Set the lowest severity to log."""
         program.current().log_levels[self.name] = int(LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """From which level on lines are said."""
+        """Return the lowest severity that is logged."""
         levels = program.current().log_levels
         name = self.name
         while name:
@@ -62,7 +62,7 @@ class RcutilsLogger:
         return LoggingSeverity(levels.get("", LoggingSeverity.INFO))
 
     def is_enabled_for(self, severity: int) -> bool:
-        """Whether a line of that level would be said."""
+        """Return whether a line of that level would be logged."""
         return severity >= self.get_effective_level()
 
     def log(
@@ -76,7 +76,7 @@ class RcutilsLogger:
         throttle_time_source_type: Any = None,
         name: str = "",
     ) -> bool:
-        """Say a line; whether it was said.
+        """Log a line; return whether it was logged.
 
         `once`, `skip_first` and `throttle_duration_sec` count per call in the code, and hold
         together: with two of them a line must pass both.
@@ -112,7 +112,7 @@ class RcutilsLogger:
     def _called(
         self, frame: FrameType | None, severity: int, name: str, settings: tuple[bool, bool, int]
     ) -> "_Call":
-        """One call in the code, as it was made before."""
+        """Return the record of a call in the code."""
         # The last tells two calls on one line apart.
         place = (frame.f_code, frame.f_lasti) if frame is not None else None
         call = self._calls.get(place)
@@ -122,11 +122,11 @@ class RcutilsLogger:
         return call
 
     def debug(self, message: object, **kwargs: Any) -> bool:
-        """Log something that helps to find a fault."""
+        """Log a line for debugging."""
         return self.log(message, LoggingSeverity.DEBUG, **kwargs)
 
     def info(self, message: object, **kwargs: Any) -> bool:
-        """Say what happens."""
+        """Log information."""
         return self.log(message, LoggingSeverity.INFO, **kwargs)
 
     def warning(self, message: object, **kwargs: Any) -> bool:
@@ -136,16 +136,16 @@ class RcutilsLogger:
     warn = warning
 
     def error(self, message: object, **kwargs: Any) -> bool:
-        """Say what went wrong."""
+        """Log an error."""
         return self.log(message, LoggingSeverity.ERROR, **kwargs)
 
     def fatal(self, message: object, **kwargs: Any) -> bool:
-        """Say what ends everything."""
+        """Log a fatal error."""
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
 
 class _Call:
-    """One call in the code: how it logs, and what it has let through so far."""
+    """A logging call in the code: its options, and how often it logged."""
 
     def __init__(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
         self._severity = severity
@@ -158,7 +158,7 @@ class _Call:
         self._last: Stamp = 0
 
     def require(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
-        """See that it logs as before.
+        """Check that the options are the same as before.
 
         Raises:
             ValueError: If it does not.
@@ -171,7 +171,7 @@ class _Call:
             raise ValueError("Logging filter parameters cannot be changed between calls.")
 
     def passes(self, now: Stamp) -> bool:
-        """Whether a line may be said now; asked in ROS 2's order, so it counts as there."""
+        """Return whether a line may be logged now; checked in ROS 2's order, with its counts."""
         if self._throttle:
             if now < self._last + self._throttle:
                 return False
@@ -186,7 +186,7 @@ class _Call:
 
 
 def _rosout_of(owner: program.Program, logger: str) -> Any:
-    """Return the publisher of a logger's lines: of the node with the nearest logger above it."""
+    """Return the /rosout publisher of a logger: of the node with the nearest parent logger."""
     told = [seat.rosout for seat in owner.nodes if seat.rosout is not None]
     return max((one for one in told if one.speaks_for(logger)), key=_depth, default=None)
 
@@ -203,7 +203,7 @@ def _caller_frame() -> FrameType | None:
 
 
 def _place(frame: FrameType | None) -> tuple[str, str, int]:
-    """File, function and line of who logs."""
+    """Return file, function and line of the caller."""
     if frame is None:
         return "", "", 0
     return frame.f_code.co_filename, frame.f_code.co_name, frame.f_lineno
@@ -213,7 +213,7 @@ _root_logger = RcutilsLogger()
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """The logger of a name.
+    """Return the logger of a name.
 
     Raises:
         ValueError: If the name is empty.
@@ -224,17 +224,17 @@ def get_logger(name: str) -> RcutilsLogger:
 
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
-    """Have the logger of a name say nothing that matters less."""
+    """Set the lowest severity that the logger of a name logs."""
     program.current().log_levels[name] = int(LoggingSeverity(level))
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
-    """From which level on the logger of a name says lines."""
+    """Return the lowest severity that the logger of a name logs."""
     return RcutilsLogger(name).get_effective_level()
 
 
 def get_logging_severity_from_string(level: str) -> LoggingSeverity:
-    """The level of a name.
+    """Return the level of a name.
 
     Raises:
         RuntimeError: If there is none of that name.
@@ -246,7 +246,7 @@ def get_logging_severity_from_string(level: str) -> LoggingSeverity:
 
 
 def clear_config() -> None:
-    """Forget every level that was set."""
+    """Remove every level that was set."""
     program.current().log_levels.clear()
 
 
@@ -258,8 +258,8 @@ def get_logging_directory() -> Path:
 
 
 def initialize() -> None:
-    """Nothing to do."""
+    """Do nothing."""
 
 
 def shutdown() -> None:
-    """Nothing to do."""
+    """Do nothing."""

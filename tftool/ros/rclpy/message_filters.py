@@ -1,4 +1,4 @@
-"""message_filters: one topic, or several whose messages belong together by their stamps."""
+"""message_filters: subscriptions of one topic, or of several synchronised by stamps."""
 
 from collections.abc import Callable, Sequence
 from itertools import product
@@ -9,25 +9,27 @@ from tftool.ros.rclpy.time import Duration, ROSClock, Time
 
 
 class SimpleFilter:
-    """Hands messages on to those who registered."""
+    """Passes messages to registered callbacks."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
 
     def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802
-        """Have `cb` called with every message, and with `args` after it."""
+        """Call `cb` with every message, and with `args` after it."""
         connection = len(self.callbacks)
         self.callbacks[connection] = (cb, args)
         return connection
 
     def signalMessage(self, *msg: Any) -> None:  # noqa: N802
-        """Hand messages on."""
+        """Pass messages on."""
         for callback, args in list(self.callbacks.values()):
             callback(*msg, *args)
 
 
 class Subscriber(SimpleFilter):
-    """A subscription as a filter: `Subscriber(node, type, topic)`, and what subscriptions take."""
+    """A subscription as a filter: `Subscriber(node, type, topic)`, with the options of
+    subscriptions.
+    """
 
     def __init__(self, node: Any, msg_type: Any, topic: str, *args: Any, **kwargs: Any) -> None:
         super().__init__()
@@ -38,11 +40,11 @@ class Subscriber(SimpleFilter):
         self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
 
     def callback(self, msg: Any) -> None:
-        """Hand a message on."""
+        """Pass a message on."""
         self.signalMessage(msg)
 
     def getTopic(self) -> str:  # noqa: N802
-        """The topic's name."""
+        """Return the topic's name."""
         return self.topic
 
     def __getattr__(self, key: str) -> Any:
@@ -53,7 +55,7 @@ class Subscriber(SimpleFilter):
 
 
 def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
-    """A message's time, now for one without; None, and a warning, where that is not allowed."""
+    """Return a message's time, or now if it has none; None, and a warning, if that is forbidden."""
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
         stamp = msg.header.stamp
         return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
@@ -67,7 +69,7 @@ def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
 
 
 class Cache(SimpleFilter):
-    """Keeps the last messages."""
+    """Stores the last messages."""
 
     def __init__(
         self, f: SimpleFilter, cache_size: int = 1, allow_headerless: bool = False
@@ -80,11 +82,11 @@ class Cache(SimpleFilter):
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
-        """Keep a filter's messages."""
+        """Store a filter's messages."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Keep a message."""
+        """Store a message."""
         stamp = _stamp(msg, self.allow_headerless, "message_filters_cache")
         if stamp is None:
             return
@@ -93,15 +95,15 @@ class Cache(SimpleFilter):
         self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802
-        """The messages between two moments."""
+        """Return the messages between two times."""
         return self._where(lambda stamp: from_stamp <= stamp <= to_stamp)
 
     def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802
-        """The oldest message at a moment or after it, None without one."""
+        """Return the oldest message at or after a time; None without one."""
         return next(iter(self._where(lambda kept: kept >= stamp)), None)
 
     def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802
-        """The newest message at a moment or before it, None without one."""
+        """Return the newest message at or before a time; None without one."""
         return next(reversed(self._where(lambda kept: kept <= stamp)), None)
 
     def _where(self, fits: Callable[[Time], bool]) -> list[Any]:
@@ -117,12 +119,12 @@ class Cache(SimpleFilter):
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:  # noqa: N802
-        """The newest message, None without one."""
+        """Return the newest message; None without one."""
         return self.cache_msgs[-1] if self.cache_msgs else None
 
 
 class TimeSynchronizer(SimpleFilter):
-    """Passes on sets of messages with equal stamps, one of each filter."""
+    """Passes on sets of messages with equal stamps, one from each filter."""
 
     def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
         super().__init__()
@@ -130,7 +132,7 @@ class TimeSynchronizer(SimpleFilter):
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802
-        """Wait for the messages of some filters."""
+        """Register some filters."""
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
             one.registerCallback(self.add, queue, index)
@@ -138,7 +140,7 @@ class TimeSynchronizer(SimpleFilter):
         ]
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Take a filter's message in."""
+        """Add a filter's message."""
         self._keep(Time.from_msg(msg.header.stamp).nanoseconds, msg, my_queue)
         for stamp in sorted(set.intersection(*(set(queue) for queue in self.queues))):
             self._hand_on([stamp] * len(self.queues))
@@ -154,7 +156,7 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Passes on sets of messages whose stamps lie less than `slop` seconds apart."""
+    """Passes on sets of messages with stamps less than `slop` seconds apart."""
 
     def __init__(
         self,
@@ -168,7 +170,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
-        """Take a filter's message in; the nearest one goes with it."""
+        """Add a filter's message, and match the nearest ones of the others."""
         time = _stamp(msg, self.allow_headerless, "message_filters_approx")
         if time is None:
             return

@@ -98,33 +98,33 @@ class Node(NodeGraph, NodeParameters):
     # Who it is
 
     def get_name(self) -> str:
-        """Its name."""
+        """Return its name."""
         return self._tftool.name
 
     def get_namespace(self) -> str:
-        """Its namespace, with a leading slash."""
+        """Return its namespace, with a leading slash."""
         return f"/{self._tftool.namespace}"
 
     def get_fully_qualified_name(self) -> str:
-        """Namespace and name."""
+        """Return namespace and name."""
         return f"/{names.join(self._tftool.namespace, self._tftool.name)}"
 
     def get_logger(self) -> RcutilsLogger:
-        """Its logger."""
+        """Return its logger."""
         return self._logger
 
     def get_clock(self) -> Clock:
-        """Its clock."""
+        """Return its clock."""
         return self._clock
 
     @property
     def context(self) -> Context:
-        """The context it lives by."""
+        """Context of the node."""
         return self._context
 
     @property
     def executor(self) -> Any:
-        """The executor that serves it, None while none does."""
+        """Executor of the node; None without one."""
         return self._tftool.executor
 
     @executor.setter
@@ -141,12 +141,12 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def default_callback_group(self) -> CallbackGroup:
-        """The group of callbacks that name none."""
+        """Group of callbacks without a group of their own."""
         return self._default_callback_group
 
     @property
     def handle(self) -> RequiredHandle:
-        """Return a handle that raises InvalidHandle once it is destroyed."""
+        """Handle that raises InvalidHandle once destroyed."""
         return RequiredHandle(self._tftool.require)
 
     def __enter__(self) -> "Node":
@@ -156,11 +156,11 @@ class Node(NodeGraph, NodeParameters):
         self.destroy_node()
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """A topic's full name, after remapping."""
+        """Return a topic's full name, after remapping."""
         return f"/{self._tftool.full(topic, remap=not only_expand)}"
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """A service's full name, after remapping."""
+        """Return a service's full name, after remapping."""
         return f"/{self._tftool.full(service, remap=not only_expand, is_service=True)}"
 
     # What it has
@@ -176,7 +176,7 @@ class Node(NodeGraph, NodeParameters):
         qos_overriding_options: Any = None,
         publisher_class: Any = None,
     ) -> Publisher:
-        """Something to send messages with."""
+        """Create a publisher."""
         _require_message(msg_type)
         profile, full = profile_of(qos_profile), self._tftool.full(topic)
         if qos_overriding_options is not None:
@@ -200,7 +200,7 @@ class Node(NodeGraph, NodeParameters):
         raw: bool = False,
         content_filter_options: Any = None,
     ) -> Subscription:
-        """Have `callback` called with every message of a topic."""
+        """Create a subscription that calls `callback` with every message."""
         _require_message(msg_type)
         _require_callable(callback)
         profile, full = profile_of(qos_profile), self._tftool.full(topic)
@@ -215,7 +215,7 @@ class Node(NodeGraph, NodeParameters):
         return made
 
     def __watch(self, made: Any, group: Any, wanted: Any) -> None:
-        """Notify callbacks about the other ends of a topic."""
+        """Watch for events of a topic's other ends."""
         if wanted is None:
             return
         group = group or self._default_callback_group
@@ -231,7 +231,7 @@ class Node(NodeGraph, NodeParameters):
         clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
-        """Have `callback` called on a grid, first one period from now; None makes a mere timer."""
+        """Create a timer that calls `callback`, first after one period; None makes a mere timer."""
         if callback is None:
             self._warn_of_missing_callback(user_line(sys._getframe(1)))
         else:
@@ -259,7 +259,7 @@ class Node(NodeGraph, NodeParameters):
         qos_profile: Any = None,
         callback_group: CallbackGroup | None = None,
     ) -> Client:
-        """Something to ask a service with."""
+        """Create a client of a service."""
         _require_service(srv_type)
         full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
@@ -274,7 +274,7 @@ class Node(NodeGraph, NodeParameters):
         qos_profile: Any = None,
         callback_group: CallbackGroup | None = None,
     ) -> Service:
-        """Answer a service by `callback(request, response)`."""
+        """Create a service that calls `callback(request, response)`."""
         _require_service(srv_type)
         _require_callable(callback)
         full = self._tftool.full(srv_name, is_service=True)
@@ -284,12 +284,12 @@ class Node(NodeGraph, NodeParameters):
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
-        """Something that calls back when triggered."""
+        """Create a guard condition, which calls back when triggered."""
         group = callback_group or self._default_callback_group
         return self.__keep(lambda: GuardCondition(self._tftool, callback, group))
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        """Something to pace a loop with.
+        """Create a rate for a loop.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -303,7 +303,7 @@ class Node(NodeGraph, NodeParameters):
         return Rate(self._tftool, timer)
 
     def destroy_rate(self, rate: Rate) -> bool:
-        """Give a rate up; whether it was one of this node."""
+        """Destroy a rate; return whether it belonged to this node."""
         if rate not in self._tftool.rates:
             return False
         rate.destroy()
@@ -320,12 +320,12 @@ class Node(NodeGraph, NodeParameters):
     destroy_client = destroy_service = destroy_guard_condition = __destroy
 
     def destroy_node(self) -> None:
-        """Withdraw everything."""
+        """Close everything."""
         self._tftool.leave()
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """Its publishers; what its loggers say is published beside them, as in ROS."""
+        """Its publishers; its loggers' /rosout publisher is not among them, as in ROS."""
         yield from (one for one in self.__all(Publisher) if one is not self._tftool.rosout)
 
     @property

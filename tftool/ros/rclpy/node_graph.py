@@ -1,4 +1,4 @@
-"""Questions of a node about the others."""
+"""A node's queries about other nodes."""
 
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
@@ -18,7 +18,7 @@ NamesAndTypes = list[tuple[str, list[str]]]
 
 
 class NodeNameNonExistentError(Exception):
-    """Something is asked about a node that is not there."""
+    """Error for a query about an unknown node."""
 
 
 class NodeGraph:
@@ -32,21 +32,21 @@ class NodeGraph:
     # Nodes
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Block until a node is there."""
+        """Block until a node exists."""
         wanted = fully_qualified_node_name.strip("/")
         return self._tftool.wait_until(lambda: wanted in self.__nodes(), timeout)
 
     def get_node_names(self) -> list[str]:
-        """The names of all nodes."""
+        """Return the names of all nodes."""
         return [name for name, _ in self.get_node_names_and_namespaces()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
-        """The names of all nodes, each with its namespace."""
+        """Return the names of all nodes with their namespaces."""
         parted = (full.rpartition("/") for full in self.__look(self.__nodes))
         return [(name, f"/{namespace}") for namespace, _, name in parted]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
-        """Return names, namespaces and the only enclave there is."""
+        """Return names, namespaces and the single enclave."""
         return [(*one, "/") for one in self.get_node_names_and_namespaces()]
 
     def __nodes(self) -> list[str]:
@@ -95,7 +95,7 @@ class NodeGraph:
     def get_subscriptions_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
-        """Return the ROS nodes that listen to a topic, with their quality of service."""
+        """Return the ROS nodes that subscribe to a topic, with their quality of service."""
         return self.__ends(topic_name, SUBSCRIPTION)
 
     def __ends(self, topic_name: str, role: Role) -> list[TopicEndpointInfo]:
@@ -106,7 +106,7 @@ class NodeGraph:
     # Services
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """Every service, and its type where that is known."""
+        """Return every service, with its type if known."""
         return self.__look(lambda: _listed(self.__served(lambda node: True)))
 
     def __served(self, by: Callable[[str], bool]) -> Iterator[tuple[str, str]]:
@@ -115,7 +115,7 @@ class NodeGraph:
                 yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
-        """Count the servers of a service; of another process's, one or none."""
+        """Count the servers of a service; at most one of other processes."""
         full = self._tftool.full(service_name, is_service=True)
         return self.__look(lambda: self._tftool.world.count_services(full))
 
@@ -142,7 +142,7 @@ class NodeGraph:
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """Return the topics that a ROS node listens to."""
+        """Return the topics to which a ROS node subscribes."""
         return _of_node(
             self._tftool, node_name, node_namespace, lambda full: self.__held(full, SUBSCRIPTION)
         )
@@ -180,7 +180,7 @@ class NodeGraph:
 
 
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
-    """Every action that is served, and its type."""
+    """Return every served action with its type."""
     seat = seat_of(node)
     return _ask(seat, lambda: _listed(_served_actions(seat, lambda server: True)))
 
@@ -188,7 +188,7 @@ def get_action_names_and_types(node: Any) -> NamesAndTypes:
 def get_action_server_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """The actions that a node serves.
+    """Return the actions that a node serves.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -205,7 +205,7 @@ def get_action_server_names_and_types_by_node(
 def get_action_client_names_and_types_by_node(
     node: Any, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """The actions that a ROS node of this process has clients of.
+    """Return the actions of which a ROS node in this process has clients.
 
     Raises:
         NodeNameNonExistentError: If there is no such node.
@@ -221,7 +221,7 @@ def get_action_client_names_and_types_by_node(
 
 
 def _ask(seat: NodeSeat, question: Callable[[], T]) -> T:
-    """Ask on the loop's thread."""
+    """Run a query in the loop's thread."""
     found: T = seat.program.ask(question)
     return found
 
@@ -250,7 +250,7 @@ def _of_node(
     namespace: str,
     find: Callable[[str], Iterable[tuple[str, str]]],
 ) -> NamesAndTypes:
-    """Return what `find` finds of a node, by its full name."""
+    """Return what `find` returns for a node, by its full name."""
     full = f"{namespace.strip('/')}/{name}".strip("/")
 
     def found() -> NamesAndTypes:
@@ -262,7 +262,7 @@ def _of_node(
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
-    """Names and their types, in order; an unknown type is left out."""
+    """Return names and types, sorted; unknown types are left out."""
     found: dict[str, set[str]] = {}
     for name, kind in pairs:
         found.setdefault(f"/{name}", set()).update([kind] if kind else [])

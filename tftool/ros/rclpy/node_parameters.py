@@ -1,4 +1,4 @@
-"""The parameters of a node: declaring, reading and setting."""
+"""Declaration, reading and setting of a node's parameters."""
 
 import math
 import warnings
@@ -61,7 +61,7 @@ class NodeParameters:
         descriptor: Any = None,
         ignore_override: bool = False,
     ) -> Parameter:
-        """Make a parameter known; what the command line or the launch file says wins.
+        """Declare a parameter; a value from the command line or launch file takes precedence.
 
         `value` is a default, or a `Parameter.Type` when there is none.
 
@@ -78,7 +78,7 @@ class NodeParameters:
         parameters: Sequence[tuple[Any, ...]],
         ignore_override: bool = False,
     ) -> list[Parameter]:
-        """Make several known: tuples of name, value and descriptor.
+        """Declare several parameters: tuples of name, value and descriptor.
 
         Warns:
             UserWarning: Of a name alone: any value fits, which is seldom meant.
@@ -139,7 +139,7 @@ class NodeParameters:
         return parameter
 
     def undeclare_parameter(self, name: str) -> None:
-        """Forget a parameter."""
+        """Remove a parameter."""
         self.__known(name)
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
@@ -149,11 +149,11 @@ class NodeParameters:
     # Reading
 
     def has_parameter(self, name: str) -> bool:
-        """Whether it is declared."""
+        """Return whether it is declared."""
         return name in self._parameters
 
     def get_parameter(self, name: str) -> Parameter:
-        """A declared parameter.
+        """Return a declared parameter.
 
         Raises:
             ParameterNotDeclaredException: If it is not declared; the nearest name is told.
@@ -167,18 +167,18 @@ class NodeParameters:
         return parameter
 
     def get_parameters(self, names: Iterable[str]) -> list[Parameter]:
-        """Several declared parameters."""
+        """Return several declared parameters."""
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """A parameter, or something else if it is not declared or has no value."""
+        """Return a parameter, or an alternative if it is not declared or has no value."""
         found = self._parameters.get(name)
         if found is not None and found.type_ is not Type.NOT_SET:
             return found
         return alternative_value or found or Parameter(name, Type.NOT_SET, None)
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """Declared parameters below a prefix, by the rest of their names."""
+        """Return declared parameters below a prefix, by the rest of their names."""
         start = f"{prefix}." if prefix else ""
         return {
             name.removeprefix(start): parameter
@@ -187,22 +187,22 @@ class NodeParameters:
         }
 
     def get_parameter_types(self, names: Iterable[str]) -> list[Type]:
-        """The types of declared parameters."""
+        """Return the types of declared parameters."""
         return [self.get_parameter(name).type_ for name in names]
 
     def describe_parameter(self, name: str) -> Any:
-        """A declared parameter's descriptor; an empty one where undeclared ones are allowed."""
+        """Return a declared parameter's descriptor; an empty one if undeclared ones are allowed."""
         if name not in self._parameters and self._allow_undeclared_parameters:
             return INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
         self.__known(name)
         return self._descriptors[name]
 
     def describe_parameters(self, names: Iterable[str]) -> list[Any]:
-        """Several descriptors."""
+        """Return several descriptors."""
         return [self.describe_parameter(name) for name in names]
 
     def list_parameters(self, prefixes: Sequence[str], depth: int = 0) -> Any:
-        """The names below some prefixes, all without one.
+        """Return the names below some prefixes; without prefixes all.
 
         `depth` is how many levels below the prefix to list, 0 for all.
 
@@ -227,7 +227,7 @@ class NodeParameters:
     # Setting
 
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[Any]:
-        """Change parameters one by one; for each, whether it was accepted.
+        """Set parameters one by one; return for each whether it was accepted.
 
         Raises:
             ParameterNotDeclaredException: If one is not declared; those before it are set.
@@ -236,7 +236,7 @@ class NodeParameters:
         return [self.set_parameters_atomically([one]) for one in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Any:
-        """Change parameters together; all or none.
+        """Set parameters together: all or none.
 
         Raises:
             ParameterNotDeclaredException: If one, or one that a callback added, is not declared.
@@ -291,7 +291,7 @@ class NodeParameters:
             after(changes)
 
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
-        """Replace the descriptor of a declared parameter; its name and type stay.
+        """Replace a declared parameter's descriptor; its name and type stay.
 
         Args:
             name: The parameter.
@@ -375,32 +375,32 @@ class NodeParameters:
         return set_result(True, "")
 
     def add_on_set_parameters_callback(self, callback: Setter) -> None:
-        """Have `callback` judge every change; the one added last is asked first."""
+        """Register a callback that accepts or rejects changes; the last one is called first."""
         self._on_set_parameters_callbacks.append(callback)
 
     def remove_on_set_parameters_callback(self, callback: Setter) -> None:
-        """Ask `callback` no more."""
+        """Remove a callback that accepts or rejects changes."""
         self._on_set_parameters_callbacks.remove(callback)
 
     def remove_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Have `callback` rewrite changes no more."""
+        """Remove a callback that rewrites changes."""
         self._pre_set_parameters_callbacks.remove(callback)
 
     def remove_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Tell `callback` of changes no more."""
+        """Remove a callback for accepted changes."""
         self._post_set_parameters_callbacks.remove(callback)
 
     def add_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Have `callback` rewrite every list of changes."""
+        """Register a callback that rewrites every list of changes."""
         self._pre_set_parameters_callbacks.append(callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
-        """Notify `callback` of every change."""
+        """Register a callback for accepted changes."""
         self._post_set_parameters_callbacks.append(callback)
 
 
 def _is_on_step(value: float, limits: Any) -> bool:
-    """Whether a value is an end of a range, or a whole number of steps above its beginning."""
+    """Return whether a value is an end of a range, or a whole number of steps above its start."""
     if not limits.step or value == limits.to_value:
         return True
     if isinstance(value, int):
@@ -410,18 +410,18 @@ def _is_on_step(value: float, limits: Any) -> bool:
 
 
 def unused_parameters(node: NodeParameters) -> list[str]:
-    """A sentence for each parameter that was given and never declared."""
+    """Yield a sentence for each parameter that was given but never declared."""
     return [undeclared(name, node._parameters) for name in node._unused_parameters]
 
 
 def set_result(successful: bool, reason: str) -> Any:
-    """Make the answer to setting parameters."""
+    """Return the result of setting parameters."""
     kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
     return kind(successful=successful, reason=reason)
 
 
 def _checked_descriptor(descriptor: Any) -> Any:
-    """A ParameterDescriptor, an empty one for None."""
+    """Return a ParameterDescriptor, an empty one for None."""
     wanted: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
     if descriptor is None:
         return wanted()
@@ -433,7 +433,7 @@ def _checked_descriptor(descriptor: Any) -> Any:
 
 
 def _kind_and_value(name: str, declared: Any, descriptor: Any) -> tuple[Type, Any]:
-    """The type and the default that a parameter is declared with; None without a default."""
+    """Return a declared parameter's type and default; None without a default."""
     if isinstance(declared, INTERFACES.message("rcl_interfaces/ParameterValue")):
         if not descriptor.dynamic_typing:
             raise ValueError(

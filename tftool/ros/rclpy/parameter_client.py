@@ -17,7 +17,7 @@ Callback = Callable[[Future], object]
 
 
 class AsyncParameterClient:
-    """Gets, sets, lists and describes the parameters of another node by its services."""
+    """Client of another node's parameter services."""
 
     def __init__(
         self,
@@ -46,11 +46,11 @@ class AsyncParameterClient:
         }
 
     def services_are_ready(self) -> bool:
-        """Whether the node is there and answers."""
+        """Return whether the node's services exist."""
         return all(client.service_is_ready() for client in self._clients.values())
 
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
-        """Block until the node is there and answers; whether it does."""
+        """Block until the node's services exist; return whether they do."""
         seat = seat_of(self.node)
         # Waited for together: one after the other, each would have the whole time for itself.
         names = [client.full for client in self._clients.values()]
@@ -69,46 +69,46 @@ class AsyncParameterClient:
         depth: int | None = None,
         callback: Callback | None = None,
     ) -> Future:
-        """The names below some prefixes, all without one."""
+        """Request the names below some prefixes; without prefixes all."""
         return self._ask("ListParameters", callback, prefixes=prefixes or [], depth=depth or 0)
 
     def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
-        """The values of some parameters."""
+        """Request the values of some parameters."""
         return self._ask("GetParameters", callback, names=names)
 
     def get_parameter_types(self, names: list[str], callback: Callback | None = None) -> Future:
-        """The types of some parameters."""
+        """Request the types of some parameters."""
         return self._ask("GetParameterTypes", callback, names=names)
 
     def describe_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
-        """The descriptors of some parameters."""
+        """Request the descriptors of some parameters."""
         return self._ask("DescribeParameters", callback, names=names)
 
     def set_parameters(self, parameters: Sequence[Any], callback: Callback | None = None) -> Future:
-        """Change parameters, given as Parameters or as their messages, one by one."""
+        """Set parameters, given as Parameters or messages, one by one."""
         return self._ask("SetParameters", callback, parameters=_messages(parameters))
 
     def set_parameters_atomically(
         self, parameters: Sequence[Any], callback: Callback | None = None
     ) -> Future:
-        """Change parameters together; all or none."""
+        """Set parameters together: all or none."""
         return self._ask("SetParametersAtomically", callback, parameters=_messages(parameters))
 
     def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
-        """Unset parameters that are dynamically typed."""
+        """Delete parameters with dynamic types."""
         return self.set_parameters([Parameter(name) for name in names], callback)
 
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Change parameters to what a file says."""
+        """Set parameters from a file."""
         given = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
         return self.set_parameters(list(given.values()), callback)
 
     def load_parameter_file_atomically(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
-        """Change parameters together to what a file says; all or none."""
+        """Set parameters from a file together: all or none."""
         given = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
         return self.set_parameters_atomically(list(given.values()), callback)
 
@@ -118,7 +118,7 @@ class AsyncParameterClient:
         qos_profile: QoSProfile = qos_profile_parameter_events,
         **options: Any,
     ) -> Any:
-        """Have `callback` called with every change of any node's parameters."""
+        """Call `callback` with every change of any node's parameters."""
         kind = INTERFACES.message("rcl_interfaces/ParameterEvent")
         return self.node.create_subscription(
             kind, "/parameter_events", callback, qos_profile, **options

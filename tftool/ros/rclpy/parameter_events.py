@@ -1,4 +1,4 @@
-"""Telling of changed parameters on `/parameter_events`, and rclpy's handler for it."""
+"""Publishing of parameter changes on `/parameter_events`, and rclpy's handler for it."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ TOPIC = "parameter_events"
 
 
 def teller(seat: NodeSeat) -> Callable[..., None]:
-    """Publisher of a node's parameter events; it is one of the topic's publishers at once."""
+    """Return a node's publisher of parameter events, created at once."""
     kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
     publisher: Publisher = seat.keep(
         lambda: Publisher(seat, kind, f"/{TOPIC}", TOPIC, qos_profile_parameter_events)
@@ -44,7 +44,7 @@ def teller(seat: NodeSeat) -> Callable[..., None]:
 
 @dataclass(eq=False, slots=True)
 class ParameterCallbackHandle:
-    """The handle of a callback for one parameter of one node."""
+    """Handle of a callback for one parameter of one node."""
 
     parameter_name: str
     node_name: str
@@ -53,13 +53,13 @@ class ParameterCallbackHandle:
 
 @dataclass(eq=False, slots=True)
 class ParameterEventCallbackHandle:
-    """The handle of a callback for every event."""
+    """Handle of a callback for every event."""
 
     callback: Callable[[Any], object]
 
 
 class ParameterEventHandler:
-    """Calls back when parameters change, of this node or of another."""
+    """Calls back when parameters of this or another node change."""
 
     def __init__(
         self,
@@ -81,7 +81,7 @@ class ParameterEventHandler:
         )
 
     def destroy(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self.node.destroy_subscription(self.parameter_event_subscription)
 
     def _arrived(self, event: Any) -> None:
@@ -94,7 +94,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
-        """One node's parameter as an event has it, None if it is not about it."""
+        """Return one node's parameter in an event; None if the event is about another."""
         if event.node != node_name:
             return None
         told = ParameterEventHandler.get_parameters_from_event(event)
@@ -102,14 +102,14 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameters_from_event(event: Any) -> Iterator[Any]:
-        """The new and the changed parameters of an event."""
+        """Return the new and changed parameters of an event."""
         yield from event.new_parameters
         yield from event.changed_parameters
 
     def add_parameter_callback(
         self, parameter_name: str, node_name: str, callback: Callable[[Any], object]
     ) -> ParameterCallbackHandle:
-        """Have `callback` called with a parameter's message whenever it is set."""
+        """Call `callback` with a parameter's message whenever it is set."""
         handle = ParameterCallbackHandle(parameter_name, self._resolve_path(node_name), callback)
         # As in ROS 2, who came last is told first.
         self._of_one.insert(0, handle)
@@ -118,13 +118,13 @@ class ParameterEventHandler:
     def add_parameter_event_callback(
         self, callback: Callable[[Any], object]
     ) -> ParameterEventCallbackHandle:
-        """Have `callback` called with every event."""
+        """Call `callback` with every event."""
         handle = ParameterEventCallbackHandle(callback)
         self._of_all.insert(0, handle)
         return handle
 
     def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
-        """Call back no more.
+        """Remove the callback.
 
         Raises:
             RuntimeError: If it was not registered.
@@ -132,7 +132,7 @@ class ParameterEventHandler:
         _remove(self._of_one, handle)
 
     def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
-        """Call back no more.
+        """Remove the callback.
 
         Raises:
             RuntimeError: If it was not registered.
@@ -140,7 +140,7 @@ class ParameterEventHandler:
         _remove(self._of_all, handle)
 
     def configure_nodes_filter(self, node_names: Iterable[str] | None = None) -> bool:
-        """Whether events can be sorted out before they arrive: only asking for none can."""
+        """Return whether events can be filtered before arrival, which only works for no events."""
         return not node_names
 
     def _resolve_path(self, node_name: str = "") -> str:

@@ -1,4 +1,4 @@
-"""rclpy's parameters: typed values by name, checked and told to callbacks."""
+"""rclpy's parameters: named, typed values."""
 
 import array
 from enum import IntEnum
@@ -26,7 +26,7 @@ class ParameterType(IntEnum):
 
     @classmethod
     def from_parameter_value(cls, value: Any) -> "ParameterType":
-        """The type a Python value means.
+        """Return the type of a Python value.
 
         Raises:
             TypeError: If it can be no parameter.
@@ -56,7 +56,7 @@ class ParameterType(IntEnum):
         raise TypeError(f"The given value is not one of the allowed types: {value!r}")
 
     def check(self, value: Any) -> bool:
-        """Whether a value is of this type."""
+        """Return whether a value is of this type."""
         if self >= ParameterType.BYTE_ARRAY and isinstance(value, list | tuple) and not len(value):
             return True
         try:
@@ -83,17 +83,17 @@ class Parameter:
 
     @property
     def name(self) -> str:
-        """Return its name."""
+        """Its name."""
         return self._name
 
     @property
     def type_(self) -> ParameterType:
-        """Return its type."""
+        """Its type."""
         return self._type
 
     @property
     def value(self) -> Any:
-        """Return its value."""
+        """Its value."""
         return self._value
 
     def __repr__(self) -> str:
@@ -109,23 +109,23 @@ class Parameter:
     __hash__ = None  # type: ignore[assignment]
 
     def get_parameter_value(self) -> Any:
-        """The rcl_interfaces ParameterValue."""
+        """Return it as an rcl_interfaces ParameterValue."""
         return value_message(self._value, int(self._type))
 
     def to_parameter_msg(self) -> Any:
-        """The rcl_interfaces Parameter."""
+        """Return it as an rcl_interfaces Parameter."""
         return INTERFACES.message("rcl_interfaces/Parameter")(
             name=self._name, value=self.get_parameter_value()
         )
 
     @classmethod
     def from_parameter_msg(cls, param_msg: Any) -> "Parameter":
-        """The Parameter of an rcl_interfaces Parameter."""
+        """Return the Parameter of an rcl_interfaces Parameter."""
         return cls(param_msg.name, ParameterType(param_msg.value.type), value_of(param_msg.value))
 
 
 def parameter_value_to_python(parameter_value: Any) -> Any:
-    """The Python value of a ParameterValue; None for one that is not set.
+    """Return the Python value of a ParameterValue; None if it is not set.
 
     Raises:
         RuntimeError: If its type is no type of a parameter.
@@ -137,7 +137,7 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
 
 
 def get_parameter_value(string_value: str) -> Any:
-    """The ParameterValue that a text means, read as YAML; the text itself where that is nothing."""
+    """Return a text as a ParameterValue, parsed as YAML; else the text itself."""
     value = names.yaml_value(string_value)
     return Parameter("", value=string_value if value is None else value).get_parameter_value()
 
@@ -151,7 +151,7 @@ def parameter_dict_from_yaml_file(
     target_nodes: list[str] | None = None,
     namespace: str = "",
 ) -> dict[str, Any]:
-    """The messages of the parameters in a file, by name.
+    """Return the parameters in a file as messages, by name.
 
     Args:
         parameter_file: Its path.

@@ -1,4 +1,4 @@
-"""rclpy's quality-of-service profiles. In one process nothing gets lost; depth and latching act."""
+"""rclpy's quality-of-service profiles. Within a process only depth and latching matter."""
 
 from enum import Enum, IntEnum
 from typing import Any
@@ -10,22 +10,22 @@ from tftool.world.endpoints import Quality, Timing, conflict
 class _Policy(IntEnum):
     @classmethod
     def short_keys(cls) -> list[str]:
-        """The names, lower case."""
+        """Return the names in lower case."""
         return [policy.name.lower() for policy in cls]
 
     @property
     def short_key(self) -> str:
-        """This name, lower case."""
+        """Its name in lower case."""
         return self.name.lower()
 
     @classmethod
     def get_from_short_key(cls, name: str) -> int:
-        """The policy of a lower-case name."""
+        """Return the policy of a lower-case name."""
         return cls[name.upper()].value
 
 
 class HistoryPolicy(_Policy):
-    """Number of messages that wait."""
+    """Number of queued messages."""
 
     SYSTEM_DEFAULT = 0
     RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
@@ -63,7 +63,7 @@ class DurabilityPolicy(_Policy):
 
 
 class LivelinessPolicy(_Policy):
-    """Way in which a publisher asserts that it is alive."""
+    """How a publisher shows that it is alive."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -79,7 +79,7 @@ QoSLivelinessPolicy = LivelinessPolicy
 
 
 class QoSPolicyKind(IntEnum):
-    """Setting of a profile that something is about."""
+    """One setting of a profile."""
 
     INVALID = 1
     DURABILITY = 2
@@ -94,14 +94,14 @@ class QoSPolicyKind(IntEnum):
 
 
 class InvalidQoSProfileException(Exception):
-    """A profile that says too little, or contradicts itself."""
+    """Error for an incomplete or contradictory profile."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("Invalid QoSProfile", *args)
 
 
 class QoSProfile:
-    """The settings of a publisher or a subscription."""
+    """Settings of a publisher or subscription."""
 
     def __init__(self, **kwargs: Any) -> None:
         known = ("history", "depth", "reliability", "durability", "lifespan", "deadline",
@@ -140,7 +140,7 @@ class QoSProfile:
 
 
 def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
-    """Return the part of a profile that decides who hears whom, and which messages are kept.
+    """Return the part of a profile that determines compatibility and kept messages.
 
     Args:
         profile: The profile.
@@ -169,7 +169,7 @@ def _limit(duration: Duration) -> int | None:
 
 
 class QoSCompatibility(IntEnum):
-    """Whether a publisher and a subscription hear each other."""
+    """Whether a publisher and a subscription are compatible."""
 
     OK = 0
     WARNING = 1
@@ -179,7 +179,7 @@ class QoSCompatibility(IntEnum):
 def qos_check_compatible(
     publisher_qos: QoSProfile, subscription_qos: QoSProfile
 ) -> tuple[QoSCompatibility, str]:
-    """Whether messages pass between two profiles, and why not."""
+    """Return whether two profiles are compatible, and why not."""
     policy = conflict(
         quality_of(publisher_qos, offered=True), quality_of(subscription_qos, offered=False)
     )
@@ -197,7 +197,7 @@ _UNFIT = {
 
 
 def _liveliness(timing: Timing | None) -> LivelinessPolicy:
-    """Return the policy of an endpoint; the default of the system where it is not known."""
+    """Return an endpoint's liveliness policy; the system's default if unknown."""
     if timing is None:
         return LivelinessPolicy.SYSTEM_DEFAULT
     manual = timing.is_manual
@@ -205,7 +205,7 @@ def _liveliness(timing: Timing | None) -> LivelinessPolicy:
 
 
 def profile_from(quality: Quality) -> QoSProfile:
-    """The profile of an endpoint somewhere, as far as it is known."""
+    """Return the profile of another process's endpoint, as far as known."""
     timing = quality.timing or Timing()
     return QoSProfile(
         deadline=Duration(nanoseconds=timing.deadline or 0),
@@ -224,7 +224,7 @@ def profile_from(quality: Quality) -> QoSProfile:
 
 
 def profile_of(given: "QoSProfile | int") -> QoSProfile:
-    """The profile that a profile or a bare depth means.
+    """Return a profile from a profile or a depth.
 
     Raises:
         TypeError: If it is neither.
@@ -264,7 +264,7 @@ qos_profile_best_available = QoSProfile(
 
 
 class QoSPresetProfiles(Enum):
-    """Ready profiles; `.value` is the profile."""
+    """Preset profiles; `.value` is the profile."""
 
     UNKNOWN = qos_profile_unknown
     DEFAULT = qos_profile_default
@@ -278,10 +278,10 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """The names, lower case."""
+        """Return the names in lower case."""
         return [seat.lower() for seat in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:
-        """The profile of a lower-case name."""
+        """Return the profile of a lower-case name."""
         return cls[name.upper()].value

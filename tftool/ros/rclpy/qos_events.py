@@ -1,4 +1,4 @@
-"""rclpy.event_handler: notifications about the other ends of a topic.
+"""rclpy.event_handler: events about the other ends of a topic.
 
 Told are those that come and go ("matched"), those whose quality does not fit
 ("incompatible_qos"), those that are silent for too long ("deadline"), and those that no longer say
@@ -20,7 +20,7 @@ from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 
 
 class UnsupportedEventTypeError(Exception):
-    """A kind of event that is not known."""
+    """Error for an unknown kind of event."""
 
 
 class QoSPublisherEventType(IntEnum):
@@ -52,7 +52,7 @@ class QoSCountInfo(NamedTuple):
 
 
 class QoSLivelinessChangedInfo(NamedTuple):
-    """Number of publishers that are alive, and that are not."""
+    """Numbers of publishers that are alive and not alive."""
 
     alive_count: int = 0
     not_alive_count: int = 0
@@ -61,7 +61,7 @@ class QoSLivelinessChangedInfo(NamedTuple):
 
 
 class QoSIncompatibleInfo(NamedTuple):
-    """Number of other ends that do not fit, and the policy that the last one violates."""
+    """Number of incompatible endpoints, and the last one's violated policy."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -69,7 +69,7 @@ class QoSIncompatibleInfo(NamedTuple):
 
 
 class QoSMatchedInfo(NamedTuple):
-    """Number of other ends there have been, and that there are."""
+    """Number of matched endpoints, in total and at present."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -82,7 +82,7 @@ Told = Callable[[Any], object] | None
 
 @dataclass(slots=True)
 class PublisherEventCallbacks:
-    """Events a publisher's node wants."""
+    """Callbacks for a publisher's events."""
 
     incompatible_qos: Told = None
     liveliness: Told = None
@@ -94,7 +94,7 @@ class PublisherEventCallbacks:
 
 @dataclass(slots=True)
 class SubscriptionEventCallbacks:
-    """Events a subscription's node wants."""
+    """Callbacks for a subscription's events."""
 
     incompatible_qos: Told = None
     liveliness: Told = None
@@ -106,7 +106,7 @@ class SubscriptionEventCallbacks:
 
 
 class Silence:
-    """Tells when there was no sign of something for too long after the last one."""
+    """Reports when too much time has passed since the last sign of life."""
 
     def __init__(self, seat: NodeSeat, limit: int | None, told: Callable[[], object]) -> None:
         """Wait for the first sign.
@@ -123,13 +123,13 @@ class Silence:
         self._timer: asyncio.Future[None] | None = None
 
     def end(self) -> None:
-        """There is a sign."""
+        """Record a sign."""
         self._last = self._seat.now()
         if self._timer is None and self._limit is not None:
             self._wait(self._limit)
 
     def stop(self) -> None:
-        """Tell no more."""
+        """Stop reporting."""
         if self._timer is not None:
             self._timer.cancel()
 
@@ -153,7 +153,7 @@ class EndpointWatch(WorkQueue):
     """Calls a node's callbacks when other ends of a topic come and go."""
 
     def __init__(self, seat: NodeSeat, group: Any, own: Endpoint, wanted: Any) -> None:
-        """Watch for an end of a topic (on the loop's thread)."""
+        """Watch an endpoint of a topic (in the loop's thread)."""
         super().__init__(seat, group)
         self._own = own
         self._wanted = wanted
@@ -216,7 +216,7 @@ class EndpointWatch(WorkQueue):
             self._tell(self._wanted.liveliness, self._lives)
 
     def message_passed(self) -> None:
-        """A message was sent or has arrived: the next is due within the deadline."""
+        """Record a message; the next one is due within the deadline."""
         self._deadline.end()
 
     def _miss(self) -> None:
@@ -225,7 +225,7 @@ class EndpointWatch(WorkQueue):
         self._deadline.end()
 
     def lease_expired(self) -> None:
-        """A publisher has given no sign of life for longer than it had promised."""
+        """Report a publisher whose liveliness lease has expired."""
         self._lost = QoSCountInfo(self._lost.total_count + 1, 1)
         self._tell(self._wanted.liveliness, self._lost)
 
@@ -234,7 +234,7 @@ class EndpointWatch(WorkQueue):
             self.put(lambda: callback(info))
 
     def withdraw(self) -> None:
-        """Watch no more."""
+        """Stop watching."""
         super().withdraw()
         self._stop()
         self._deadline.stop()

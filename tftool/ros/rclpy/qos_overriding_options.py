@@ -1,4 +1,4 @@
-"""rclpy.qos_overriding_options: a topic's quality by parameters of its node."""
+"""rclpy.qos_overriding_options: a topic's QoS set by its node's parameters."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -11,19 +11,19 @@ _DEFAULT = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILIT
 
 
 class InvalidQosOverridesError(Exception):
-    """The profile that came of parameters was refused."""
+    """Error for a refused profile from parameters."""
 
 
 @dataclass(slots=True)
 class QosCallbackResult:
-    """Answer of a callback about a profile."""
+    """Result of a callback that checks a profile."""
 
     successful: bool = False
     reason: str = ""
 
 
 class QoSOverridingOptions:
-    """Policies of a topic that parameters may set, and the callback that checks the outcome."""
+    """Policies of a topic that parameters may set, and the callback that checks the result."""
 
     def __init__(
         self,
@@ -43,12 +43,12 @@ class QoSOverridingOptions:
         callback: Callable[[QoSProfile], QosCallbackResult] | None = None,
         entity_id: str | None = None,
     ) -> "QoSOverridingOptions":
-        """History, depth and reliability."""
+        """Return options for history, depth and reliability."""
         return cls(_DEFAULT, callback=callback, entity_id=entity_id)
 
 
 def _get_qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
-    """A policy's value as a parameter has it: a name in small letters, or a number."""
+    """Return a policy's value as a parameter: a lower-case name, or a number."""
     value = getattr(qos, policy.name.lower())
     if isinstance(value, Duration):
         return value.nanoseconds
@@ -58,7 +58,7 @@ def _get_qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
 def declare_overrides(
     node: Any, sort: str, topic: str, qos: QoSProfile, options: QoSOverridingOptions
 ) -> None:
-    """Declare the parameters of a topic's policies, and put their values into the profile.
+    """Declare the parameters of a topic's policies, and apply their values to the profile.
 
     Raises:
         InvalidQosOverridesError: If a value is none of its policy, or the callback refuses.
@@ -91,6 +91,6 @@ def declare_overrides(
 def _declare_qos_parameters(
     entity_type: Any, node: Any, topic: str, qos: QoSProfile, options: QoSOverridingOptions
 ) -> None:
-    """As rclpy calls it, by the class of the topic's end."""
+    """Declare the parameters, called as in rclpy with the class of the topic's endpoint."""
     sort = "publisher" if "Publisher" in entity_type.__name__ else "subscription"
     declare_overrides(node, sort, topic, qos, options)

@@ -1,4 +1,4 @@
-"""A node's log on `/rosout`, for other programs that listen there."""
+"""A node's log on `/rosout`, for other programs."""
 
 from typing import Any
 
@@ -12,14 +12,14 @@ TOPIC = "rosout"
 
 
 class RosoutPublisher(Publisher):
-    """Publishes what the loggers of one node say.
+    """Publisher of the lines of one node's loggers.
 
     Attributes:
         logger: The name of the node's logger.
     """
 
     def __init__(self, seat: NodeSeat, logger: str, profile: QoSProfile | None) -> None:
-        """Publish from now on.
+        """Start publishing.
 
         Args:
             seat: The node's.
@@ -31,11 +31,11 @@ class RosoutPublisher(Publisher):
         self.logger = logger
 
     def speaks_for(self, logger: str) -> bool:
-        """Whether a logger is the node's, or below it."""
+        """Return whether a logger is the node's, or a child of it."""
         return logger == self.logger or logger.startswith(f"{self.logger}.")
 
     def tell(self, level: int, logger: str, text: str, place: tuple[str, str, int]) -> None:
-        """Publish a line (on the loop's thread); `place` is its file, function and number."""
+        """Publish a line (in the loop's thread); `place` is its file, function and number."""
         file, function, line = place
         message = self.msg_type(
             stamp=values.time_message(self.seat.now()),

@@ -1,4 +1,4 @@
-"""A node's seat in the world: what its publishers, timers, services and the rest need of it.
+"""A node's connection to the world, shared by its publishers, timers and services.
 
 A node's class belongs to the user, who may call an attribute `world`, `graph` or
 `entities` as well: so all of this stands behind one attribute, `_tftool`. What a node
@@ -20,7 +20,7 @@ from tftool.world.world import TransformMessage, World
 
 
 class NodeSeat:
-    """A node of a program, as its things and its executor know it.
+    """A program's node as its entities and its executor use it.
 
     Attributes:
         program: Whose node it is.
@@ -86,7 +86,7 @@ class NodeSeat:
         return ProgramNode(self.program, name)
 
     def full(self, name: str, *, remap: bool = True, is_service: bool = False) -> str:
-        """A topic's or service's full name, without its leading slash.
+        """Return a topic's or service's full name, without leading slash.
 
         Raises:
             NameValidationException: If it can be none.
@@ -98,7 +98,7 @@ class NodeSeat:
     # What it has
 
     def require_of(self, entity: Any) -> None:
-        """See that it still has a thing.
+        """Check that an entity still belongs to it.
 
         Raises:
             InvalidHandle: If that is destroyed.
@@ -107,7 +107,7 @@ class NodeSeat:
             raise InvalidHandle(f"a {type(entity).__name__} of '{self.name}' is destroyed")
 
     def require(self) -> None:
-        """See that it can have something new.
+        """Check that it may get new entities.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -116,7 +116,7 @@ class NodeSeat:
             raise InvalidHandle(f"node '{self.name}' is destroyed: it can have nothing new")
 
     def keep(self, make: Callable[[], Any]) -> Any:
-        """Make a thing on the loop's thread, and have executors serve it.
+        """Make an entity in the loop's thread, and add it to executors.
 
         Raises:
             InvalidHandle: If the node is destroyed.
@@ -132,7 +132,7 @@ class NodeSeat:
         return self.program.ask(made)
 
     def forget(self, entity: Any) -> bool:
-        """Withdraw one of its things; whether it was one."""
+        """Close an entity; return whether it belonged to the node."""
 
         def drop() -> bool:
             if entity not in self.entities:
@@ -144,7 +144,7 @@ class NodeSeat:
         return bool(self.program.ask(drop))
 
     def leave(self) -> None:
-        """Withdraw everything, from the program's thread."""
+        """Close everything, called in the program's thread."""
         if not self._destroyed:
             for rate in tuple(self.rates):
                 rate.destroy()
@@ -170,11 +170,11 @@ class NodeSeat:
         self.world.remove(self._node)
 
     def now(self) -> Stamp:
-        """The moment it is."""
+        """Return the world's time."""
         return self.program.clock.now()
 
     def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
-        """Return what a latched subscription gets at once from this process, and from whom."""
+        """Return this process's latched messages for a new subscription, with their senders."""
         if full == "tf_static":
             transforms = self.world.static_transforms()
             return [(TransformMessage(transforms, ""), None)] if transforms else []
@@ -187,7 +187,7 @@ class NodeSeat:
     # Waiting
 
     def wait_until(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
-        """Block until something that comes and goes in the world is there; whether it is."""
+        """Block until something exists in the world; return whether it does."""
         if timeout_sec is not None and timeout_sec <= 0:
             timeout_sec = 0.0
         return bool(self.program.ask(lambda: self._appears(there, timeout_sec)))
@@ -218,7 +218,7 @@ class NodeSeat:
 
 
 def seat_of(node: Any) -> NodeSeat:
-    """The seat of a node that a user holds.
+    """Return the seat of a user's node.
 
     Raises:
         TypeError: If it is no node, or one whose `__init__` did not call `super().__init__`.

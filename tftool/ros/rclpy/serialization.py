@@ -1,4 +1,4 @@
-"""rclpy.serialization: messages as the bytes ROS 2 sends."""
+"""rclpy.serialization: messages as ROS 2's bytes."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ from tftool.messages.codec import codec
 
 
 def serialize_message(message: Any) -> bytes:
-    """The bytes of a message.
+    """Return the bytes of a message.
 
     Raises:
         TypeError: If it is no message.
@@ -18,7 +18,7 @@ def serialize_message(message: Any) -> bytes:
 
 
 def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
-    """The message of some bytes.
+    """Return the message of some bytes.
 
     Raises:
         MalformedMessage: If they are not one of that type.

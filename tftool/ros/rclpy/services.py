@@ -1,4 +1,4 @@
-"""Clients that ask services, and the services that answer.
+"""Clients and services.
 
 What arrived waits until an executor takes it, as with all entities.
 """
@@ -22,7 +22,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class ServiceIntrospectionState(IntEnum):
-    """Requests and answers that a service publishes."""
+    """What a service publishes of its requests and responses."""
 
     OFF = 0
     METADATA = 1
@@ -30,15 +30,15 @@ class ServiceIntrospectionState(IntEnum):
 
 
 class _Introspected:
-    """Introspection of a service and its clients."""
+    """Introspection of a service or client."""
 
     def configure_introspection(self, clock: Any, qos: Any, state: int) -> None:
-        """Take note; the requests and answers themselves are not published here."""
+        """Store the setting; requests and responses are not published here."""
         self.introspection_state = ServiceIntrospectionState(state)
 
 
 class Client(_Introspected, Requester):
-    """Asks a service."""
+    """Client of a service."""
 
     def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
         super().__init__(seat, group)
@@ -75,7 +75,7 @@ class Client(_Introspected, Requester):
         return future
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
-        """Ask, and block until the answer is there.
+        """Send a request, and block until the response arrives.
 
         Unlike in ROS 2 this may be called inside a callback.
 
@@ -92,7 +92,7 @@ class Client(_Introspected, Requester):
         return future.result()
 
     def remove_pending_request(self, future: Future) -> None:
-        """Wait no longer for an answer."""
+        """Stop waiting for a response."""
         future.cancel()
 
     async def _call(self, request: Any, future: Future) -> None:
@@ -111,7 +111,7 @@ class Client(_Introspected, Requester):
 
 
 class Service(_Introspected, WorkQueue):
-    """Answers a service."""
+    """Server of a service."""
 
     def __init__(
         self,
@@ -136,7 +136,7 @@ class Service(_Introspected, WorkQueue):
         return f"/{self.full}"
 
     async def asked(self, request: Any) -> Any:
-        """Keep a request until an executor takes it; its answer.
+        """Queue a request for an executor; return a future of its response.
 
         Raises:
             TftoolError: If too many wait already.
@@ -185,7 +185,7 @@ class Service(_Introspected, WorkQueue):
         self.seat.program.ask(send)
 
     def withdraw(self) -> None:
-        """Serve no more; who still waits is told that no answer will come."""
+        """Stop serving; waiting clients are told that no response will come."""
         super().withdraw()
         self._stop()
         for answer in self._open:
@@ -198,7 +198,7 @@ def serve_own(
     services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
     callback_group: Any = None,
 ) -> None:
-    """Answer services that nodes have below their names; of two of one name the first answers."""
+    """Serve nodes' own services; of two with one name the first responds."""
     seat, wanted = seat_of(node), list(services)
 
     def offer() -> None:

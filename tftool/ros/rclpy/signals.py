@@ -1,4 +1,4 @@
-"""rclpy.signals: Ctrl-C is handled by the runtime, whatever is asked for."""
+"""rclpy.signals: the runtime always handles Ctrl-C itself."""
 
 from enum import IntEnum
 
@@ -7,7 +7,7 @@ from tftool.ros.rclpy.context import context_of
 
 
 class SignalHandlerOptions(IntEnum):
-    """Signals that rclpy would handle."""
+    """Signals that rclpy could handle."""
 
     NO = 0
     ALL = 1
@@ -16,6 +16,6 @@ class SignalHandlerOptions(IntEnum):
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """Return the signals that are handled: ROS 2's answer, all while the context is started."""
+    """Return the handled signals: as in ROS 2 all, while the context is initialised."""
     started = context_of(program.current()).ok()
     return SignalHandlerOptions.ALL if started else SignalHandlerOptions.NO

@@ -1,4 +1,4 @@
-"""rclpy's times, durations, clocks and rates, on the world's clock."""
+"""rclpy's times, durations, clocks and rates, based on the world's clock."""
 
 import asyncio
 import math
@@ -20,7 +20,7 @@ _FOR_EVER = 10**18
 
 
 class ClockType(IntEnum):
-    """Clock of a time."""
+    """Kind of a clock."""
 
     UNINITIALIZED = 0
     ROS_TIME = 1
@@ -29,7 +29,7 @@ class ClockType(IntEnum):
 
 
 class Duration:
-    """A length of time in whole nanoseconds."""
+    """A duration in whole nanoseconds."""
 
     __slots__ = ("_nanoseconds",)
 
@@ -40,7 +40,7 @@ class Duration:
 
     @property
     def nanoseconds(self) -> int:
-        """The length in nanoseconds."""
+        """The duration in nanoseconds."""
         return self._nanoseconds
 
     def __repr__(self) -> str:
@@ -83,12 +83,12 @@ class Duration:
         return Duration(nanoseconds=self._nanoseconds * factor)
 
     def to_msg(self) -> Any:
-        """The builtin_interfaces Duration."""
+        """Return it as a builtin_interfaces Duration."""
         return values.time_message(self._nanoseconds, "Duration")
 
     @classmethod
     def from_msg(cls, msg: Any) -> "Duration":
-        """The Duration of a builtin_interfaces Duration."""
+        """Return the Duration of a builtin_interfaces Duration."""
         return cls(nanoseconds=values.stamp_of(msg))
 
 
@@ -102,7 +102,7 @@ Infinite = Duration(nanoseconds=_RANGE - 1)
 
 
 class Time:
-    """A moment in whole nanoseconds; 0 in a lookup means the latest."""
+    """A time in whole nanoseconds; 0 in a lookup means the latest."""
 
     __slots__ = ("_clock_type", "_nanoseconds")
 
@@ -126,16 +126,16 @@ class Time:
 
     @property
     def nanoseconds(self) -> int:
-        """The moment in nanoseconds."""
+        """The time in nanoseconds."""
         return self._nanoseconds
 
     @property
     def clock_type(self) -> ClockType:
-        """Return the clock of the time."""
+        """Kind of the time's clock."""
         return self._clock_type
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
-        """Whole seconds, and the nanoseconds beyond them."""
+        """Return whole seconds, and the remaining nanoseconds."""
         return self._nanoseconds // S_TO_NS, self._nanoseconds % S_TO_NS
 
     def __repr__(self) -> str:
@@ -184,20 +184,20 @@ class Time:
         return self._nanoseconds >= self._alike(other)
 
     def to_msg(self) -> Any:
-        """The builtin_interfaces Time."""
+        """Return it as a builtin_interfaces Time."""
         return values.time_message(self._nanoseconds)
 
     @classmethod
     def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> "Time":
-        """The Time of a builtin_interfaces Time."""
+        """Return the Time of a builtin_interfaces Time."""
         return cls(nanoseconds=values.stamp_of(msg), clock_type=clock_type)
 
 
 class Clock:
-    """The world's clock, whatever its type: a simulated world has only one time."""
+    """The world's clock, of any type: a simulated world has only one time."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> "Clock":
-        """Make the clock of that type; ROS time has a class of its own."""
+        """Make the clock of that type; ROS time has its own class."""
         return super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
 
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
@@ -209,7 +209,7 @@ class Clock:
 
     @property
     def clock_type(self) -> ClockType:
-        """Return the kind of clock."""
+        """Kind of clock."""
         return self._clock_type
 
     @property
@@ -218,21 +218,21 @@ class Clock:
         return self._program.strict
 
     def now(self) -> Time:
-        """The moment it is."""
+        """Return the present time."""
         return Time(nanoseconds=self._program.now(), clock_type=self._clock_type)
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
-        """Block until a moment; False if the program or the context was ended meanwhile."""
+        """Block until a time; return False if the program or context ended meanwhile."""
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
         return self._sleep(until.nanoseconds - self.now().nanoseconds, context)
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
-        """Block for a while; False if the program or the context was ended meanwhile."""
+        """Block for a duration; return False if the program or context ended meanwhile."""
         return self._sleep(rel_time.nanoseconds, context)
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block on the world's clock; False where something else ended it."""
+        """Block on the world's clock; return False if something else ended it."""
         _require_started(context)
         sleep = _Sleep(self._program)
         stop = None if context is None else context.on_change(sleep.end)
@@ -250,7 +250,7 @@ class Clock:
         pre_callback: Callable[[], object] | None = None,
         post_callback: "Callable[[TimeJump], object] | None" = None,
     ) -> "JumpHandle":
-        """Register for jumps in time; only a ROS clock that a time source drives ever jumps.
+        """Register for time jumps; only a ROS clock with a time source ever jumps.
 
         Raises:
             ValueError: If there is neither of the callbacks.
@@ -264,14 +264,14 @@ class Clock:
 
 
 class _Sleep:
-    """A pause of a program, which others may end early."""
+    """A program's sleep, which others may interrupt."""
 
     def __init__(self, owner: Any) -> None:
         self._owner = owner
         self._timers: set[asyncio.Future[None]] = set()
 
     def start(self, duration: int, is_over: Callable[[], bool]) -> None:
-        """Block for a while, unless it is over by the time that it begins."""
+        """Block for a duration, unless it was ended before."""
         if not self._owner.interrupted:
             self._owner.ask(lambda: self._wait(max(0, duration), is_over))
 
@@ -289,7 +289,7 @@ class _Sleep:
             timer.cancel()
 
     def end(self) -> None:
-        """Wake everybody."""
+        """Wake all waiting threads."""
 
         def wake() -> None:
             for timer in list(self._timers):
@@ -299,13 +299,13 @@ class _Sleep:
 
 
 def _require_started(context: Any) -> None:
-    """Refuse to sleep in a context that is not initialized, or shut down already."""
+    """Refuse to sleep in a context that is not initialised, or shut down."""
     if context is not None and not context.ok():
         raise NotInitializedException
 
 
 class ROSClock(Clock):
-    """The clock nodes have."""
+    """Clock of nodes."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> "ROSClock":
         """Make one."""
@@ -323,11 +323,11 @@ class ROSClock(Clock):
         return super().ros_time_is_active if self._is_overridden is None else self._is_overridden
 
     def now(self) -> Time:
-        """Return the present moment, or what the time source last said while it is active."""
+        """Return the present time, or the time source's last one while it is active."""
         return self._override if self._is_overridden else super().now()
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
-        """Follow the time source or the world from now on (called by the time source)."""
+        """Use the time source or the world's time from now on (called by the time source)."""
         if enabled is bool(self._is_overridden):
             self._is_overridden = enabled
             return
@@ -336,7 +336,7 @@ class ROSClock(Clock):
             self._is_overridden = enabled
 
     def set_ros_time_override(self, time: Time) -> None:
-        """Set what the clock says while its time source is active.
+        """Set the clock's time while its time source is active.
 
         Raises:
             TypeError: If that is no Time.
@@ -354,7 +354,7 @@ class ROSClock(Clock):
             self._override = override
 
     def _sleep(self, duration: int, context: Any) -> bool:
-        """Block until this clock has moved so far; False where its source of time changed."""
+        """Block until this clock has advanced so far; return False if its time source changed."""
         _require_started(context)
         until, is_changed = super().now().nanoseconds + duration, False
         if self._is_overridden:
@@ -385,7 +385,7 @@ class ROSClock(Clock):
 
     @contextmanager
     def _jumping(self, jump: "TimeJump") -> Iterator[None]:
-        """Call the registered callbacks around the jump that the block makes."""
+        """Call the registered callbacks around the jump made in this block."""
         handles = [one for one in self._jump_handles if one.concerns(jump)]
         for handle in handles:
             handle.call_before()
@@ -395,7 +395,7 @@ class ROSClock(Clock):
 
 
 class ClockChange(IntEnum):
-    """Change of a clock's source of time."""
+    """Change of a clock's time source."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -404,7 +404,7 @@ class ClockChange(IntEnum):
 
 
 class JumpThreshold:
-    """From which jump on one wants to hear of it."""
+    """Smallest jump for which a callback is called."""
 
     def __init__(
         self,
@@ -433,7 +433,7 @@ class TimeJump:
 
 
 class JumpHandle:
-    """A registration for jumps of a clock; the newest of its clock is called last."""
+    """A registered callback for jumps; the newest of a clock is called last."""
 
     def __init__(
         self,
@@ -447,7 +447,7 @@ class JumpHandle:
         siblings.append(self)
 
     def concerns(self, jump: TimeJump) -> bool:
-        """Whether the jump exceeds the threshold."""
+        """Return whether the jump exceeds the threshold."""
         least, most = self._threshold.min_forward, self._threshold.min_backward
         changes = (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED)
         return (
@@ -457,17 +457,17 @@ class JumpHandle:
         )
 
     def call_before(self) -> None:
-        """Call back before the clock jumps."""
+        """Call back before the jump."""
         if self._before is not None:
             self._before()
 
     def call_after(self, jump: TimeJump) -> None:
-        """Call back once the clock has jumped."""
+        """Call back after the jump."""
         if self._after is not None:
             self._after(jump)
 
     def unregister(self) -> None:
-        """Call back no more."""
+        """Remove the callback."""
         if self in self._siblings:
             self._siblings.remove(self)
 
@@ -479,7 +479,7 @@ class JumpHandle:
 
 
 class Rate:
-    """Sleeps so that a loop runs so many times a second."""
+    """Sleeps so that a loop runs at a rate."""
 
     def __init__(self, seat: Any, timer: Any) -> None:
         self._period: int = timer.timer_period_ns
@@ -494,7 +494,7 @@ class Rate:
         self._siblings.add(self)
 
     def sleep(self) -> None:
-        """Block until the next moment of the grid.
+        """Block until the next period.
 
         Raises:
             ROSInterruptException: If the context is shut down, before or meanwhile.
@@ -516,7 +516,7 @@ class Rate:
             raise ROSInterruptException
 
     def destroy(self) -> None:
-        """Give it up, and wake who sleeps."""
+        """Destroy it, and wake sleeping threads."""
         if not self._over:
             self._over = True
             self._siblings.discard(self)

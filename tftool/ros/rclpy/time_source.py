@@ -1,4 +1,4 @@
-"""rclpy.time_source: gives clocks the time of the topic `/clock`, apart from the world's own time.
+"""rclpy.time_source: clocks that follow `/clock`, apart from the world's own time.
 
 A node's own clock follows the world. Programs that make a `TimeSource` themselves, most of them
 tests, decide with a node's parameter `use_sim_time` whether the clocks they attach follow `/clock`.
@@ -18,7 +18,7 @@ USE_SIM_TIME_NAME = "use_sim_time"
 
 
 class TimeSource:
-    """Gives its clocks the time of `/clock` while its node's `use_sim_time` is true."""
+    """Sets its clocks from `/clock` while its node's `use_sim_time` is true."""
 
     def __init__(self, *, node: Any = None) -> None:
         self._node: Any = None
@@ -85,14 +85,14 @@ class TimeSource:
         node.add_on_set_parameters_callback(self._on_parameters)
 
     def detach_node(self) -> None:
-        """Follow no node; does nothing without one."""
+        """Stop following a node; does nothing without one."""
         if self._node is not None:
             self._node.remove_on_set_parameters_callback(self._on_parameters)
         self._unsubscribe()
         self._node = None
 
     def attach_clock(self, clock: Any) -> None:
-        """Give a clock the time.
+        """Add a clock to set.
 
         Raises:
             ValueError: If it is none of ROS time.
@@ -105,7 +105,7 @@ class TimeSource:
             self._clocks.append(clock)
 
     def clock_callback(self, message: Any) -> None:
-        """Set the attached clocks to the time of a message of `/clock`."""
+        """Set the clocks to the time of a `/clock` message."""
         self._last_time_set = Time.from_msg(message.clock)
         for clock in self._clocks:
             clock.set_ros_time_override(self._last_time_set)

@@ -20,13 +20,13 @@ class TimerInfo:
         actual_call_time: int = 0,
         clock_type: ClockType = ClockType.SYSTEM_TIME,
     ) -> None:
-        """Note two moments in nanoseconds of a clock."""
+        """Take two times in nanoseconds of a clock."""
         self.expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
         self.actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
 
 
 class Timer(NodeEntity):
-    """Calls back on an integer grid; the first time one period after it is made."""
+    """Calls back at multiples of its period, first one period after its creation."""
 
     is_a_callback = True
 
@@ -50,7 +50,7 @@ class Timer(NodeEntity):
 
     @property
     def timer_period_ns(self) -> int:
-        """The time between two calls, nanoseconds."""
+        """Period in nanoseconds."""
         return self._period
 
     @timer_period_ns.setter
@@ -61,15 +61,15 @@ class Timer(NodeEntity):
         self.seat.program.ask(change)
 
     def ready(self) -> bool:
-        """Whether it is due."""
+        """Return whether it is due."""
         return not self._canceled and self.due <= self.seat.now()
 
     def is_ready(self) -> bool:
-        """Whether it is due."""
+        """Return whether it is due."""
         return self.ready()
 
     def take(self) -> Work:
-        """The callback; the next moment is the first of the grid to come."""
+        """Return the callback; the next call is at the next future multiple of the period."""
         now, due = self.seat.now(), self.due
         self._last = now
         # As fast as possible must not hold simulated time still.
@@ -93,11 +93,11 @@ class Timer(NodeEntity):
         return work
 
     def cancel(self) -> None:
-        """Call no more, until `reset`."""
+        """Make no further call until `reset`."""
         self._canceled = True
 
     def is_canceled(self) -> bool:
-        """Whether it was cancelled."""
+        """Return whether it was cancelled."""
         return self._canceled
 
     def reset(self) -> None:
@@ -111,16 +111,16 @@ class Timer(NodeEntity):
         self.seat.program.ask(restart)
 
     def time_since_last_call(self) -> int:
-        """Nanoseconds since the last call."""
+        """Return nanoseconds since the last call."""
         return self.seat.now() - self._last
 
     def time_until_next_call(self) -> int | None:
-        """Nanoseconds until the next call, None when cancelled."""
+        """Return nanoseconds until the next call; None if cancelled."""
         return None if self._canceled else self.due - self.seat.now()
 
 
 class RateTimer(Timer):
-    """Ends a `spin_once` at every moment of a rate's grid, as the timer of a rate does in ROS."""
+    """Ends a `spin_once` at every period of a rate, as a rate's timer does in ROS."""
 
     only_ends_spin_once = True
 
@@ -136,7 +136,7 @@ def _takes_none(callback: Callable[..., Any]) -> bool:
 
 
 def period_of(seconds_or_duration: Any) -> int:
-    """A timer's period in nanoseconds, from seconds or a Duration."""
+    """Return a timer's period in nanoseconds, from seconds or a Duration."""
     if isinstance(seconds_or_duration, Duration):
         return seconds_or_duration.nanoseconds
     return int(float(seconds_or_duration) * 1_000_000_000)

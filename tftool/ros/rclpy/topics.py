@@ -50,7 +50,7 @@ class Publisher(NodeEntity):
 
     @property
     def endpoint(self) -> Endpoint:
-        """Its place in the graph."""
+        """Its entry in the graph."""
         return self._endpoint
 
     @property
@@ -59,7 +59,7 @@ class Publisher(NodeEntity):
         return f"/{self.full}"
 
     def publish(self, msg: Any) -> None:
-        """Send a message, or the bytes of one.
+        """Send a message, or a message's bytes.
 
         Raises:
             TypeError: If it is of another type.
@@ -94,7 +94,7 @@ class Publisher(NodeEntity):
         return int(self.seat.program.ask(lambda: self._topic.subscribers))
 
     def assert_liveliness(self) -> None:
-        """Say that it is alive, for those who asked for it to be said by hand."""
+        """Assert liveliness, for subscribers that request manual assertion."""
         self.seat.program.ask(self._be_alive)
 
     def _be_alive(self) -> None:
@@ -108,7 +108,7 @@ class Publisher(NodeEntity):
             self.event_watch.lease_expired()
 
     def wait_for_all_acked(self, timeout: Any = None) -> bool:
-        """Return True: everybody in the world has the message when `publish` returns."""
+        """Return True: `publish` returns after delivery to the whole world."""
         return True
 
     def withdraw(self) -> None:
@@ -123,7 +123,7 @@ class Publisher(NodeEntity):
 
 
 class MessageInfo(TypedDict):
-    """Facts about a message, for a callback with two arguments; stamps in nanoseconds."""
+    """Facts about a message for a callback's second argument; stamps in nanoseconds."""
 
     source_timestamp: int
     received_timestamp: int
@@ -182,7 +182,7 @@ class Subscription(NodeEntity):
 
     @property
     def endpoint(self) -> Endpoint:
-        """Its place in the graph."""
+        """Its entry in the graph."""
         return self._endpoint
 
     def get_publisher_count(self) -> int:
@@ -204,11 +204,11 @@ class Subscription(NodeEntity):
                 self.event_watch.message_passed()
 
     def ready(self) -> bool:
-        """Whether a message waits."""
+        """Return whether a message waits."""
         return bool(self._queue)
 
     def take(self) -> Work:
-        """The callback with the oldest waiting message."""
+        """Return the callback with the oldest waiting message."""
         stamp, value = self._queue.popleft()
 
         def work() -> Any:
@@ -230,7 +230,7 @@ class Subscription(NodeEntity):
         return work
 
     def withdraw(self) -> None:
-        """Stop listening."""
+        """Unsubscribe."""
         super().withdraw()
         self._stop()
         self._leave()

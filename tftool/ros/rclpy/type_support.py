@@ -1,4 +1,4 @@
-"""rclpy.type_support: whether something is a message, a service or an action type."""
+"""rclpy.type_support: checks of message, service and action types."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ from tftool.ros.rclpy.exceptions import NoTypeSupportImportedException
 
 
 def check_for_type_support(msg_or_srv_type: Any) -> None:
-    """See that it is an interface.
+    """Check that it is an interface.
 
     Raises:
         AttributeError: If it is nothing like one.
@@ -19,7 +19,7 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:
-    """See that it is a message's type.
+    """Check that it is a message type.
 
     Raises:
         RuntimeError: If it is another's.
@@ -29,7 +29,7 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
-    """See that it is a service's type.
+    """Check that it is a service type.
 
     Raises:
         RuntimeError: If it is another's.

@@ -18,12 +18,12 @@ __all__ = [
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
-    """The arguments without ROS 2's."""
+    """Return the arguments without ROS 2's."""
     return names.parse(list(sys.argv if args is None else args))[1]
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
-    """Nanoseconds; -1 for no limit."""
+    """Return nanoseconds; -1 for no limit."""
     if timeout_sec is None or timeout_sec < 0:
         return -1
     return int(float(timeout_sec) * 1e9)

@@ -1,4 +1,4 @@
-"""rclpy's validate_… functions, and names expanded with their exceptions."""
+"""rclpy's validate_… functions, and expansion of names with its exceptions."""
 
 from collections.abc import Callable
 
@@ -17,12 +17,12 @@ HIDDEN_TOPIC_PREFIX = "_"
 
 
 def topic_or_service_is_hidden(name: str) -> bool:
-    """Whether a part of a name begins with an underscore: lists leave it out."""
+    """Return whether a part of a name begins with an underscore, so that lists omit it."""
     return any(part.startswith(HIDDEN_TOPIC_PREFIX) for part in name.split("/"))
 
 
 def validate_node_name(node_name: str) -> bool:
-    """True, if it can be a node's name.
+    """Return True for a valid node name; else raise.
 
     Raises:
         InvalidNodeNameException: If it cannot.
@@ -31,7 +31,7 @@ def validate_node_name(node_name: str) -> bool:
 
 
 def validate_namespace(namespace: str) -> bool:
-    """True, if it can be an absolute namespace.
+    """Return True for a valid absolute namespace; else raise.
 
     Raises:
         InvalidNamespaceException: If it cannot.
@@ -40,7 +40,7 @@ def validate_namespace(namespace: str) -> bool:
 
 
 def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """True, if it can be a topic's (or service's) name, before it is expanded.
+    """Return True for a valid topic (or service) name before expansion; else raise.
 
     Raises:
         InvalidTopicNameException: If it cannot be a topic's.
@@ -51,7 +51,7 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
 
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """True, if it can be a topic's (or service's) full name.
+    """Return True for a valid full topic (or service) name; else raise.
 
     Raises:
         InvalidTopicNameException: If it cannot be a topic's.
@@ -63,7 +63,7 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
 
 
 def validate_parameter_name(name: str) -> bool:
-    """True, if it can be a parameter's name.
+    """Return True for a valid parameter name; else raise.
 
     Raises:
         InvalidParameterException: If it cannot.
@@ -74,7 +74,7 @@ def validate_parameter_name(name: str) -> bool:
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
-    """A topic's full name, with its leading slash.
+    """Return a topic's full name, with leading slash.
 
     Raises:
         NameValidationException: If one of the three is not valid.

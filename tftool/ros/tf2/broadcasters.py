@@ -32,7 +32,7 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class TransformListener:
-    """Fills a buffer from `/tf` and `/tf_static`; statics sent before are there at once."""
+    """Fills a buffer from `/tf` and `/tf_static`; earlier statics are there at once."""
 
     def __init__(
         self,
@@ -90,19 +90,19 @@ class TransformListener:
         self._stops.clear()
 
     def unregister(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._member.program.ask(self._stop)
 
 
 class StaticTransformListener(TransformListener):
-    """Fills a buffer from `/tf_static` alone."""
+    """Fills a buffer from `/tf_static` only."""
 
     def __init__(self, buffer: Buffer, node: Node, **kwargs: Any) -> None:
         super().__init__(buffer, node, static_only=True, **kwargs)
 
 
 class _Arrivals(NodeEntity):
-    """A listener's place among its node's things.
+    """A listener as an entity of its node.
 
     The buffer is filled without an executor; a `spin_once` ends when transforms have arrived,
     as the listener's subscription would end it in ROS.
@@ -116,28 +116,28 @@ class _Arrivals(NodeEntity):
         self._any = False
 
     def note(self) -> None:
-        """Take in that transforms arrived (on the loop's thread)."""
+        """Record that transforms arrived (in the loop's thread)."""
         self._any = True
         executor = self.seat.executor
         if executor is not None and executor.spins_once:
             executor.wake()
 
     def ready(self) -> bool:
-        """Whether transforms arrived since it was last taken."""
+        """Return whether transforms arrived since the last `take`."""
         return self._any
 
     def take(self) -> Work:
-        """Nothing to do: they are in the buffer already."""
+        """Do nothing: they are already in the buffer."""
         self._any = False
         return lambda: None
 
     def withdraw(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._stop()
 
 
 class TransformBroadcaster:
-    """Sends moving transforms."""
+    """Publishes moving transforms."""
 
     _static = False
 
@@ -167,7 +167,7 @@ class TransformBroadcaster:
             )
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802
-        """Send one transform, or several."""
+        """Publish one or several transforms."""
         several = transform if isinstance(transform, Iterable) else [transform]
         kind = INTERFACES.message("geometry_msgs/TransformStamped")
         sent = []
@@ -187,7 +187,7 @@ class TransformBroadcaster:
         seat.world.broadcast(sent, seat.authority, static=self._static)
 
     def _note_exchange(self, parent: str, child: str) -> None:
-        """Report once a link whose ends another transform names the other way round."""
+        """Report once a link for which another transform has parent and child exchanged."""
         link = f"{parent} {child}"
         if link not in self._told and self._member.world.buffer.parent(parent) == child != parent:
             self._told.add(link)
@@ -199,7 +199,7 @@ class TransformBroadcaster:
             )
 
     def _judge(self, sample: TransformStamped) -> None:
-        """Report once for each child the rotation that ROS 2 would refuse."""
+        """Report once per child a rotation that ROS 2 would refuse."""
         turn = sample.transform.rotation
         square = sum(number * number for number in turn)
         # NaN is refused in tf2's words; None is what no rotation at all is written as.
@@ -216,6 +216,6 @@ class TransformBroadcaster:
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):
-    """Sends transforms that hold for all time; late listeners get them too."""
+    """Publishes static transforms; late listeners receive them too."""
 
     _static = True

@@ -1,4 +1,4 @@
-"""tf2_ros: the buffer that waits.
+"""tf2_ros: the buffer with waiting lookups.
 
 A listener's transforms go straight into its buffer, whether its node spins or not, so waiting in a
 callback works; and it waits on the world's clock.
@@ -45,7 +45,7 @@ class Buffer(BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
     ) -> Any:
-        """The pose of source in target, as a geometry_msgs TransformStamped.
+        """Return the pose of source in target as a geometry_msgs TransformStamped.
 
         With a timeout the thread waits for it at most so long, by the world's clock.
 
@@ -65,7 +65,7 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Any = NOW,
     ) -> Any:
-        """The pose of source at one time in target at another, through a fixed frame.
+        """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
             TransformException: If it cannot be given.
@@ -82,7 +82,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = NOW,
         return_debug_tuple: bool = False,
     ) -> Any:
-        """Whether a lookup would succeed; with `return_debug_tuple`, (whether, why not)."""
+        """Return whether a lookup would succeed; with `return_debug_tuple`, (whether, why not)."""
         asked = question(target_frame, source_frame, time)
         return self._can(asked, timeout, return_debug_tuple)
 
@@ -96,7 +96,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = NOW,
         return_debug_tuple: bool = False,
     ) -> Any:
-        """Whether a lookup between two moments would succeed."""
+        """Return whether a lookup between two times would succeed."""
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._can(asked, timeout, return_debug_tuple)
 
@@ -106,7 +106,7 @@ class Buffer(BufferCore, BufferInterface):
         return (whether, why_not) if tell_why else bool(whether)
 
     def _wait(self, asked: LookupRequest | FullLookupRequest, timeout: Any) -> None:
-        """Wait as long as the answer may still come, at most for the timeout."""
+        """Wait while the answer may still become available, at most for the timeout."""
         limit = length(timeout)
         if limit > 0:
             self._hints.wait()
@@ -126,11 +126,11 @@ class Buffer(BufferCore, BufferInterface):
     # Awaited
 
     def wait_for_transform_async(self, *asked: Any, **named: Any) -> Future:
-        """A future that is done, with the transform, as soon as it can be given."""
+        """Return a future that gets the transform as soon as it is available."""
         return self._promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
-        """Do as `wait_for_transform_async`, between two moments."""
+        """Do as `wait_for_transform_async`, between two times."""
         return self._promise(full_question(*asked, **named))
 
     def _promise(self, asked: LookupRequest | FullLookupRequest) -> Future:
@@ -163,11 +163,11 @@ class Buffer(BufferCore, BufferInterface):
         return future
 
     async def lookup_transform_async(self, *asked: Any, **named: Any) -> Any:
-        """The transform, awaited."""
+        """Await the transform."""
         await self.wait_for_transform_async(*asked, **named)
         return self.lookup_transform_core(*asked, **named)
 
     async def lookup_transform_full_async(self, *asked: Any, **named: Any) -> Any:
-        """The transform between two moments, awaited."""
+        """Await the transform between two times."""
         await self.wait_for_transform_full_async(*asked, **named)
         return self.lookup_transform_full_core(*asked, **named)

@@ -1,4 +1,4 @@
-"""tf2_py: the buffer's core. It answers at once, or refuses."""
+"""tf2_py: the buffer's core, with lookups that succeed or fail at once."""
 
 from collections.abc import Callable
 from typing import Any
@@ -46,17 +46,17 @@ class BufferCore:
     # Setting
 
     def set_transform(self, transform: Any, authority: str) -> None:
-        """Take a moving link's sample in; one that is refused is said in the log."""
+        """Insert a sample of a moving link; a rejection is logged."""
         sample = values.pack_transform(transform)
         self._ask(lambda: self._frames.set_transform(sample, authority))
 
     def set_transform_static(self, transform: Any, authority: str) -> None:
-        """Take a link in that holds for all time; one that is refused is said in the log."""
+        """Insert a static link; a rejection is logged."""
         sample = values.pack_transform(transform)
         self._ask(lambda: self._frames.set_transform_static(sample, authority))
 
     def clear(self) -> None:
-        """Forget all that moves."""
+        """Drop all moving transforms."""
         self._ask(self._frames.clear)
 
     # Asking
@@ -88,7 +88,7 @@ class BufferCore:
         return reason
 
     def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
-        """The pose of source in target, as a geometry_msgs TransformStamped.
+        """Return the pose of source in target as a geometry_msgs TransformStamped.
 
         Raises:
             TransformException: If it cannot be given.
@@ -96,7 +96,7 @@ class BufferCore:
         return self._answer(question(*asked, **named))
 
     def lookup_transform_full_core(self, *asked: Any, **named: Any) -> Any:
-        """The pose of source at one time in target at another, through a fixed frame.
+        """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
             TransformException: If it cannot be given.
@@ -104,26 +104,26 @@ class BufferCore:
         return self._answer(full_question(*asked, **named))
 
     def can_transform_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
-        """(whether a lookup would succeed, why not)."""
+        """Return (whether a lookup would succeed, why not)."""
         return self._whether(question(*asked, **named))
 
     def can_transform_full_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
-        """(whether a lookup between two moments would succeed, why not)."""
+        """Return (whether a lookup between two times would succeed, why not)."""
         return self._whether(full_question(*asked, **named))
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """The newest moment at which both are known."""
+        """Return the newest time at which both are known."""
         stamp = self._ask(lambda: self._frames.get_latest_common_time(target_frame, source_frame))
         return Time(nanoseconds=stamp)
 
     # Looking round
 
     def all_frames_as_yaml(self) -> str:
-        """Every frame, as tf2 writes YAML."""
+        """Return every frame as tf2's YAML."""
         return str(self._ask(self._frames.all_frames_as_yaml))
 
     def all_frames_as_string(self) -> str:
-        """Every frame and its parent."""
+        """Return every frame and its parent."""
         return str(self._ask(self._frames.all_frames_as_string))
 
     def _allFramesAsDot(self, time: float = 0.0) -> str:  # noqa: N802

@@ -1,4 +1,4 @@
-"""tf2_geometry_msgs and tf2_sensor_msgs: messages moved into another frame.
+"""tf2_geometry_msgs and tf2_sensor_msgs: messages transformed to another frame.
 
 The message that is passed is never changed, nor is the transform. What a transform does to
 each kind of thing is in `tftool.geometry.quantities`.
@@ -52,33 +52,33 @@ def _headed(data: Any, transform: Any) -> Any:
 
 
 def do_transform_point(point: Any, transform: Any) -> Any:
-    """A PointStamped in the transform's frame."""
+    """Transform a PointStamped."""
     result = _headed(point, transform)
     _put(result.point, carry.point(_transform_of(transform), _xyz(point.point)))
     return result
 
 
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:
-    """A Vector3Stamped, turned and not moved."""
+    """Rotate a Vector3Stamped."""
     result = _headed(vector3, transform)
     _put(result.vector, carry.vector(_transform_of(transform), _xyz(vector3.vector)))
     return result
 
 
 def do_transform_pose(pose: Any, transform: Any) -> Any:
-    """A Pose in the transform's frame."""
+    """Transform a Pose."""
     return _pose(_transform_of(transform), pose)
 
 
 def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
-    """A PoseStamped in the transform's frame."""
+    """Transform a PoseStamped."""
     result = _headed(pose, transform)
     result.pose = _pose(_transform_of(transform), pose.pose)
     return result
 
 
 def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
-    """A PoseWithCovarianceStamped in the transform's frame."""
+    """Transform a PoseWithCovarianceStamped."""
     result = _headed(pose, transform)
     result.pose.pose = _pose(_transform_of(transform), pose.pose.pose)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
@@ -86,14 +86,14 @@ def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
 
 
 def transform_covariance(cov_in: Any, transform: Any) -> Any:
-    """A 6×6 covariance, turned: D·C·Dᵀ with the rotation twice on D's diagonal."""
+    """Rotate a 6×6 covariance: D·C·Dᵀ with the rotation twice on D's diagonal."""
     import numpy as np
 
     return np.array(carry.covariance(_transform_of(transform), cov_in))
 
 
 def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
-    """A PolygonStamped in the transform's frame."""
+    """Transform a PolygonStamped."""
     result = _headed(polygon, transform)
     a_from_b = _transform_of(transform)
     for point in result.polygon.points:
@@ -102,7 +102,7 @@ def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
 
 
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
-    """A Wrench in the transform's frame: the torque gains the force's arm."""
+    """Transform a Wrench: the torque gains that of the force's lever arm."""
     result = duplicate(wrench)
     force, torque = carry.wrench(_transform_of(transform), _xyz(wrench.force), _xyz(wrench.torque))
     _put(result.force, force)
@@ -111,14 +111,14 @@ def do_transform_wrench(wrench: Any, transform: Any) -> Any:
 
 
 def do_transform_wrench_stamped(wrench: Any, transform: Any) -> Any:
-    """A WrenchStamped in the transform's frame."""
+    """Transform a WrenchStamped."""
     result = _headed(wrench, transform)
     result.wrench = do_transform_wrench(wrench.wrench, transform)
     return result
 
 
 def do_transform_cloud(cloud: Any, transform: Any) -> Any:
-    """A PointCloud2 in the transform's frame; other fields, layout and stamp stay.
+    """Transform a PointCloud2; other fields, layout and stamp are kept.
 
     Raises:
         AssertionError: If it has no fields x, y and z.
@@ -153,7 +153,7 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
 
 
 def transform_points(point_cloud: Any, transform: Any) -> Any:
-    """Points, an array of shape (n, 3), moved by a Transform message."""
+    """Transform points, an array of shape (n, 3), by a Transform message."""
     import numpy as np
 
     points = np.asarray(point_cloud)
@@ -161,17 +161,17 @@ def transform_points(point_cloud: Any, transform: Any) -> Any:
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """The message itself."""
+    """Return the message itself."""
     return msg
 
 
 def from_msg_msg(msg: Any) -> Any:
-    """The message itself."""
+    """Return the message itself."""
     return msg
 
 
 def register() -> None:
-    """Have buffers transform these types."""
+    """Register these types with buffers."""
     transforms, conversions = TransformRegistration(), ConvertRegistration()
     for name, function in (
         ("geometry_msgs/PointStamped", do_transform_point),

@@ -1,4 +1,4 @@
-"""tf2's exceptions under the names a node imports."""
+"""tf2's exceptions under the names that nodes import."""
 
 from tftool.base.errors import (
     ConnectivityException,

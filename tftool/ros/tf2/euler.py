@@ -30,7 +30,7 @@ def _quad(quaternion: Sequence[float]) -> Quad:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quad:
-    """The quaternion of three turns, one after the other."""
+    """Return the quaternion of three rotations in sequence."""
     made = _quad(conversions.quaternion_from_euler((ai, aj, ak), axes))
     if (owner := running_program()) is not None:
         _look_for_degrees(owner, sys._getframe(1), (ai, aj, ak))
@@ -38,7 +38,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, float]) -> None:
-    """Say, once for a line of a program, that its angles look like degrees.
+    """Report, once per line of a program, angles that look like degrees.
 
     Only what a line gives first is looked at: an angle may well grow from turn to turn. And only
     halves and wholes up to 360: 90.0 is no plausible angle in radians.
@@ -62,22 +62,22 @@ def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, 
 def euler_from_quaternion(
     quaternion: Sequence[float], axes: str = "sxyz"
 ) -> tuple[float, float, float]:
-    """The three turns that a quaternion is made of."""
+    """Return a quaternion's three Euler angles."""
     return conversions.euler_from_quaternion(quaternion, axes)
 
 
 def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, float]:
-    """The three turns of a rotation matrix; where they are not unique, the last is 0."""
+    """Return a rotation matrix's three Euler angles; if not unique, the last is 0."""
     return conversions.euler_from_matrix(matrix, axes)
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Any:
-    """The 4×4 matrix of three turns."""
+    """Return the 4×4 matrix of three Euler angles."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def quaternion_matrix(quaternion: Sequence[float]) -> Any:
-    """The 4×4 matrix of a quaternion; zero stands for no turn."""
+    """Return the 4×4 matrix of a quaternion; zero means no rotation."""
     matrix = np.eye(4)
     turn = _quad(quaternion)
     if sum(part * part for part in turn) > _EPSILON:
@@ -86,28 +86,28 @@ def quaternion_matrix(quaternion: Sequence[float]) -> Any:
 
 
 def quaternion_from_matrix(matrix: Any) -> Quad:
-    """The quaternion of a 4×4 matrix, w not negative."""
+    """Return the quaternion of a 4×4 matrix, w not negative."""
     x, y, z, w = conversions.quaternion_from_matrix(np.asarray(matrix, dtype=float).tolist())
     return (-x, -y, -z, -w) if w < 0.0 else (x, y, z, w)
 
 
 def quaternion_about_axis(angle: float, axis: Sequence[float]) -> Quad:
-    """The quaternion of a turn about an axis."""
+    """Return the quaternion of a rotation about an axis."""
     return _quad(conversions.quaternion_from_axis_angle(axis, angle))
 
 
 def quaternion_multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quad:
-    """First `quaternion0`, then `quaternion1`."""
+    """Return the product of two quaternions."""
     return quaternions.multiply(_quad(quaternion1), _quad(quaternion0))
 
 
 def quaternion_conjugate(quaternion: Sequence[float]) -> Quad:
-    """The quaternion with its vector part reversed."""
+    """Return the conjugate of a quaternion."""
     return quaternions.conjugate(_quad(quaternion))
 
 
 def quaternion_inverse(quaternion: Sequence[float]) -> Quad:
-    """The quaternion that undoes one."""
+    """Return the inverse of a quaternion."""
     q = _quad(quaternion)
     norm = sum(part * part for part in q)
     x, y, z, w = quaternions.conjugate(q)
@@ -115,35 +115,35 @@ def quaternion_inverse(quaternion: Sequence[float]) -> Quad:
 
 
 def quaternion_slerp(quat0: Sequence[float], quat1: Sequence[float], fraction: float) -> Quad:
-    """A share of the way from one rotation to another, along the shorter arc."""
+    """Interpolate between two rotations along the shorter arc."""
     start, end = quaternions.unit(_quad(quat0)), quaternions.unit(_quad(quat1))
     return quaternions.slerp(start, end, fraction)
 
 
 def identity_matrix() -> Any:
-    """The 4×4 matrix that changes nothing."""
+    """Return the 4×4 identity matrix."""
     return np.identity(4)
 
 
 def translation_matrix(direction: Sequence[float]) -> Any:
-    """The 4×4 matrix of a translation."""
+    """Return the 4×4 matrix of a translation."""
     matrix = np.identity(4)
     matrix[:3, 3] = direction[:3]
     return matrix
 
 
 def translation_from_matrix(matrix: Any) -> Any:
-    """The translation of a 4×4 matrix."""
+    """Return the translation of a 4×4 matrix."""
     return np.array(matrix, dtype=float)[:3, 3].copy()
 
 
 def inverse_matrix(matrix: Any) -> Any:
-    """The 4×4 matrix that undoes one."""
+    """Return the inverse of a 4×4 matrix."""
     return np.linalg.inv(matrix)
 
 
 def concatenate_matrices(*matrices: Any) -> Any:
-    """The product of 4×4 matrices."""
+    """Return the product of 4×4 matrices."""
     product = np.identity(4)
     for matrix in matrices:
         product = product @ np.asarray(matrix)
@@ -157,7 +157,7 @@ def compose_matrix(
     translate: Any = None,
     perspective: Any = None,
 ) -> Any:
-    """The 4×4 matrix of a translation after a turn by roll, pitch, yaw."""
+    """Return the 4×4 matrix of a rotation by roll, pitch, yaw, and a translation."""
     if scale is not None or shear is not None or perspective is not None:
         raise NotImplementedError("compose_matrix takes angles and translate here")
     matrix = np.identity(4) if angles is None else euler_matrix(*angles)
@@ -167,11 +167,11 @@ def compose_matrix(
 
 
 def vector_norm(data: Any) -> float:
-    """The length of a vector."""
+    """Return the length of a vector."""
     return float(np.linalg.norm(data))
 
 
 def unit_vector(data: Any) -> Any:
-    """A vector scaled to length one."""
+    """Return a vector scaled to length one."""
     array = np.array(data, dtype=float)
     return array / np.linalg.norm(array)

@@ -1,4 +1,4 @@
-"""tf2_ros: what every buffer can do once it can look transforms up."""
+"""tf2_ros: methods that every buffer has once it can look transforms up."""
 
 from typing import Any
 
@@ -10,7 +10,7 @@ NOW = Duration()
 
 
 class BufferInterface:
-    """Transforms data with a header; a class below it says where transforms come from."""
+    """Transforms stamped data; subclasses look the transforms up."""
 
     def __init__(self) -> None:
         self.registration = Registration()
@@ -18,7 +18,7 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
     ) -> Any:
-        """The pose of source in target.
+        """Return the pose of source in target.
 
         Raises:
             NotImplementedException: If the class does not say how.
@@ -34,7 +34,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = NOW,
     ) -> Any:
-        """The pose of source at one time in target at another, through a fixed frame.
+        """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
             NotImplementedException: If the class does not say how.
@@ -42,7 +42,7 @@ class BufferInterface:
         raise NotImplementedException
 
     def can_transform(self, *asked: Any, **named: Any) -> Any:
-        """Whether a lookup would succeed.
+        """Return whether a lookup would succeed.
 
         Raises:
             NotImplementedException: If the class does not say how.
@@ -50,7 +50,7 @@ class BufferInterface:
         raise NotImplementedException
 
     def can_transform_full(self, *asked: Any, **named: Any) -> Any:
-        """Whether a lookup between two moments would succeed.
+        """Return whether a lookup between two times would succeed.
 
         Raises:
             NotImplementedException: If the class does not say how.
@@ -60,7 +60,7 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = NOW, new_type: Any = None
     ) -> Any:
-        """Data with a header, seen in another frame.
+        """Transform stamped data to another frame.
 
         Raises:
             TypeException: If it is not registered how to transform such data.
@@ -79,7 +79,7 @@ class BufferInterface:
         timeout: Any = NOW,
         new_type: Any = None,
     ) -> Any:
-        """Data with a header, seen in another frame at another time."""
+        """Transform stamped data to another frame at another time."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         found = self.lookup_transform_full(

@@ -1,4 +1,4 @@
-"""Hints about lookups that keep failing: what a student's node asks for, and why it is refused."""
+"""Hints about lookups that fail repeatedly: what a node asks for, and why it fails."""
 
 from collections.abc import Iterator
 
@@ -24,7 +24,7 @@ ONCE = seconds(2.0)
 
 
 class LookupHints:
-    """The lookups of one buffer: how many asked for what, and what was said about them.
+    """Lookups of one buffer: how many asked for what, and the hints already given.
 
     Each hint is logged once, as a warning of the program that asks.
     """
@@ -41,11 +41,11 @@ class LookupHints:
         program.advice.append(self.summary)
 
     def wait(self) -> None:
-        """Note that the program waits for transforms, or asks first whether there is one."""
+        """Record that the program waits for transforms, or checks for them first."""
         self._waits = True
 
     def answer(self, target: str, source: str, time: Stamp) -> None:
-        """Note a lookup that was answered."""
+        """Record a successful lookup."""
         self._asked += 1
         self._refused_since.pop((target, source), None)
         # Simulated time hands a transform over in the instant of its stamp; a network does not.
@@ -53,7 +53,7 @@ class LookupHints:
             self._just_in_time += self._frames.newest_common(target, source) != 0
 
     def refuse(self, target: str, source: str, error: TransformException) -> None:
-        """Note a lookup that was refused, and say why if that goes on."""
+        """Record a failed lookup, and report why if failures continue."""
         self._asked += 1
         now = self._program.clock.now()
         since = self._refused_since.setdefault((target, source), now)
@@ -77,7 +77,7 @@ class LookupHints:
                     self._say("early", self._early_text())
 
     def look_in_vain(self, target: str, source: str) -> None:
-        """Note that the program asked whether there is a transform, and there is none."""
+        """Record a check that found no transform."""
         self._waits = True
         self._hint_that_nothing_arrives()
         now = self._program.clock.now()
@@ -92,7 +92,7 @@ class LookupHints:
                 pass
 
     def summary(self) -> str:
-        """Return a sentence about lookups for a moment not yet known; "" if there is no need."""
+        """Return a sentence about lookups for a time not yet known; "" if there were few."""
         return self._early_text() if self._is_early else ""
 
     @property
@@ -110,7 +110,7 @@ class LookupHints:
         return f"{told}: use Time(), the latest, or a timeout"
 
     def _sent_once(self, target: str, source: str, now: Stamp) -> Iterator[FrameInfo]:
-        """Yield the links above two frames of which one old sample is all that was sent."""
+        """Yield the links above two frames with only one, old sample."""
         infos = {info.frame: info for info in self._frames.snapshot(now).frames}
         for frame in (target, source):
             seen: set[str] = set()
@@ -122,7 +122,7 @@ class LookupHints:
                 info = infos.get(info.parent)
 
     def _hint_that_nothing_arrives(self) -> None:
-        """Say, where a node looks up before it is spun, why nothing can be there."""
+        """Report why nothing can arrive if a node looks up before it is spun."""
         owner = self._program
         if (owner.listens and any(one.was_served for one in owner.nodes)) or self._frames.frames():
             return

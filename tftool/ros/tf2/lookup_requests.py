@@ -1,4 +1,4 @@
-"""Questions to a buffer, as values: at one moment, or between two."""
+"""Lookups as values: at one time, or between two."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -14,28 +14,28 @@ from tftool.world.clock import Clock
 
 @dataclass(frozen=True, slots=True)
 class LookupRequest:
-    """Question: where is source in target, at one moment?"""
+    """Lookup of source in target at one time."""
 
     target: str
     source: str
     time: Stamp
 
     def answer(self, frames: Frames) -> TransformStamped:
-        """The transform, or the refusal raised."""
+        """Return the transform, or raise."""
         return frames.lookup_transform(self.target, self.source, self.time)
 
     def why_not(self, frames: Frames) -> str:
-        """Return the reason why it cannot be answered; "" if it can."""
+        """Return why it fails; "" if it succeeds."""
         return frames.why_not(self.target, self.source, self.time)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:
-        """Return as soon as it can be answered, raise as soon as it never can."""
+        """Return as soon as it succeeds; raise as soon as it never can."""
         await waiting.wait_for_transform(frames, clock, self.target, self.source, self.time)
 
 
 @dataclass(frozen=True, slots=True)
 class FullLookupRequest:
-    """Question: where is source at one moment in target at another, through a fixed frame?"""
+    """Lookup of source at one time in target at another, through a fixed frame."""
 
     target: str
     target_time: Stamp
@@ -44,15 +44,15 @@ class FullLookupRequest:
     fixed: str
 
     def answer(self, frames: Frames) -> TransformStamped:
-        """The transform, or the refusal raised."""
+        """Return the transform, or raise."""
         return frames.lookup_transform_full(*self._asked)
 
     def why_not(self, frames: Frames) -> str:
-        """Return the reason why it cannot be answered; "" if it can."""
+        """Return why it fails; "" if it succeeds."""
         return frames.why_not_full(*self._asked)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:
-        """Return as soon as it can be answered, raise as soon as it never can."""
+        """Return as soon as it succeeds; raise as soon as it never can."""
         await waiting.wait_for_transform_full(frames, clock, *self._asked)
 
     @property
@@ -61,7 +61,7 @@ class FullLookupRequest:
 
 
 def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
-    """The question of a user's code.
+    """Return the lookup requested by a user's code.
 
     Raises:
         TypeError: If a frame is no text, or the time no time.
@@ -73,7 +73,7 @@ def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
 def full_question(
     target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
 ) -> FullLookupRequest:
-    """The question of a user's code between two moments.
+    """Return the lookup between two times requested by a user's code.
 
     Raises:
         TypeError: If a frame is no text, or a time no time.
@@ -91,7 +91,7 @@ def _require_names(**frames: object) -> None:
 
 
 def stamp(time: Any) -> Stamp:
-    """Nanoseconds of an rclpy or a builtin_interfaces Time.
+    """Return the nanoseconds of an rclpy or builtin_interfaces Time.
 
     Raises:
         TypeError: If it is neither.
@@ -107,7 +107,7 @@ def stamp(time: Any) -> Stamp:
 
 
 def length(timeout: Any) -> int:
-    """Nanoseconds of a Duration.
+    """Return the nanoseconds of a Duration.
 
     Raises:
         TypeError: If it is none.

@@ -1,4 +1,4 @@
-"""sensor_msgs_py.point_cloud2: the points of a PointCloud2, as numpy has them."""
+"""sensor_msgs_py.point_cloud2: points of a PointCloud2 as numpy arrays."""
 
 import array
 from collections import namedtuple
@@ -18,7 +18,7 @@ _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"
 
 
 def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
-    """Each element of each field: a field of three is x_0, x_1 and x_2."""
+    """Yield each element of each field: a field of three is x_0, x_1 and x_2."""
     named = []
     for number, field in enumerate(fields):
         name = field.name or f"{DUMMY_FIELD_PREFIX}_{number}"
@@ -33,7 +33,7 @@ def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
 def dtype_from_fields(
     fields: Iterable[Any], point_step: int | None = None, is_bigendian: bool = False
 ) -> "np.dtype[Any]":
-    """The structured dtype of points with such fields.
+    """Return the structured dtype of points with these fields.
 
     Raises:
         ValueError: If a field's datatype is none of PointField's, or they do not fit a point.
@@ -64,7 +64,7 @@ def read_points(
     uvs: Any = None,
     reshape_organized_cloud: bool = False,
 ) -> npt.NDArray[Any]:
-    """The points as a structured array, one element a point.
+    """Return the points as a structured array, one element per point.
 
     Args:
         cloud: A PointCloud2.
@@ -116,7 +116,7 @@ def read_points_numpy(
     uvs: Any = None,
     reshape_organized_cloud: bool = False,
 ) -> npt.NDArray[Any]:
-    """The points as a plain array, one row a point; the fields are of one kind.
+    """Return the points as a plain array, one row per point; the fields have one type.
 
     Raises:
         AssertionError: If they are not, or as `read_points` says.
@@ -138,7 +138,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Any = None,
 ) -> list[Any]:
-    """The points as named tuples."""
+    """Return the points as named tuples."""
     points = read_points(cloud, field_names, skip_nans, uvs)
     kind = namedtuple("Point", points.dtype.names or ())  # type: ignore[misc]
     return [kind._make(point) for point in points.tolist()]
@@ -147,7 +147,7 @@ def read_points_list(
 def create_cloud(
     header: Any, fields: Sequence[Any], points: Any, step: int | None = None, point_step: Any = None
 ) -> Any:
-    """A PointCloud2 of points.
+    """Return a PointCloud2 of points.
 
     Args:
         header: Its header.
@@ -191,7 +191,7 @@ def create_cloud(
 
 
 def create_cloud_xyz32(header: Any, points: Any, step: int | None = None) -> Any:
-    """A PointCloud2 of points with x, y and z in 32 bits."""
+    """Return a PointCloud2 of points with x, y and z in 32 bits."""
     field: Any = INTERFACES.message("sensor_msgs/PointField")
     fields = [
         field(name=name, offset=4 * place, datatype=field.FLOAT32, count=1)

@@ -1,4 +1,4 @@
-"""tf2_ros's registry: which function transforms or converts which type."""
+"""tf2_ros's registry of functions that transform and convert types."""
 
 import copy
 from collections.abc import Callable
@@ -15,7 +15,7 @@ _convert: dict[tuple[Any, Any], Callable[[Any], Any]] = {}
 
 
 class TypeException(TransformException):
-    """A type that is not registered."""
+    """Error for a type that is not registered."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -23,7 +23,7 @@ class TypeException(TransformException):
 
 
 class NotImplementedException(TransformException):
-    """Something a buffer does not offer."""
+    """Error for something that a buffer does not support."""
 
     def __init__(self) -> None:
         super().__init__("CanTransform or LookupTransform not implemented")
@@ -33,14 +33,14 @@ class Registration:
     """Registers how to transform a type."""
 
     def print_me(self) -> None:
-        """Nothing to show."""
+        """Do nothing."""
 
     def add(self, key: Any, callback: Callable[[Any, Any], Any]) -> None:
-        """Have `callback(data, transform)` transform data of a type."""
+        """Register `callback(data, transform)` to transform data of a type."""
         _transform[key] = callback
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
-        """The function that transforms data of a type.
+        """Return the function that transforms data of a type.
 
         Raises:
             TypeException: If none does.
@@ -55,15 +55,15 @@ class ConvertRegistration:
     """Registers how to convert between types."""
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Have `callback` make a type from a message."""
+        """Register `callback` to make a type from a message."""
         _from_msg[key] = callback
 
     def add_to_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Have `callback` make a message of a type."""
+        """Register `callback` to make a message of a type."""
         _to_msg[key] = callback
 
     def add_convert(self, key: tuple[Any, Any], callback: Callable[[Any], Any]) -> None:
-        """Have `callback` convert one type to another."""
+        """Register `callback` to convert one type to another."""
         _convert[key] = callback
 
     def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
@@ -87,7 +87,7 @@ def _of(registry: dict[Any, T], key: Any) -> T:
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """`a` as another type: a copy, a direct conversion, or by way of a message."""
+    """Convert `a` to another type: a copy, a direct conversion, or through a message."""
     if isinstance(a, b_type):
         return copy.deepcopy(a)
     direct = _convert.get((type(a), b_type))

@@ -1,4 +1,4 @@
-"""tf2_ros: a buffer that another node keeps, asked by an action."""
+"""tf2_ros: another node's buffer, used through an action."""
 
 from typing import Any
 
@@ -39,7 +39,7 @@ def _action() -> Any:
 
 
 class BufferClient(BufferInterface):
-    """Asks the buffer of a `BufferServer`; it may be used wherever a `Buffer` may."""
+    """Client of a `BufferServer`; usable wherever a `Buffer` is."""
 
     def __init__(
         self,
@@ -48,7 +48,7 @@ class BufferClient(BufferInterface):
         check_frequency: float = 10.0,
         timeout_padding: Any = _PADDING,
     ) -> None:
-        """Ask from a node.
+        """Make a client on a node.
 
         Args:
             node: Who asks.
@@ -66,7 +66,7 @@ class BufferClient(BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
     ) -> Any:
-        """The pose of source in target, as the server's buffer has it.
+        """Return the pose of source in target from the server's buffer.
 
         Raises:
             TransformException: If it cannot be given, or the server does not answer in time.
@@ -84,7 +84,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Any = NOW,
     ) -> Any:
-        """The pose of source at one time in target at another, through a fixed frame.
+        """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
             TransformException: If it cannot be given, or the server does not answer in time.
@@ -100,15 +100,15 @@ class BufferClient(BufferInterface):
         )
 
     def can_transform(self, *asked: Any, **named: Any) -> bool:
-        """Whether a lookup would succeed."""
+        """Return whether a lookup would succeed."""
         return _succeeds(self.lookup_transform, *asked, **named)
 
     def can_transform_full(self, *asked: Any, **named: Any) -> bool:
-        """Whether a lookup between two moments would succeed."""
+        """Return whether a lookup between two times would succeed."""
         return _succeeds(self.lookup_transform_full, *asked, **named)
 
     def destroy(self) -> None:
-        """Ask no more."""
+        """Close the client."""
         self.action_client.destroy()
 
     def _ask(self, timeout: Any, **fields: Any) -> Any:
@@ -137,7 +137,7 @@ class BufferClient(BufferInterface):
 
 
 class BufferServer:
-    """Answers the questions of `BufferClient`s out of a node's buffer."""
+    """Server of a node's buffer for `BufferClient`s."""
 
     def __init__(
         self,
@@ -146,7 +146,7 @@ class BufferServer:
         ns: str = "tf2_buffer_server",
         check_period: Any = None,
     ) -> None:
-        """Serve an action.
+        """Serve the action.
 
         Args:
             buffer: Whose transforms to give.
@@ -188,7 +188,7 @@ class BufferServer:
         return result
 
     async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until it is found, for `limit` nanoseconds at most."""
+        """Wait until it is found, at most `limit` nanoseconds."""
         if found.done() or limit.nanoseconds <= 0:
             return
         over = Future()
@@ -205,7 +205,7 @@ class BufferServer:
             self.node.destroy_timer(timer)
 
     def destroy(self) -> None:
-        """Serve no more."""
+        """Stop serving."""
         self._server.destroy()
 
 

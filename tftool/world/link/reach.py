@@ -1,4 +1,4 @@
-"""Declarations of each middleware: its options, their contradictions, and its words.
+"""Declarations of each middleware: options, contradictions, and names for sentences.
 
 A middleware derives from `Reach` in its folder, as `zenoh/reach.py` does; one line in
 `link_options.MIDDLEWARES` adds it. Commands know no middleware by its name.
@@ -31,7 +31,7 @@ class LinkOption:
 
 
 class Reach:
-    """Reach of a link of one middleware beyond this machine's own processes.
+    """A middleware's reach beyond this machine's own processes.
 
     Derived as frozen data; made without arguments it opens nothing that was not asked for.
     """
@@ -56,7 +56,7 @@ class Reach:
 
     @classmethod
     def at(cls, word: str) -> "Reach | None":
-        """Return the reach to the session that a word is the address of; None if it is none.
+        """Return the reach to the session whose address a word is; None for other words.
 
         Raises:
             UsageError: If it begins as such an address, and is wrong.
@@ -65,7 +65,7 @@ class Reach:
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "Reach":
-        """Put the values of its options together.
+        """Combine the values of its options.
 
         Raises:
             UsageError: If they contradict each other.
@@ -75,11 +75,11 @@ class Reach:
 
     @property
     def is_asked(self) -> bool:
-        """Whether something was asked for that only a link can give."""
+        """Whether an option requires a link."""
         raise NotImplementedError
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Whether the session is elsewhere, so that a world of one's own has no place in it.
+        """Whether the session is elsewhere, so that hosting a world makes no sense.
 
         Args:
             hosts: Whether the command hosts turtles where it finds none.
@@ -88,20 +88,20 @@ class Reach:
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Whether a process of this machine waits to be joined; nothing is opened."""
+        """Whether a local process can be joined, checked without opening a link."""
         return False
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the frames that this machine's processes list, sorted; nothing is opened."""
+        """Return the frames listed by local processes, sorted, without opening a link."""
         return []
 
     def place(self, domain: int) -> str:
-        """Return where the others are, in words; "" for this machine."""
+        """Describe where the others are; "" for this machine."""
         raise NotImplementedError
 
     def join(self, options: "Options") -> "Middleware":
-        """Join a session; the middleware's library is imported here and not before.
+        """Join a session; the middleware's library is imported here.
 
         Raises:
             LinkError: If there is no way in.

@@ -1,4 +1,4 @@
-"""A zenoh session whose callbacks arrive on our event loop: the one file that talks to zenoh."""
+"""A zenoh session with callbacks on our event loop; the only file that uses zenoh."""
 
 import asyncio
 import contextlib
@@ -21,14 +21,14 @@ from tftool.world.link.zenoh.rendezvous import USER
 
 
 class Sample(NamedTuple):
-    """A message that came in, and what stood beside it."""
+    """A received message with its attachment."""
 
     payload: bytes
     attachment: bytes
 
 
 class Query:
-    """A request that came in and waits for its answer."""
+    """A received request that waits for its response."""
 
     __slots__ = ("_query", "attachment", "payload")
 
@@ -37,21 +37,21 @@ class Query:
         self._query = query
 
     def answer(self, payload: bytes, attachment: bytes) -> None:
-        """Reply, once."""
+        """Send the response, once."""
         # Who asked may be gone by now.
         with contextlib.suppress(Exception):
             self._query.reply(self._query.key_expr, payload, attachment=attachment)
         self._query.drop()
 
     def refuse(self, reason: str) -> None:
-        """Say that there will be no answer."""
+        """Report that there will be no response."""
         with contextlib.suppress(Exception):
             self._query.reply_err(reason.encode())
         self._query.drop()
 
 
 class KeyPublisher:
-    """Publisher of the messages of one key."""
+    """Publisher of one key."""
 
     def __init__(self, publisher: Any, outbox: Outbox, *, keeps: bool) -> None:
         self._publisher = publisher
@@ -73,14 +73,14 @@ class KeyPublisher:
         self._outbox.put(send, len(payload))
 
     def close(self) -> None:
-        """Send no more, once everything before is sent."""
+        """Close after sending everything queued."""
         with contextlib.suppress(LinkError):
             self._outbox.put(self._publisher.undeclare)
 
 
 @dataclass(frozen=True, slots=True)
 class Local:
-    """Meeting place of a process with the others of its machine.
+    """Rules by which a process meets the others of its machine.
 
     Attributes:
         endpoint: Where it listens for them, "" for nowhere.
@@ -104,7 +104,7 @@ class Wire:
     """
 
     def __init__(self, reach: ZenohReach, local: Local) -> None:
-        """Open the session; other threads' callbacks wait until `start`.
+        """Open the session; callbacks are queued until `start`.
 
         Args:
             reach: What to open beyond this machine.
@@ -122,15 +122,15 @@ class Wire:
 
     @property
     def lost(self) -> int:
-        """Messages that were dropped because too many waited to be taken in."""
+        """Messages dropped because the inbox was full."""
         return self._inbox.lost
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Let callbacks run on `loop` from now on."""
+        """Make callbacks on `loop` from now on."""
         self._inbox.start(loop)
 
     def close(self) -> None:
-        """Send what still waits, and close the session; nothing is called any more."""
+        """Send queued messages, and close the session; no callback follows."""
         self._inbox.close()
         self._outbox.close()
         with contextlib.suppress(Exception):
@@ -138,19 +138,19 @@ class Wire:
 
     @property
     def neighbours(self) -> frozenset[str]:
-        """The sessions this one is directly connected to."""
+        """Return the directly connected sessions."""
         info = self._session.info
         return frozenset(str(zid) for zid in [*info.peers_zid(), *info.routers_zid()])
 
     @property
     def reached(self) -> frozenset[str]:
-        """The endpoints at the other end of its connections."""
+        """Return the remote endpoints of its connections."""
         return frozenset(str(link.dst) for link in self._session.info.links())
 
     # Messages
 
     def publisher(self, key: str, quality: Quality) -> KeyPublisher:
-        """Declare that messages of `key` go out.
+        """Declare a publisher of `key`.
 
         Args:
             key: The key, without wildcards.
@@ -183,7 +183,7 @@ class Wire:
     def subscriber(
         self, key: str, on_message: Callable[[Sample], object], *, is_latched: bool = False
     ) -> Callable[[], None]:
-        """Have `on_message` called with every sample; call the returned function to stop.
+        """Call `on_message` with every sample until the returned function is called.
 
         Args:
             key: The key, wildcards allowed.
@@ -211,7 +211,7 @@ class Wire:
         return _undeclare(subscriber)
 
     def _take(self, sample: Any, on_message: Callable[[Sample], object]) -> None:
-        """Hand a sample over, its size checked first (on a thread of zenoh's)."""
+        """Queue a sample, after a check of its size (in zenoh's thread)."""
         if sample.kind != self._zenoh.SampleKind.PUT:
             return
         size = len(sample.payload)
@@ -228,7 +228,7 @@ class Wire:
     # Questions
 
     def server(self, key: str, on_query: Callable[[Query], object]) -> Callable[[], None]:
-        """Have `on_query` called with every request; call the returned function to stop."""
+        """Call `on_query` with every request until the returned function is called."""
 
         def asked(query: Any) -> None:
             payload, attachment = query.payload, query.attachment
@@ -246,7 +246,7 @@ class Wire:
         return _undeclare(self._session.declare_queryable(key, self._handler(asked), complete=True))
 
     async def ask(self, key: str, payload: bytes, attachment: bytes, *, timeout: float) -> bytes:
-        """Send a request and wait for the answer.
+        """Send a request and wait for the response.
 
         Args:
             key: The service's key.
@@ -306,11 +306,13 @@ class Wire:
     # Tokens
 
     def token(self, key: str) -> Callable[[], None]:
-        """Show `key` to all sessions until the returned function is called or this process ends."""
+        """Announce `key` to all sessions until the returned function is called or this process
+        ends.
+        """
         return _undeclare(self._session.liveliness().declare_token(key))
 
     def tokens(self, key: str, timeout: float = 1.0) -> list[str]:
-        """The tokens that are there now; waits for the answers of all connected sessions."""
+        """Return the present tokens, after the answers of all connected sessions."""
         found: list[str] = []
         over = threading.Event()
 
@@ -328,7 +330,7 @@ class Wire:
     def watch_tokens(
         self, key: str, on_token: Callable[[tuple[str, bool]], object]
     ) -> Callable[[], None]:
-        """Have `on_token` called with (token, whether it is there now) at every change."""
+        """Call `on_token` with (token, whether it is present) at every change."""
 
         def changed(sample: Any) -> None:
             there = sample.kind == self._zenoh.SampleKind.PUT
@@ -358,7 +360,7 @@ _SCOUTING_DELAY = 100  # milliseconds `open` waits at most for a peer that does 
 
 
 def import_zenoh() -> Any:
-    """The library.
+    """Import the library.
 
     Raises:
         LinkError: If it is missing.
@@ -403,7 +405,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, local: Local) -> Any:
 
 
 def settings(reach: ZenohReach, local: Local) -> dict[str, Any]:
-    """Return zenoh's settings by its own names; its defaults would listen on every interface."""
+    """Return zenoh's settings; its defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router passes on between this machine's processes, which know each other
