@@ -21,7 +21,7 @@ _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
 
 
 class Fault(NamedTuple):
-    """Why a name is invalid.
+    """Reason why a name is invalid.
 
     Attributes:
         reason: What a name must be like.

@@ -63,7 +63,7 @@ class DurabilityPolicy(_Policy):
 
 
 class LivelinessPolicy(_Policy):
-    """How a publisher shows that it is alive."""
+    """Way in which a publisher shows that it is alive."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1

@@ -22,7 +22,7 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class ServiceIntrospectionState(IntEnum):
-    """What a service publishes of its requests and responses."""
+    """Parts of its requests and responses that a service publishes."""
 
     OFF = 0
     METADATA = 1
