@@ -114,7 +114,9 @@ def test_axes_are_seen_through_solids_until_they_are_switched_off(chromium, tmp_
         page.until(lambda: page.driver.execute_script(seen) == 0)
 
 
-def test_a_recording_is_called_recorded_and_opens_at_its_beginning(chromium, tmp_path):
+def test_a_recording_is_called_recorded_and_opens_at_its_beginning_with_all_of_its_path(
+    chromium, tmp_path
+):
     run = tmp_path / "run.tum"
     run.write_text("".join(f"{100 + step} {step} 0 0 0 0 0 1\n" for step in range(11)))
     with view(tmp_path, run) as address:
@@ -124,6 +126,12 @@ def test_a_recording_is_called_recorded_and_opens_at_its_beginning(chromium, tmp
         assert page.find("#play").get_attribute("aria-label") == "Play"
         assert not page.find("#live").is_displayed()
         assert page.said("tftool.reach()")["newest"] == 10
+        page.until(lambda: [path[-1:] for path in page.said("tftool.ahead()")] == [[[10, 0, 0]]])
+        page.scrub(4)
+        page.until(lambda: [path[0][0] > 3.9 for path in page.said("tftool.ahead()")] == [True])
+        page.find("#more summary").click()
+        page.find("#whole").click()
+        page.until(lambda: page.said("tftool.ahead()") == [[]])
 
 
 def test_what_lasts_no_time_has_no_timeline(chromium, tmp_path):

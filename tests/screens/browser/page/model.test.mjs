@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Choices } from "../../../../tftool/screens/browser/page/choices.js";
-import { chain, describe, trails } from "../../../../tftool/screens/browser/page/frames.js";
+import { chain, describe, trail, trailing } from "../../../../tftool/screens/browser/page/frames.js";
 import { Model } from "../../../../tftool/screens/browser/page/model.js";
 import { decode, Poses } from "../../../../tftool/screens/browser/page/wire.js";
 
@@ -92,7 +92,7 @@ test("trails are drawn for the frames chosen, or for all that can move", () => {
   const points = (given) => {
     const choices = new Choices({ fixed: "world", ...given });
     const drawn = describe(made, choices, false).filter((frame) => frame.shown);
-    return trails(made, drawn, choices, 6).map((line) => line.points.map((pose) => pose[0]));
+    return trailing(made, drawn, choices).map((frame) => trail(made, frame, choices, 6).points.map((pose) => pose[0]));
   };
   assert.deepEqual(points({}), []);
   assert.deepEqual(points({ trailed: ["arm"] }), [[2, 3]]);

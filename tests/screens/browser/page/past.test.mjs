@@ -105,3 +105,12 @@ test("pieces are as long as five seconds of a page, however fast the session run
 
   assert.deepEqual(asked.map(({ from, to }) => [from, to]), [[100, 150], [150, 200], [200, 250]]);
 });
+
+test("a long span comes in longer pieces, few enough to be kept", () => {
+  const { one, asked } = past();
+  one.look("map", ["a"], 0, 522, 522, 1);
+
+  assert.ok(asked.length <= 48);
+  assert.equal(asked[0].from, 0);
+  assert.ok(asked[asked.length - 1].to >= 522);
+});

@@ -38,6 +38,7 @@ export class Choices {
     // What was not chosen by hand is left to the page: see opening.js.
     this.byHand = {
       trails: given.trails !== undefined,
+      whole: given.whole !== undefined || given.length !== undefined,
       view: given.view !== undefined,
       pair: given.pair === "none" || given.target !== undefined || given.source !== undefined,
     };
@@ -52,6 +53,7 @@ export class Choices {
     this.interval = 0; // seconds
     this.timeout = 15; // seconds
     this.length = 10; // of trails, seconds
+    this.whole = given.whole ?? false; // trails of all that is known, and not of a length
     /** @type {number | undefined} */
     this.side = undefined; // width of the list of frames, pixels; undefined: as wide as its names
     for (const id of Object.keys(LIMITS)) this.setNumber(id, given[id]);
@@ -170,6 +172,7 @@ export class Choices {
       ...this,
       fixed: this.wanted ?? this.fixed,
       ...(this.byHand.trails ? {} : { trails: undefined }),
+      ...(this.byHand.whole ? {} : { whole: undefined, length: undefined }),
       ...(this.byHand.view ? {} : { view: undefined }),
       ...(this.byHand.pair ? {} : { target: undefined, source: undefined }),
       pair: this.byHand.pair && !this.target && !this.source ? "none" : undefined,

@@ -114,26 +114,30 @@ function told(model, index, late) {
 }
 
 /**
- * The trails in the picture: of frames chosen for one, and of all that move if switched on.
+ * The frames that leave trails: those chosen for one, and all that move if switched on.
  * @param {import("./model.js").Model} model
  * @param {Frame[]} drawn
  * @param {import("./choices.js").Choices} choices
- * @param {number} until newest moment, seconds of the session
- * @param {((name: string) => number[][] | null) | null} [fine] where a frame was, if that is known finely
  */
-export function trails(model, drawn, choices, until, fine = null) {
+export function trailing(model, drawn, choices) {
   if (!model.poses) return [];
   return drawn
     .filter(({ index, name }) => choices.trailed.has(name) || (choices.trails && leaves(model, index, choices)))
-    .slice(0, MOST_TRAILS)
-    .map(({ index, name, color, pose }) => {
-      const points = fine?.(name);
-      return {
-        name,
-        color,
-        points: points ? [...points, pose ?? []].filter(({ length }) => length) : model.trail(index, choices.fixed, choices.length, until),
-      };
-    });
+    .slice(0, MOST_TRAILS);
+}
+
+/**
+ * A frame's trail up to a moment, from poses the page has kept, or finer ones where those are known.
+ * @param {import("./model.js").Model} model
+ * @param {Frame} frame
+ * @param {import("./choices.js").Choices} choices
+ * @param {number} until newest moment, seconds of the session
+ * @param {number[][] | null} [fine]
+ */
+export function trail(model, { index, name, color, pose }, choices, until, fine = null) {
+  const length = choices.whole ? Infinity : choices.length;
+  const points = fine ? [...fine, ...(pose ? [pose] : [])] : model.trail(index, choices.fixed, length, until);
+  return { name, color, points, ahead: /** @type {number[][]} */ ([]), whole: choices.whole };
 }
 
 /** Whether a frame moves; unasked, what is mounted on something that moves leaves no trail beside it. */

@@ -7,12 +7,12 @@ import { Course } from "./course.js";
 import { Displays } from "./displays.js";
 import { keepFiles } from "./files.js";
 import { number } from "./format.js";
-import { chain, describe, retell, trails } from "./frames.js";
+import { chain, describe, retell, trail, trailing } from "./frames.js";
 import { freshness, Hearing } from "./freshness.js";
 import { KEYS, meant, OTHERS } from "./keys.js";
 import { Measure, onPlane } from "./measure.js";
 import { fade, Model } from "./model.js";
-import { naturalPair, planar, trailsPay } from "./opening.js";
+import { naturalPair, planar, trailsPay, wholePays } from "./opening.js";
 import {
   $, fill, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
 } from "./panels.js";
@@ -33,7 +33,7 @@ import { same, Wire } from "./wire.js";
 
 const FLIGHT = 350; // milliseconds
 const STEP = 0.1; // seconds one press of [ or ] goes
-const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through"];
+const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole"];
 // When the past is requested for the trails: once the tree has come to rest, and once more later,
 // because what came while the page was busy starting has gaps.
 const PAST_AFTER = [300, 3000];
@@ -60,7 +60,7 @@ const displays = new Displays(stage.scene, tracks, (topic) => {
 const server = { connection: "wait", recorded: false, hearing: new Hearing(), pair: null, unacknowledged: 0 };
 /**
  * What is on screen: of every frame, of those drawn, the trails.
- * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: { name: string, color: string, points: number[][] }[] }}
+ * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: ReturnType<typeof trail>[] }}
  */
 const shown = { frames: [], drawn: [], lines: [] };
 /** @type {{ past: number[], address: number | undefined }} */
@@ -278,11 +278,18 @@ function solve() {
 /** The trails, finely where a past moment is looked at. @param {number | null} at */
 function pathsTo(at) {
   const { reach, rate } = timeline;
-  if (at === null || choices.fixed === undefined) return trails(model, shown.drawn, choices, reach.now);
-  const from = Math.max(reach.oldest, at - choices.length * rate);
-  const lines = trails(model, shown.drawn, choices, at, (name) => past.trail(name, from, at));
-  past.look(choices.fixed, lines.map(({ name }) => name), from, at, reach.newest, rate);
-  return lines;
+  const frames = trailing(model, shown.drawn, choices);
+  const { fixed, whole } = choices;
+  if (at === null || fixed === undefined) return frames.map((frame) => trail(model, frame, choices, reach.now));
+  const from = whole ? reach.oldest : Math.max(reach.oldest, at - choices.length * rate);
+  const until = whole ? reach.newest : at;
+  // First of all: pieces in another fixed frame are no trail in this one.
+  past.look(fixed, frames.map(({ name }) => name), from, until, reach.newest, rate);
+  return frames.map((frame) => {
+    const line = trail(model, frame, choices, at, past.trail(frame.name, from, at));
+    if (whole) line.ahead = past.trail(frame.name, at, until) ?? [];
+    return line;
+  });
 }
 
 /** Paint what was solved: frames, trails, names, the pair's chain. */
@@ -372,7 +379,7 @@ function paintMeasure() {
 /** Keep everything drawn in view, until a person takes the camera. */
 function follow() {
   const { drawn, lines } = shown;
-  const box = bounds.grow([...drawn.map(({ pose }) => pose), ...lines.flatMap(({ points }) => points)]);
+  const box = bounds.grow([...drawn.map(({ pose }) => pose), ...lines.flatMap(({ points, ahead }) => [...points, ...ahead])]);
   if (box) fit(box);
 }
 
@@ -450,6 +457,8 @@ function open() {
     setPair(pair.target, pair.source, false);
   }
   if (!choices.byHand.trails) setSwitch("trails", trailsPay(model), false);
+  // Of what goes on the newest part says more.
+  if (!choices.byHand.whole) setSwitch("whole", timeline.ends && wholePays(model), false);
 }
 
 function setPair(target, source, byHand = true) {
@@ -480,7 +489,7 @@ function setView(view, byHand = true) {
 }
 
 function setSwitch(id, on, byHand = true) {
-  if (id === "trails") choices.byHand.trails ||= byHand;
+  if (id in choices.byHand) choices.byHand[id] ||= byHand;
   choices[id] = on;
   $(id).setAttribute("aria-pressed", String(on));
   changed();
@@ -615,6 +624,7 @@ for (const id of ["interval", "timeout", "length"]) {
   $(id).value = String(choices[id]);
   $(id).onchange = () => {
     choices.setNumber(id, Number.parseFloat($(id).value));
+    if (id === "length") setSwitch("whole", false);
     $(id).value = String(choices[id]);
     changed();
   };
@@ -835,6 +845,7 @@ Object.assign(globalThis, {
     }),
     plain: () => stage.plain,
     trails: () => shown.lines.map(({ points }) => points.length),
+    ahead: () => shown.lines.map(({ ahead }) => ahead.map((point) => point.slice(0, 3))),
     trailOf: (name) => shown.lines.find((line) => line.name === name)?.points.map((point) => point.slice(0, 3)),
     remembered: () => model.history.length,
     scale: () => stage.scale,

@@ -4,6 +4,7 @@
 const FOLLOWER = "turtle2";
 const LED = ["carrot1", "turtle1"]; // what it follows, the first that there is
 const TRAILED = 12; // frames that move; more trails than that are a tangle
+const WHOLE = 3; // frames that move, of a robot with its odometry and a correction of it
 const FLAT = 1e-3; // of the world's size, at most, off the plane
 const LEVEL = 1e-3; // sine of half the angle out of the plane
 
@@ -54,9 +55,21 @@ export function planar(poses) {
  * @param {import("./model.js").Model} model
  */
 export function trailsPay(model) {
-  let moving = 0;
-  for (const index of model.order) if (model.parents[index] >= 0 && !model.statics[index]) moving++;
+  const moving = movingLinks(model);
   return moving > 0 && moving <= TRAILED;
+}
+
+/**
+ * Whether the whole path is drawn unasked: where little moves, it is the picture.
+ * @param {import("./model.js").Model} model
+ */
+export function wholePays(model) {
+  const moving = movingLinks(model);
+  return moving > 0 && moving <= WHOLE;
+}
+
+function movingLinks(model) {
+  return model.order.filter((index) => model.parents[index] >= 0 && !model.statics[index]).length;
 }
 
 /**

@@ -5,6 +5,7 @@
 const PIECE = 5; // seconds
 const PLACES = 30; // a second
 const MOST_PIECES = 60;
+const MANY = 48; // pieces looked at; of a longer span they are longer
 const MOST_ASKED = 60; // frames at once
 const MOST_LETTERS = 4000; // of names at once
 const GROWN = 1; // seconds of new data after which a piece is asked for again
@@ -48,8 +49,10 @@ export class Past {
    * @param {number} rate seconds of the session in a second
    */
   look(fixed, frames, from, until, newest, rate) {
-    if (fixed !== this.fixed || rate * PIECE !== this.long) this.forget();
-    Object.assign(this, { fixed, long: rate * PIECE });
+    const doubled = Math.max(0, Math.ceil(Math.log2((until - from) / (rate * PIECE * MANY))));
+    const long = rate * PIECE * 2 ** (until > from ? doubled : 0);
+    if (fixed !== this.fixed || long !== this.long) this.forget();
+    Object.assign(this, { fixed, long });
     if (!frames.length) return;
     const last = Math.min(Math.floor(newest / this.long), Math.floor(until / this.long) + 1);
     for (let number = Math.floor(from / this.long); number <= last; number++) this.want(number, frames, newest);

@@ -103,7 +103,7 @@ export function shownGaps(gaps, frames, { oldest, newest }) {
  * @param {number} height pixels
  * @returns {{ value: number, text: string }[]}
  */
-export function levels([least, most], height, apart = 22) {
+export function levels([least, most], height, apart = 18) {
   const step = round(((most - least) * apart) / Math.max(1, height));
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const found = [];

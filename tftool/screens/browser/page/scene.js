@@ -472,7 +472,7 @@ export class Stage {
     return [((point.x + 1) / 2) * this.width, ((1 - point.y) / 2) * this.height];
   }
 
-  /** The trails: [{points, color}, …]. */
+  /** The trails: [{points, ahead, color, whole}, …]; of a whole one the way ahead is drawn too. */
   drawUnder(trails) {
     // A layer less to put together while there is nothing on it.
     this.under.hidden = !trails.length;
@@ -482,25 +482,31 @@ export class Stage {
     pen.clearRect(0, 0, this.width, this.height);
     pen.lineCap = pen.lineJoin = "round";
     pen.lineWidth = 2.2;
-    for (const { points, color } of trails) {
+    for (const { points, ahead, color, whole } of trails) {
       pen.strokeStyle = color;
-      const stages = 12;
+      pen.globalAlpha = 0.35;
+      this.drawPath(pen, ahead, 0, ahead.length - 1);
+      const stages = whole ? 1 : 12;
       for (let stage = 0; stage < stages; stage++) {
         const from = Math.floor((stage * (points.length - 1)) / stages);
         const to = Math.floor(((stage + 1) * (points.length - 1)) / stages);
         if (to <= from) continue;
         pen.globalAlpha = 0.08 + (0.85 * (stage + 1)) / stages;
-        pen.beginPath();
-        let down = false;
-        for (let at = from; at <= to; at++) {
-          const spot = this.project(points[at][0], points[at][1], points[at][2]);
-          if (spot) pen[down ? "lineTo" : "moveTo"](spot[0], spot[1]);
-          down = spot !== null;
-        }
-        pen.stroke();
+        this.drawPath(pen, points, from, to);
       }
     }
     pen.globalAlpha = 1;
+  }
+
+  drawPath(pen, points, from, to) {
+    pen.beginPath();
+    let down = false;
+    for (let at = from; at <= to; at++) {
+      const spot = this.project(points[at][0], points[at][1], points[at][2]);
+      if (spot) pen[down ? "lineTo" : "moveTo"](spot[0], spot[1]);
+      down = spot !== null;
+    }
+    pen.stroke();
   }
 
   /**
