@@ -86,6 +86,16 @@ def test_a_static_frame_from_the_command_line_is_there_for_all(launched):
         assert static.interrupt() == 130
 
 
+@pytest.mark.parametrize("words", [["echo", "turtle2", "turtle1"], ["tree"]])
+def test_a_session_has_no_past_to_ask_about(launched, words):
+    asked = run(*words, "--at", "5")
+
+    assert asked.returncode == 2
+    assert "A session is running here, the session of 'tftool launch" in asked.stderr
+    assert "scenario ('turtles --at 5') or a recording ('tftool record" in asked.stderr
+    assert run(*words, "--at", "5", "--host").returncode == 0
+
+
 def test_a_launch_file_that_cannot_be_read_leaves_the_session_at_once(launched, tmp_path):
     file = tmp_path / "bad.launch.py"
     file.write_text("from launch import Nope\n")

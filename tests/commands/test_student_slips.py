@@ -298,3 +298,14 @@ def test_a_wrong_entry_point_is_refused_with_the_near_name(tftool, chase, wrong,
 
     assert result.status == 1
     assert f"; did you mean '{near}'?" in result.err
+
+
+def test_check_tells_a_person_how_far_a_long_run_has_come(tftool, monkeypatch, capsys):
+    monkeypatch.setattr("tftool.commands.check.command.PATIENCE", 0)
+    assert "played" not in tftool("check", "robot").err
+
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    told = tftool("check", "robot").err.splitlines()
+
+    assert [line for line in told if line.startswith("robot: 12 of ")]
+    assert told[-1].endswith(" s played")

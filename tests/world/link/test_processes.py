@@ -180,6 +180,16 @@ def test_joining_where_nothing_runs_says_what_to_do():
     assert "Traceback" not in alone.stderr
 
 
+def test_joining_frames_without_turtles_names_what_shows_them():
+    with Process("static", "1", "2", "3", "0", "0", "0", "world", "camera") as static:
+        static.says("camera in world")
+        alone = run_here("follow", "turtle1", "turtle2", "--join")
+
+    assert alone.returncode == 3
+    assert "No session with turtles is running" in alone.stderr
+    assert "'tftool view' and 'tftool tree --watch' show the frames" in alone.stderr
+
+
 def test_a_folder_that_cannot_be_used_leaves_hosting_alone(session_dir, monkeypatch):
     (session_dir / "file").write_text("")
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "file" / "s"))

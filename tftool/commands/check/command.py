@@ -17,7 +17,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
 from tftool.base.report import Report
-from tftool.base.stamps import Stamp
+from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.printer import write, write_file
 from tftool.drawing import report_view as judgements
@@ -27,10 +27,14 @@ from tftool.scenario import builtin
 from tftool.scenario.doctor_expectations import heard_in
 from tftool.scenario.play import run_scenario
 from tftool.scenario.scenario import Scenario, Verdict
+from tftool.world.clock import Clock, WallClock
 from tftool.world.world import World
 
 if TYPE_CHECKING:
     from tftool.frames.transform_log import TransformLog
+
+PATIENCE = seconds(5)
+"""Real time between two notices to a person about how far a scenario has come."""
 
 SUFFIXES = (".yaml", ".yml")
 """What scenario files in a folder end in."""
@@ -64,21 +68,22 @@ def _judge(
     warnings = tuple(str(mistake) for mistake in scenario.not_a_tree) if own_nodes else ()
     for warning in warnings:
         notice(visible_lines(warning))
-    heard = _Heard()
+    heard = _Heard(scenario)
     if kept is None:
         verdict = judge(scenario, watch=heard.watching)
     else:
         verdict = _recorded(scenario, judge, kept.place(scenario.name), heard)
     for warning in verdict.warnings:
         notice(visible_lines(warning))
-    found = () if verdict.ok else heard.findings(scenario)
+    found = () if verdict.ok else heard.findings()
     return replace(verdict.report(), warnings=warnings + verdict.warnings, why=found), True
 
 
 class _Heard:
     """Transforms recorded during one run, which the doctor reads if an expectation failed."""
 
-    def __init__(self) -> None:
+    def __init__(self, scenario: Scenario) -> None:
+        self._scenario = scenario
         self._log: TransformLog | None = None
         self._span: tuple[Stamp, Callable[[], Stamp]] | None = None
 
@@ -86,6 +91,8 @@ class _Heard:
     def watching(self, world: World) -> Iterator[None]:
         """Record a world's transforms until it ends."""
         self._log, stops = heard_in(world)
+        if sys.stderr.isatty():
+            stops.append(world.tf.subscribe(self._progress(world.clock)))
         self._span = (world.clock.now(), world.clock.now)
         try:
             yield
@@ -93,7 +100,22 @@ class _Heard:
             for stop in stops:
                 stop()
 
-    def findings(self, scenario: Scenario) -> tuple[str, ...]:
+    def _progress(self, simulated: Clock) -> Callable[[object], None]:
+        """Return a function to call with each message, which prints the progress of a long run."""
+        real = WallClock()
+        told, start = real.now(), simulated.now()
+
+        def tell(_: object) -> None:
+            nonlocal told
+            if real.now() - told >= PATIENCE:
+                told = real.now()
+                done, whole = simulated.now() - start, self._scenario.duration
+                name = visible(self._scenario.name)
+                notice(f"{name}: {as_seconds(done):.0f} of {as_seconds(whole):g} s played")
+
+        return tell
+
+    def findings(self) -> tuple[str, ...]:
         """Return the doctor's findings without notes: a sentence each, with its first remedy."""
         # The checks take as long to import as most scenarios to play.
         from tftool.doctor.evidence import evidence_of_log
@@ -104,6 +126,7 @@ class _Heard:
         if self._log is None or self._span is None:
             return ()
         begin, now = self._span
+        scenario = self._scenario
         evidence = evidence_of_log(self._log, scenario.name, "scenario", begin, now())
         settings = scenario.doctor.settings(Settings(scenario.cache_time))
         found = judge(evidence, settings, ignore=scenario.doctor.ignore).findings

@@ -100,9 +100,14 @@ def join_or_host(
         if connection.mode is Mode.JOIN or connection.read_only:
             link.close()
             what = "session with turtles" if there else "session"
+            looks = (
+                " 'tftool view' and 'tftool tree --watch' show the frames of the one that runs."
+                if there
+                else ""
+            )
             raise LinkError(
                 f"No {what} is running in domain {connection.domain}: start one with "
-                "'tftool demo', or leave out the option to host one here."
+                f"'tftool demo', or leave out the option to host one here.{looks}"
             )
     elif alone := _why_alone(connection, link):
         link.close()
@@ -224,6 +229,27 @@ def join_session(
     if joined.link is not None:
         joined.link.close()
     return joined.session
+
+
+def refuse_moment(connection: Connection) -> None:
+    """Refuse a moment where a session runs, which has no past to ask about.
+
+    Raises:
+        UsageError: If one runs here, or at the other end.
+    """
+    link = None if connection.hosts_alone else _open_link(connection)[0]
+    if link is None:
+        return
+    try:
+        if link.graph.has_sources:
+            running = session_name(link, connection.place)
+            raise UsageError(
+                f"A session is running here, {running}; it has no past to ask about. Name a "
+                f"scenario ('{HOME} --at 5') or a recording ('tftool record -o run.mcap', then "
+                f"'run.mcap --at 5'); --host asks '{HOME}' whatever runs."
+            )
+    finally:
+        link.close()
 
 
 def open_own_session(connection: Connection, *, simulated: bool, because: str) -> Session:

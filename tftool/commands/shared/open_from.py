@@ -45,7 +45,8 @@ def open_from(
 ) -> Frames:
     """Open the frames of FROM; they are closed together with the connection.
 
-    Without FROM the session is listened to; if none runs, or at a moment, turtles are played.
+    Without FROM the session is listened to; if none runs, turtles are played. A session that
+    runs has no past: with a moment it is refused.
 
     Args:
         connection: What the command's options say.
@@ -69,6 +70,10 @@ def open_from(
         frames = listen_from(connection, lasting, cache_time=cache_time, watch=watch)
         if frames is not None:
             return frames
+    if place is None and isinstance(until, At) and not connection.reach.only_reads:
+        from tftool.commands.shared.hosting import refuse_moment
+
+        refuse_moment(connection)
     if not shares:
         if lasting is not None and place is not None and named(place).kind is not Kind.SCENARIO:
             raise UsageError("--for is for sources that go on: --to leaves out a recording's end.")
