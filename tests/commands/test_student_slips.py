@@ -211,6 +211,30 @@ def test_exchanged_ends_of_a_link_are_named_once(tftool, slip):
     assert said(result, "frame_id 'base' and child_frame_id 'map' are exchanged") == 1
 
 
+def test_two_parents_of_a_frame_are_named_once(tftool, slip):
+    file = slip("self.send('map', 'base'); self.send('odom', 'base')")
+
+    result = tftool("run", "--simulated", "--for", "2", file)
+
+    assert said(result, "'base' has two alternating parents, 'map' and 'odom'") == 1
+
+
+def test_a_frame_that_moves_to_another_parent_for_good_is_no_slip(tftool, slip):
+    file = slip(
+        "self.send('hand' if self.get_clock().now().nanoseconds > 1001e9 else 'table', 'cup')"
+    )
+
+    assert said(tftool("run", "--simulated", "--for", "2", file), "alternating parents") == 0
+
+
+def test_lookups_at_now_are_summed_up_after_a_simulated_run(tftool, slip):
+    file = slip("self.look('world', 'turtle1', self.get_clock().now())")
+
+    result = tftool("run", "--simulated", "--for", "2", "--in", "turtles", file)
+
+    assert "use Time(), the latest, or a timeout" in result.err
+
+
 def test_links_that_turn_round_nothing_are_no_slip(tftool, slip):
     file = slip("self.send('map', 'base'); self.send('base', 'lens')")
 
@@ -309,3 +333,25 @@ def test_check_tells_a_person_how_far_a_long_run_has_come(tftool, monkeypatch, c
 
     assert [line for line in told if line.startswith("robot: 12 of ")]
     assert told[-1].endswith(" s played")
+
+
+def test_a_forgotten_stamp_is_named_once_for_each_frame(tftool, slip):
+    link = "link = TransformStamped(child_frame_id='base'); link.header.frame_id = 'map'"
+    file = slip(f"{link}; self.sender.sendTransform(link); self.fixed.sendTransform(link)")
+
+    result = tftool("run", "--simulated", "--for", "2", file)
+
+    assert said(result, "header.stamp of 'base' is 0, so a lookup for any moment but") == 1
+
+
+@pytest.mark.parametrize(("x", "w", "count"), [("1.0", "0.0", 1), ("0.0", "1.0", 0)])
+def test_a_quaternion_with_w_first_is_named(tftool, slip, x, w, count):
+    turn = f"link.transform.rotation.x = {x}; link.transform.rotation.w = {w}"
+    file = slip(
+        f"link = TransformStamped(child_frame_id='base'); {turn}; link.header.frame_id = 'map'; "
+        "link.header.stamp = self.get_clock().now().to_msg(); self.sender.sendTransform(link)"
+    )
+
+    result = tftool("run", "--simulated", "--for", "2", file)
+
+    assert said(result, "if no turn is meant, w is 1.0: the order is x, y, z, w") == count

@@ -1,7 +1,7 @@
 """Running users' programs in a world, for the commands `run` and `launch`."""
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from tftool.base.errors import InputError, NodeFailed, UsageError
@@ -254,6 +254,14 @@ class TurtlesOnDemand:
             from tftool.world.nodes.turtlesim import Turtlesim
 
             Turtlesim(self._world)
+
+
+def advice(world: World) -> Iterator[str]:
+    """Yield advice about the lookups of each program of a world."""
+    for one in world.nodes:
+        if isinstance(one, Program):
+            told = filter(None, (sum_up() for sum_up in one.advice))
+            yield from (f"'{one.label}': {text}" for text in told)
 
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:

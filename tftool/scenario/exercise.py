@@ -6,7 +6,7 @@ file takes the place of all of them.
 """
 
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
 
@@ -89,7 +89,7 @@ class Exercise:
                     play.failure = str(error.__cause__)
         if failures:
             play.failure = "\n".join([*failures, *filter(None, [play.failure])])
-        return replace(play.verdict(), warnings=tuple(_advice(play.world)))
+        return replace(play.verdict(), warnings=tuple(running.advice(play.world)))
 
     def _refuse_unknown(self, scenario: Scenario) -> None:
         names = [] if self.launch else [entry.name for entry in scenario.nodes]
@@ -126,11 +126,3 @@ class Exercise:
         path, rest = running.find_launch_file(self.workspace, self.launch)
         arguments = running.arguments_of(rest)
         Launch(world, path, workspace=self.workspace, arguments=arguments, say=say)
-
-
-def _advice(world: World) -> Iterator[str]:
-    """Yield what the lookups of each program of a world come to, where that is a slip."""
-    for program in world.nodes:
-        if isinstance(program, Program):
-            told = filter(None, (sum_up() for sum_up in program.advice))
-            yield from (f"'{program.label}': {text}" for text in told)

@@ -62,6 +62,8 @@ def run(
         try:
             work = running.until(world, started.ended, run_for)
             session.run(work, on_interrupt=started.interrupt)
+            for sentence in running.advice(world) if simulated else ():
+                notice(visible(sentence))
         except NodeFailed as failure:
             # What the launch itself could not do is no failed node.
             if failure.node == started.name and isinstance(failure.__cause__, TftoolError):

@@ -184,4 +184,6 @@ def run(
             await running.until(world, ending[0].over, run_for)
 
         session.run(work())
+        for sentence in running.advice(world) if simulated else ():
+            notice(visible(sentence))
         return ending[0].judge()

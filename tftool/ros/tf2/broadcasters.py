@@ -24,6 +24,9 @@ _TOLERANCE = 10e-3
 SILENT = seconds(5.0)
 """How long a broadcaster may send nothing before that is said."""
 
+MOVES = 3
+"""How often a frame may find another parent before these count as two."""
+
 AUTHORITY = "default_authority"
 """Sender of earlier transforms; that of later ones is known."""
 
@@ -143,7 +146,8 @@ class TransformBroadcaster:
 
     def __init__(self, node: Node, qos: Any = None) -> None:
         self.node = node
-        self._told: set[str] = set()
+        self._told: set[tuple[str, str]] = set()
+        self._turns: dict[str, int] = {}
         self._member = seat_of(node)
         self._member.program.broadcasts = True
         self._has_sent = False
@@ -183,36 +187,70 @@ class TransformBroadcaster:
     def _broadcast(self, sent: list[TransformStamped]) -> None:
         seat = self._member
         for sample in sent:
-            self._note_exchange(sample.frame_id, sample.child_frame_id)
+            self._note_parent(sample.frame_id, sample.child_frame_id)
         seat.world.broadcast(sent, seat.authority, static=self._static)
 
-    def _note_exchange(self, parent: str, child: str) -> None:
-        """Report once a link for which another transform has parent and child exchanged."""
-        link = f"{parent} {child}"
-        if link not in self._told and self._member.world.buffer.parent(parent) == child != parent:
-            self._told.add(link)
-            self._member.program.say(
-                "WARN",
-                self._member.authority,
+    def _note_parent(self, parent: str, child: str) -> None:
+        """Report once a link with exchanged ends, and a child with two alternating parents."""
+        above = self._member.world.buffer.parent
+        before = above(child)
+        if above(parent) == child != parent:
+            fault = (
                 f"frame_id '{parent}' and child_frame_id '{child}' are exchanged: '{child}' is "
-                f"the parent of '{parent}' already. frame_id is the parent",
+                f"the parent of '{parent}' already. frame_id is the parent"
             )
+        elif before not in (None, parent):
+            # A frame may move to another parent for good.
+            self._turns[child] = self._turns.get(child, 0) + 1
+            fault = (
+                f"'{child}' has two alternating parents, '{before}' and '{parent}': a frame has one "
+                "parent"
+            )
+            if self._turns[child] < MOVES:
+                return
+        else:
+            return
+        if ("parent", child) not in self._told:
+            self._told.add(("parent", child))
+            self._member.program.say("WARN", self._member.authority, fault)
 
     def _judge(self, sample: TransformStamped) -> None:
-        """Report once per child a rotation that ROS 2 would refuse."""
+        """Report once per child a missing stamp, and a rotation that is probably a mistake."""
+        now = self._member.world.clock.now()
+        if not (self._static or sample.stamp) and now > seconds(1.0):
+            self._report_once(
+                "stamp",
+                sample.child_frame_id,
+                "header.stamp of '{}' is 0, so a lookup for any moment but the latest is refused: "
+                "write self.get_clock().now().to_msg()",
+            )
         turn = sample.transform.rotation
         square = sum(number * number for number in turn)
         # NaN is refused in tf2's words; None is what no rotation at all is written as.
-        if abs(square - 1.0) <= _TOLERANCE or square != square or sample[2] in self._told:
+        if square != square:
             return
-        self._told.add(sample[2])
+        if abs(square - 1.0) <= _TOLERANCE:
+            # Computed from an angle, w is not exactly 0.
+            if tuple(turn) == (1.0, 0.0, 0.0, 0.0):
+                self._report_once(
+                    "rotation",
+                    sample.child_frame_id,
+                    "the rotation of '{}' is half a turn about x, for x = 1.0 and w = 0.0; if no "
+                    "turn is meant, w is 1.0: the order is x, y, z, w",
+                )
+            return
         if not square:
             fault = "is all zeros, which no buffer takes: no turn at all is w = 1.0"
         else:
             fault = f"has length {square**0.5:.4g}, not 1: ROS 2 refuses it, here it is scaled"
             if max(map(abs, turn)) > 1.5:
                 fault += "; an angle is no part of it: quaternion_from_euler makes one of radians"
-        self.node.get_logger().warning(f"the rotation of '{sample[2]}' {fault}")
+        self._report_once("rotation", sample.child_frame_id, f"the rotation of '{{}}' {fault}")
+
+    def _report_once(self, what: str, child: str, fault: str) -> None:
+        if (what, child) not in self._told:
+            self._told.add((what, child))
+            self.node.get_logger().warning(fault.format(child))
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):

@@ -60,8 +60,8 @@ class LookupHints:
         lasts = now - since >= PATIENCE
         if isinstance(error, LookupException | ConnectivityException):
             self._hint_that_nothing_arrives()
-            if lasts and isinstance(error, LookupException) and error.frame is not None:
-                self._say(f"frame {error.frame}", error.remedy)
+            if lasts and isinstance(error, LookupException):
+                self._say_missing(error)
         elif isinstance(error, ExtrapolationException):
             once = next(self._sent_once(target, source, now), None) if lasts else None
             if once is not None:
@@ -86,8 +86,7 @@ class LookupHints:
             try:
                 self._frames.lookup_transform(target, source)
             except LookupException as error:
-                if error.frame is not None:
-                    self._say(f"frame {error.frame}", error.remedy)
+                self._say_missing(error)
             except TransformException:
                 pass
 
@@ -116,7 +115,9 @@ class LookupHints:
             seen: set[str] = set()
             info = infos.get(frame)
             while info is not None and info.parent is not None and info.frame not in seen:
-                if info.samples == 1 and not info.is_static and info.age >= ONCE:
+                # Without a stamp they replace each other; the broadcaster says so.
+                is_single = info.samples == 1 and not info.is_static and info.newest > 0
+                if is_single and info.age >= ONCE:
                     yield info
                 seen.add(info.frame)
                 info = infos.get(info.parent)
@@ -134,6 +135,10 @@ class LookupHints:
                 "callback, or give the lookup a timeout"
             )
         self._say("nothing", f"a lookup was refused because {why}")
+
+    def _say_missing(self, error: LookupException) -> None:
+        if error.frame is not None and "nothing" not in self._said:
+            self._say(f"frame {error.frame}", error.remedy)
 
     def _say(self, what: str, text: str) -> None:
         if what not in self._said:
