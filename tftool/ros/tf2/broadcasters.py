@@ -203,8 +203,8 @@ class TransformBroadcaster:
             # A frame may move to another parent for good.
             self._turns[child] = self._turns.get(child, 0) + 1
             fault = (
-                f"'{child}' has two alternating parents, '{before}' and '{parent}': a frame has one "
-                "parent"
+                f"'{child}' has two alternating parents, '{before}' and '{parent}': a frame has "
+                "one parent"
             )
             if self._turns[child] < MOVES:
                 return
