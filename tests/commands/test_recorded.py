@@ -161,7 +161,7 @@ def test_a_recording_in_the_place_of_a_frame_is_told(tftool, run, command):
     result = tftool(*command, "base_link", run)
 
     assert result.status == 2
-    assert "stands where a frame's name does: FROM comes behind two frames" in result.err
+    assert "a frame's name is expected here: write two frames before it" in result.err
 
 
 def test_topics_there_are_stand_beside_one_there_is_not(tftool, run):
@@ -309,5 +309,5 @@ def test_a_recording_has_no_cache_time_of_lookups(tftool, run, words):
     assert tftool(*asked).status == 0
     refused = tftool(*asked, "--cache-time", "1")
     assert (refused.status, refused.out) == (2, "")
-    assert f"All of '{run}' is known" in " ".join(refused.err.split())
+    assert f"'{run}' is read completely" in " ".join(refused.err.split())
     assert tftool("monitor", run, "--cache-time", "1").status == 0

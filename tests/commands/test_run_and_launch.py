@@ -134,7 +134,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
         (
             ["run", "turtlesim", "turtle_teleop_key", "--ros-args", "-r", "turtle1/cmd_vel:=out"],
             2,
-            "'out' is no turtle's: give --remap turtle1/cmd_vel:=turtle2/cmd_vel",
+            "'out' is not a topic of a turtle: give --remap turtle1/cmd_vel:=turtle2/cmd_vel",
         ),
         (["run", "pkg_tf", "rotate", "--ros-args", "-q"], 2, "'-q' is no option after --ros-args"),
         (["run", "pkg_tf", "rotate", "--ros-args", "-p"], 2, "'-p' after --ros-args wants a value"),

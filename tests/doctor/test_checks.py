@@ -117,7 +117,7 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
         few.sent("odom", "base_link", at, (0.5 * at + 0.04, 0.0, 0.0, *NO_TURN))
     conflict = found(few, "publisher-conflict")
     assert (conflict.severity, conflict.confidence) == (Severity.WARNING, Confidence.POSSIBLE)
-    assert [fix.text.split(":")[0] for fix in conflict.fixes] == ["look who publishes it"]
+    assert [fix.text.split(":")[0] for fix in conflict.fixes] == ["find out who publishes it"]
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])

@@ -362,7 +362,7 @@ def test_a_compressed_file_of_four_bytes_breaks_off_and_is_not_called_empty(tmp_
     cut = tmp_path / "run.mcap.zst"
     cut.write_bytes(b"\x28\xb5\x2f\xfd")
 
-    with pytest.raises(InputError, match=r"run\.mcap\.zst' breaks off after 4 bytes") as refused:
+    with pytest.raises(InputError, match=r"run\.mcap\.zst' ends after 4 bytes") as refused:
         open_recording(cut)
     assert str(tmp_path) in str(refused.value)
     assert "empty" not in str(refused.value)

@@ -20,7 +20,7 @@ _SYNCHRONISE = (
         "synchronise the clocks: chrony with one computer as server, PTP for lidars, or "
         "the driver's timestamp mode"
     ),
-    Fix("not a larger timeout: a constant offset eats it for ever"),
+    Fix("a larger timeout does not help against a constant offset"),
 )
 _COMPARE = (
     Fix(

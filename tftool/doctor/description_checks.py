@@ -167,7 +167,7 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:differs|differ} from the robot description",
     detail="{edge}: {apart:m} and {turned:deg} apart; {joint} has {says}, tf {has}",
     consequence="what was calibrated and what is published are two mounts",
-    fixes=(Fix("publish it once: take the second publisher away, or write the calibration down"),),
+    fixes=(Fix("publish it once: remove the second publisher, or write the calibration down"),),
     causes=(
         "a calibration is published beside the description",
         "the robot runs with an older description",

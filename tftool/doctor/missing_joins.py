@@ -123,7 +123,7 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
     if not maps:
         return None
     why = f"REP-105 has a localiser publish {tree.root} in {maps[0]}"
-    fix = Fix(f"{why}: look whether it runs (AMCL, a SLAM), and in which frames it publishes")
+    fix = Fix(f"{why}: check whether it runs (AMCL, a SLAM), and in which frames it publishes")
     return Join((maps[0], tree.root), why, fix)
 
 

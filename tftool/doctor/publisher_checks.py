@@ -208,7 +208,9 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     hit = _conflict(track, ("A", "B"), owned, sure)
     hit = replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
     if sure is Confidence.POSSIBLE:
-        hit = replace(hit, fixes=(Fix("look who publishes it: `ros2 topic info /tf --verbose`"),))
+        hit = replace(
+            hit, fixes=(Fix("find out who publishes it: `ros2 topic info /tf --verbose`"),)
+        )
     return hit
 
 

@@ -48,7 +48,7 @@ def _read_recording(
 def _robot_beside(options: RobotOptions) -> Robot | None:
     """Read the description that goes with a recording."""
     if options.joints:
-        options.refuse("In a recording joints are where they were")
+        options.refuse("The joints of a recording cannot be set")
     if options.urdf is None and not options.arguments:
         return None
     if options.urdf is None:

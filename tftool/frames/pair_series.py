@@ -125,7 +125,7 @@ def chosen(words: Sequence[str]) -> tuple[str, ...]:
             found.append(name)
         else:
             listed = ", ".join(dict.fromkeys((*_GROUPS, *QUANTITIES)))
-            raise UsageError(f"'{word}' is nothing to plot: there is {listed}.")
+            raise UsageError(f"'{word}' cannot be plotted; there is {listed}.")
     return tuple(dict.fromkeys(found)) or QUANTITIES
 
 

@@ -207,7 +207,7 @@ def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArr
     u, singular, v = np.linalg.svd(covariance)
     if singular[1] <= 1e-12 * max(singular[0], 1e-300):
         raise InputError(
-            "All positions are on one line or in one point, which leaves the rotation open: "
+            "All positions are on one line or in one point, which does not determine the rotation: "
             "--fit first uses the first pose alone."
         )
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(v))])
@@ -251,7 +251,9 @@ def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.
             moved = np.degrees(_angles(path.rotations[:-1], path.rotations[1:]))
         places = np.array(_marks(moved.tolist(), step.size), dtype=np.intp)
     if len(places) < 2:
-        raise InputError(f"The trajectory has no piece of {step}: --per takes a smaller one.")
+        raise InputError(
+            f"The trajectory is shorter than one piece of {step}: give --per a smaller step."
+        )
     return places[:-1], places[1:]
 
 

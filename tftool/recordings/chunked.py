@@ -409,7 +409,7 @@ class ChunkedReader(File):
         """Return the messages whose channel is known."""
         found = [one for one in messages if one.channel in self.channels]
         if len(found) < len(messages):
-            self.note("Messages are left out: nothing tells on which topic they are.")
+            self.note("Messages are left out: their topic is unknown.")
         return found
 
     def _walk(self, chunk: Chunk, *, learns: bool) -> None:

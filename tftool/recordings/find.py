@@ -177,8 +177,8 @@ def find(word: str) -> Found:
             active = Path(f"{word}{ACTIVE}")
             if active.exists():
                 raise InputError(
-                    f"There is no '{word}' but '{active}': a recorder still writes it, or was "
-                    f"killed. 'tftool edit {active} -o {word}' makes it whole."
+                    f"There is no '{word}', only '{active}': a recorder still writes it, or was "
+                    f"killed. 'tftool edit {active} -o {word}' repairs it."
                 )
             raise InputError(f"There is no file or folder '{word}'.{_meant(path)}")
         if path.is_dir():

@@ -1,7 +1,7 @@
 """A recording that grows while a session runs: a kill loses a second, at most.
 
 Until a file is closed it has `.active` behind its name, as ROS 1's recorder has it; what is in it
-then can be read, and `tftool edit` makes it whole.
+then can be read, and `tftool edit` repairs it.
 """
 
 import os
@@ -129,7 +129,7 @@ class RollingRecording:
         if left.exists() and not force:
             raise UsageError(
                 f"'{left}' is what a recorder left that did not end: 'tftool edit {left} -o "
-                "FILE.mcap' makes it whole. --force replaces it."
+                "FILE.mcap' repairs it. --force replaces it."
             )
         if self._is_folder and os.path.lexists(self.path):
             # Its files would have to go before there are new ones.

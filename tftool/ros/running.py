@@ -171,7 +171,9 @@ def driven_turtle(words: Sequence[str]) -> str:
     topic = options.remapped(given, options.name or KEYBOARD_NODE, namespace)
     turtle, _, last = topic.strip("/").rpartition("/")
     if last != "cmd_vel" or not turtle:
-        raise UsageError(f"'{topic}' is no turtle's: give --remap turtle1/cmd_vel:=turtle2/cmd_vel")
+        raise UsageError(
+            f"'{topic}' is not a topic of a turtle: give --remap turtle1/cmd_vel:=turtle2/cmd_vel"
+        )
     return turtle
 
 

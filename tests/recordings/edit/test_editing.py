@@ -514,7 +514,7 @@ def test_a_message_of_a_channel_that_nothing_describes_is_left_out(tmp_path, is_
 
     report = edit([str(path)], out, Edits())
 
-    assert any("nothing tells on which topic" in note for note in report.notes)
+    assert any("their topic is unknown" in note for note in report.notes)
     before["/tf"].pop(3)
     assert messages(out) == before
 

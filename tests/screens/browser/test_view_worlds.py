@@ -114,7 +114,7 @@ def test_axes_are_seen_through_solids_until_they_are_switched_off(chromium, tmp_
         page.until(lambda: page.driver.execute_script(seen) == 0)
 
 
-def test_a_recording_is_called_recorded_and_opens_at_its_beginning_with_all_of_its_path(
+def test_a_recording_is_called_recorded_and_opens_at_its_start_with_its_whole_path(
     chromium, tmp_path
 ):
     run = tmp_path / "run.tum"

@@ -62,8 +62,8 @@ def run(
         notice(f"Read as {', then '.join(one.form for one in read_all)}.")
         if view.at_a_pole(pose):
             notice(
-                "Pitch is a quarter turn, or almost: roll and yaw turn about one axis there, and "
-                "only both together say how far."
+                "Pitch is ±90°, or almost: roll and yaw turn about the same axis there, so that "
+                "only their sum or difference is determined."
             )
         sys.stdout.write(
             view.lines(

@@ -212,7 +212,7 @@ def run(
         refuse_long_simulation(lasting)
         if not for_programs and sys.stdout.isatty():
             # Who looks on expects a screen.
-            notice(f"The demo's screen needs a terminal, and {lacking}: played without it.")
+            notice(f"The demo's screen needs a terminal, and {lacking}: playing without it.")
         defaults = scenario_named(scenario or HOME).arguments if arguments else chosen.arguments
         if recording is None:
             played = play_through(chosen, defaults, lasting)

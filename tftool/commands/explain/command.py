@@ -46,7 +46,7 @@ def run(
     if place is not None and named(place).kind is Kind.DESCRIPTION:
         if message or asked_at is not None:
             raise UsageError(
-                "A robot description holds at all times and has no messages: leave out --message "
+                "A robot description has neither times nor messages: leave out --message "
                 "and --asked-at."
             )
         return _explain_joints(connection, place, (target, source), for_programs=for_programs)

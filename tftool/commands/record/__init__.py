@@ -64,7 +64,7 @@ def record(
     """Record a session (ros2 bag record).
 
     Every file begins with all statics. Ctrl-C ends it; what a recorder that was killed leaves,
-    a second is missing from at most, and 'tftool edit' makes it whole.
+    a second is missing from at most, and 'tftool edit' repairs it.
 
     tftool record -o run.mcap
     tftool record -o long --max-duration 600 --all

@@ -115,7 +115,7 @@ def run(
             "Foxglove server, such as ws://robot:8765."
         )
     if connection.mode is Mode.HOST:
-        raise UsageError("session lists who is there: it has nothing to --host.")
+        raise UsageError("'session' only lists processes: leave out --host.")
     link = connection.open_link()
     if link is None:
         raise LinkError("there is no link to other processes here")

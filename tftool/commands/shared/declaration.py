@@ -259,14 +259,13 @@ class Declaration:
                 continue
             if not self.looks_only:
                 raise UsageError(
-                    f"'{visible(found[0])}' is a robot that is only looked at, and 'tftool "
-                    f"{self.name}' publishes or reads files: {LOOKING} look at it."
+                    f"'{visible(found[0])}' is a robot's server, which is read-only, and 'tftool "
+                    f"{self.name}' publishes or reads files: {LOOKING} work with it."
                 )
             is_from = parameters[name].default is not inspect.Parameter.empty
             if len(found) > 1 or not is_from:
                 raise UsageError(
-                    f"'{visible(found[0])}' is out of place: it is FROM, behind everything else, "
-                    "and the only one."
+                    f"'{visible(found[0])}' is a FROM: give only one, as the last word."
                 )
             words[name] = [one for one in several if one not in found] if several is value else None
             return found[0]

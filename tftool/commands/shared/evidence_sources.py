@@ -55,7 +55,7 @@ def evidence_from(
     if kind is Kind.STATICS:
         shown = visible(word or "")
         raise UsageError(
-            f"'{shown}' holds what never changes: "
+            f"'{shown}' has only static frames: "
             f"'tftool tree {shown}' shows its frames, 'tftool diff' compares them."
         )
     if is_recording:

@@ -94,8 +94,8 @@ def join_or_host(
             # It may host: a second world of the same names would mix with it later.
             link.close()
             raise LinkError(
-                f"{link.unanswering} Or leave it be: --domain N makes a session of its own, "
-                "--host a world that keeps to itself."
+                f"{link.unanswering} Or avoid it: --domain N makes a separate session, "
+                "--host a private world."
             )
         if connection.mode is Mode.JOIN or connection.read_only:
             link.close()

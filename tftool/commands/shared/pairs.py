@@ -88,8 +88,8 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
         path = Path(word)
         if (path.suffix and path.is_file()) or (path / METADATA).is_file():
             raise UsageError(
-                f"'{visible(word)}' is a recording, or another file, and stands where a frame's "
-                "name does: FROM comes behind two frames, TARGET SOURCE FROM."
+                f"'{visible(word)}' is a file, and a frame's name is expected here: write two "
+                "frames before it, TARGET SOURCE FROM."
             )
 
 

@@ -125,7 +125,7 @@ def _write(
         if isinstance(content, bytes):
             if sys.stdout.isatty():
                 raise UsageError(
-                    "A picture is nothing for a terminal: say where it goes with -o FILE."
+                    "A picture cannot be printed to a terminal: name a file with -o FILE."
                 )
             sys.stdout.buffer.write(content)
         else:

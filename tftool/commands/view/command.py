@@ -90,7 +90,7 @@ def _write(
             f"digits would not fit {MOST_BYTES / 1e6:g} MB."
         )
     if size > MOST_BYTES:
-        notice("'tftool edit --from --to' cuts a part out of a recording, which is smaller.")
+        notice("A part of the recording needs less: 'tftool edit --from --to' cuts it out.")
     if open_browser and not webbrowser.open(output.resolve().as_uri()):
         notice("No browser could be started: open the file yourself.")
     return ExitStatus.DONE

@@ -255,7 +255,7 @@ class _Solver:
         if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
             raise CalibrationRefused(
                 f"{problem.a.name} turns by {math.degrees(pairs.largest):.1f}° at most within ten "
-                "seconds: without turning, nothing of the translation can be seen.",
+                "seconds: without rotation the translation cannot be determined.",
                 f"turn by at least 30° about two axes; a vehicle: {FIGURE}",
             )
         turn, weights = kabsch(pairs)

@@ -221,11 +221,11 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
         # A multiple of π is in radians among degrees, too.
         numbers = [math.degrees(n) if k in in_radians else n for k, n in enumerate(numbers)]
     if not all(map(math.isfinite, numbers)):
-        raise UsageError("A number in there is too large to be one.")
+        raise UsageError("A number in the text is too large.")
     form = form or named
     count = len(numbers)
     if not count:
-        raise UsageError("There is no number in that: paste a rotation, or a pose.")
+        raise UsageError("The text contains no number: paste a rotation, or a pose.")
     if count in (9, 12, 16) and form in (None, "matrix"):
         return _matrix(numbers)
     if form is None:

@@ -270,7 +270,7 @@ def entries_at(body: bytes, place: int, end: int) -> dict[int, int]:
     (length,) = U32.unpack_from(body, place)
     place += 4
     if place + length > end:
-        raise InputError("a map goes on behind its record")
+        raise InputError("a map extends beyond its record")
     return dict(_ENTRY.iter_unpack(body[place : place + length // 10 * 10]))
 
 

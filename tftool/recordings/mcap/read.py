@@ -529,7 +529,7 @@ class Mcap(ChunkedReader):
         head = self.up_to(place, guess)
         code, length, told, count = INDEX_HEAD.unpack_from(head)
         if code != MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
-            raise InputError(f"no message index of its is at byte {place}")
+            raise InputError(f"it has no message index at byte {place}")
         if 15 + count > len(head):
             head = self.at(place, 15 + count)
         self._index_sizes[channel] = max(15 + count * 17 // 16, _INDEX_AT_ONCE)

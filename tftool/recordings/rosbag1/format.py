@@ -73,7 +73,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
     """
     header, _, _ = record_head(file, len(ROS1_MAGIC))
     if header.get(b"op") != BAG:
-        raise InputError("the bag's own header is missing")
+        raise InputError("the bag's header is missing")
     (place,) = U64.unpack(header[b"index_pos"])
     if place == 0:
         return header, 0, b""

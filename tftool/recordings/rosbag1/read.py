@@ -120,7 +120,7 @@ class Rosbag1(ChunkedReader):
         if len(infos) != count:
             raise InputError(f"it names {len(infos)} chunks of {count}")
         if any(info.position >= place for info in infos):
-            raise InputError("a chunk is beyond it")
+            raise InputError("a chunk is beyond its end")
         for info in infos:
             self._chunks.append(Chunk(self, info.position, counts=info.counts))
             self._count(info.counts)
@@ -250,7 +250,7 @@ class Rosbag1(ChunkedReader):
             times = np.stack([words_at(data, starts - n, "<u4") for n in (12, 8)], axis=1)
             marks = words_at(data, starts - 16, "<u4")
             if (times != entries[:, :2]).any() or (marks != _BEFORE_TIME).any():
-                raise InputError("its index tells other times")
+                raise InputError("its index has other times")
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:

@@ -150,7 +150,7 @@ def read_metadata(folder: Path) -> dict[str, Any]:
     Raises:
         OSError: If there is none, or it may not be read.
         ValueError: If it is too large, or no YAML.
-        KeyError: If it says nothing of a recording.
+        KeyError: If it does not describe a recording.
         TypeError: Likewise.
     """
     import yaml  # slow to import, and only folders need it
@@ -168,7 +168,7 @@ def read_metadata(folder: Path) -> dict[str, Any]:
         raise ValueError(str(error) or type(error).__name__) from error
     found = document["rosbag2_bagfile_information"]
     if not isinstance(found, dict):
-        raise TypeError("it says nothing of a recording")
+        raise TypeError("it does not describe a recording")
     return found
 
 
@@ -247,8 +247,8 @@ def unpack_file(path: Path, target: Path) -> str:
             if not piece:
                 if not done:
                     raise InputError(
-                        f"'{path}' breaks off after {path.stat().st_size} bytes, before the first "
-                        "one it holds: it was cut, or never finished."
+                        f"'{path}' ends after {path.stat().st_size} bytes without any content: it "
+                        "was cut, or never finished."
                     )
                 return ""
             done += len(piece)

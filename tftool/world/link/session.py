@@ -350,7 +350,7 @@ class Link(LinkContext):
             self.say_once(
                 f"domain {domain}",
                 f"Another process talks in domain {domain}; this is domain {self.options.domain} "
-                f"and hears nothing of it. To join: --domain {domain}.",
+                f"and does not receive it. To join: --domain {domain}.",
             )
 
 

@@ -76,22 +76,22 @@ def test_python_opens_an_address(moving):
     with api.open(moving.address, listen_for=0.3) as frames:
         found = frames.buffer.lookup_transform("base", "laser")
     assert found.transform.translation == (0.5, 2.0, 3.0)
-    with pytest.raises(api.UsageError, match="the whole way to one robot"):
+    with pytest.raises(api.UsageError, match="already names the robot"):
         api.open(moving.address, domain=3)
 
 
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["tree", "ws://r:1", "--dds"], "the whole way to one robot: leave out --domain"),
-        (["tree", "ws://r:1", "--connect", "tcp/r:1"], "the whole way to one robot"),
-        (["tree", "ws://r:1", "--domain", "0"], "the whole way to one robot"),
-        (["tree", "ws://r:1", "--host"], "the whole way to one robot"),
+        (["tree", "ws://r:1", "--dds"], "already names the robot: leave out --domain"),
+        (["tree", "ws://r:1", "--connect", "tcp/r:1"], "already names the robot"),
+        (["tree", "ws://r:1", "--domain", "0"], "already names the robot"),
+        (["tree", "ws://r:1", "--host"], "already names the robot"),
         (["play", "ws://r:1"], "'tftool play' publishes or reads files"),
-        (["static", "0", "0", "0", "0", "0", "0", "a", "b", "ws://r:1"], "only looked at"),
-        (["demo", "ws://r:1"], "only looked at"),
-        (["robot", "wss://r:1"], "only looked at"),
-        (["echo", "map", "ws://r:1"], "out of place: it is FROM"),
+        (["static", "0", "0", "0", "0", "0", "0", "a", "b", "ws://r:1"], "is read-only"),
+        (["demo", "ws://r:1"], "is read-only"),
+        (["robot", "wss://r:1"], "is read-only"),
+        (["echo", "map", "ws://r:1"], "is a FROM: give only one"),
         (["echo", "a", "b", "ws://r:1", "--at", "3"], "without a past to ask about"),
         (["doctor", "scenarios/turtles.yaml", "ws://r:1"], "two sources: name one at a time"),
         (["record", "-o", "x.mcap", "--in", "turtles", "ws://r:1"], "two sources"),
