@@ -134,15 +134,25 @@ def test_a_recording_is_called_recorded_and_opens_at_its_start_with_its_whole_pa
         page.until(lambda: page.said("tftool.ahead()") == [[]])
 
 
-def test_what_lasts_no_time_has_no_timeline(chromium, tmp_path):
+def test_a_description_has_no_timeline_and_the_same_colours_served_and_as_a_file(
+    chromium, tmp_path
+):
     file, written = tmp_path / "cube.urdf", tmp_path / "cube.html"
     file.write_text(ROBOT)
     subprocess.run(
         [sys.executable, "-m", "tftool", "view", str(file), "-o", str(written)], check=True
     )
-    page = Page(chromium, Address(written.as_uri()))
-    page.until(lambda: "inner" in page.drawn())
-    page.until(lambda: not page.find("#time").is_displayed())
+    colours = []
+    with view(tmp_path, file) as served:
+        for address in (served, Address(written.as_uri())):
+            page = Page(chromium, address)
+            page.until(lambda page=page: {"base", "inner"} == page.drawn().keys())
+            page.until(lambda page=page: not page.find("#time").is_displayed())
+            colours.append(
+                page.said("[...document.querySelectorAll('.swatch')].map((e) => e.style.cssText)")
+            )
+    assert len(colours[0]) == 2
+    assert colours[0] == colours[1]
 
 
 def test_of_a_deep_name_both_ends_are_seen(chromium):

@@ -24,7 +24,7 @@ const DEAD = { periods: 10, seconds: 5 };
 
 /**
  * A frame's own colour: the first frames get those that differ most.
- * @param {number} place of the frame in the order in which they first appeared
+ * @param {number} place of the frame, see `placesOf`
  * @param {string} theme
  */
 export function colorOf(place, theme) {

@@ -126,6 +126,7 @@ const handlers = {
   names(message) {
     const another = model.setNames(message);
     timeline.rate = model.rate;
+    timeline.moves = model.names.some((_, index) => model.parents[index] >= 0 && !model.statics[index]);
     const recorded = message.begin ?? null; // the moment to open with, where nothing more comes
     if (another) tracks.forget();
     if (recorded !== null) {

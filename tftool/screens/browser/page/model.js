@@ -14,6 +14,28 @@ export function fade(age, timeout) {
   return { grey: 0, alpha: 1 };
 }
 
+const HUES = 10;
+
+/**
+ * A number for every name, for its colour: the same for the same names, in whatever order they come, and
+ * little changed by names that are added. The first ten numbers are given out first.
+ * @param {string[]} names
+ * @returns {Map<string, number>}
+ */
+export function placesOf(names) {
+  const given = new Array(HUES).fill(0);
+  return new Map(
+    [...names].sort().map((name) => {
+      let first = 7;
+      for (const letter of name) first = (31 * first + (letter.codePointAt(0) ?? 0)) % 1_000_003;
+      const fewest = Math.min(...given);
+      const order = given.map((_, step) => (first + step) % HUES);
+      const hue = order.find((one) => given[one] === fewest) ?? 0;
+      return [name, hue + HUES * given[hue]++];
+    }),
+  );
+}
+
 const moment = (poses) => poses.at ?? poses.now;
 
 export class Model {
@@ -54,7 +76,7 @@ export class Model {
     this.fresh = { newest: Number.NaN, when: 0, now: 0, isFirst: true };
     this.silence = 0; // seconds since then, while nothing can come
     /** @type {Map<string, number>} */
-    this.places = new Map(); // of the names, in the order in which they first appeared
+    this.places = new Map(); // of the names, see `placesOf`
     /** @type {import("./wire.js").Poses[]} */
     this.history = [];
     this.historyBytes = 0;
@@ -66,7 +88,6 @@ export class Model {
   setNames(message) {
     const another = this.epoch !== null && this.epoch !== message.epoch;
     if (another) {
-      this.places.clear();
       this.heard.clear();
       this.forget();
     }
@@ -80,7 +101,7 @@ export class Model {
       total: message.total,
       rate: message.rate,
     });
-    for (const name of this.names) if (!this.places.has(name)) this.places.set(name, this.places.size);
+    this.places = placesOf(this.names);
     this.index = new Map(this.names.map((name, index) => [name, index]));
     this.children = this.names.map(() => []);
     this.roots = [];

@@ -173,11 +173,11 @@ export function showCounts(model, hidden) {
  * Set the slider to what the buffer holds. Never under a hand that holds it.
  * @param {import("./timeline.js").Timeline} timeline
  */
-export function showReach({ at, ends, reach, span: { oldest, newest } }) {
+export function showReach({ at, ends, moves, reach, span: { oldest, newest } }) {
   const line = $("scrub");
   line.disabled = reach.newest <= reach.oldest;
-  // What ends and lasts no time has no moments to go to.
-  $("time").hidden = ends && line.disabled;
+  // What lasts no time, and where nothing moves, has no moments to go to.
+  $("time").hidden = line.disabled && (ends || !moves);
   if (line.matches(":active")) return;
   line.min = String(oldest);
   line.max = String(newest);

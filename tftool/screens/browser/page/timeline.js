@@ -35,6 +35,7 @@ export class Timeline {
     this.rate = 1; // session seconds per second
     this.speed = 1; // of play, chosen by a person
     this.tickedAt = 0;
+    this.moves = true; // whether any frame is dynamic
     this.ends = false; // nothing more comes: there is no present to run into
   }
 
