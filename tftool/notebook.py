@@ -1,4 +1,4 @@
-"""Values in notebooks: trees as pictures, poses and recordings as tables, frames in 3-D.
+"""Display of values in notebooks: trees as pictures, poses and recordings as tables, a 3-D view.
 
 `import tftool` registers these where IPython runs. The classes are named, not imported: what a
 notebook does not show costs it nothing.
@@ -30,7 +30,7 @@ _HEADS: Final = ("stamp", "x", "y", "z", "qx", "qy", "qz", "qw")
 
 
 def register() -> None:
-    """Let the notebook that runs show our values; does nothing where none runs."""
+    """Register the displays with the running notebook; does nothing elsewhere."""
     module = sys.modules.get("IPython")
     shell = module.get_ipython() if module is not None else None
     if shell is None or shell.display_formatter is None:
@@ -41,26 +41,26 @@ def register() -> None:
 
 
 def buffer_picture(buffer: "Buffer") -> str:
-    """The frames of a buffer as SVG, ages counted from its newest stamp."""
+    """Return a buffer's frames as SVG, with ages relative to its newest stamp."""
     snapshot = buffer.snapshot(0)
     newest = max((frame.newest for frame in snapshot.frames if frame.newest), default=0)
     return snapshot_picture(buffer.snapshot(newest))
 
 
 def frames_picture(frames: "Frames") -> str:
-    """The frames that were opened as SVG, at their end."""
+    """Return opened frames as SVG, at their end."""
     return snapshot_picture(frames.buffer.snapshot(frames.span[1]))
 
 
 def snapshot_picture(snapshot: "Snapshot") -> str:
-    """The frames of a snapshot as SVG, as `tftool tree -o` draws them."""
+    """Return a snapshot's frames as SVG, as `tftool tree -o` draws them."""
     from tftool.drawing import picture, svg
 
     return svg.render(picture.lay_out(snapshot))
 
 
 def array_table(poses: "TransformArray") -> str:
-    """The first and last poses as an HTML table; rows without a pose are empty."""
+    """Return the first and last poses as an HTML table; rows without a pose are empty."""
     count = len(poses)
     title = (
         f"{poses.child_frame_id} in {poses.frame_id}: {count} poses, {int(poses.valid.sum())} valid"
@@ -84,14 +84,14 @@ def _row(poses: "TransformArray", index: int | None) -> Sequence[str]:
 
 
 def recording_table(recording: "Recording") -> str:
-    """Return the content of a recording, as `tftool info` says it."""
+    """Return a recording's contents as `tftool info` prints them."""
     from tftool.drawing import recording_view as info
 
     return f"<pre>{escape(info.as_text(recording))}</pre>"
 
 
 def finding_table(finding: "Finding") -> str:
-    """A finding with its evidence and what mends it."""
+    """Return a finding with evidence and remedies as HTML."""
     rows = [("", finding.message), *(("", line) for line in finding.evidence)]
     rows.append(("so", finding.consequence))
     rows.extend(("fix", f"{fix.text} {fix.command}".rstrip()) for fix in finding.fixes)
@@ -100,7 +100,7 @@ def finding_table(finding: "Finding") -> str:
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """The page of `tftool view` with its data in it, for a notebook's output or a file.
+    """Page of `tftool view` with its data, for a notebook's output or a file.
 
     Attributes:
         html: The page, which needs nothing from elsewhere.
@@ -121,7 +121,7 @@ class PageView:
         )
 
     def save(self, path: str | Path, *, force: bool = False) -> None:
-        """Write the page to a file, which opens in any browser.
+        """Write the page to a file that any browser opens.
 
         Args:
             path: Its name, in .html.
@@ -188,7 +188,7 @@ def view(
 
 
 def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """An HTML table; nothing in a name can act."""
+    """Return an HTML table; cells are escaped."""
 
     def cells(tag: str, texts: Sequence[str]) -> str:
         inner = "".join(f"<{tag}>{escape(visible(text))}</{tag}>" for text in texts)

@@ -1,4 +1,4 @@
-"""The one door to frames: FROM becomes `Frames`, for Python and for the command line alike.
+"""The door to frames: FROM becomes `Frames`, for Python and for the command line.
 
 FROM is a word that names a scenario, a recording, a robot description, a file of static
 transforms, the address of a robot (`ws://robot:8765`), or nothing: the session that runs on this
@@ -145,7 +145,7 @@ def open_frames(
 
 
 def named(word: str) -> Found:
-    """Return what a word names.
+    """Return the path or scenario that a word names.
 
     A built-in scenario's name wins; `./turtles` and `turtles.yaml` are paths.
 
@@ -181,7 +181,7 @@ def scenario_named(word: str, arguments: Mapping[str, str] | None = None) -> "Sc
 
 
 def kind_in_words(found: Found) -> str:
-    """Return what FROM names, with its article."""
+    """Return what FROM is, with an article."""
     if found.kind is Kind.SEVERAL:
         return "several recordings"
     article = "an" if found.kind is Kind.MCAP else "a"
@@ -191,7 +191,7 @@ def kind_in_words(found: Found) -> str:
 def refuse_options_of_files(
     robot: RobotOptions, recording: RecordingOptions, word: str | None
 ) -> None:
-    """Refuse the options of recordings and descriptions, where FROM is neither.
+    """Refuse the options of recordings and descriptions if FROM is neither.
 
     Raises:
         UsageError: If one was given.
@@ -203,7 +203,7 @@ def refuse_options_of_files(
 
 
 def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, Any]) -> None:
-    """Refuse the options of other middlewares and domains beside the address of a session.
+    """Refuse the options of other middlewares and domains together with a session's address.
 
     Raises:
         UsageError: If one was given.
@@ -216,7 +216,7 @@ def refuse_beside_address(address: str, domain: int | None, given: Mapping[str, 
 
 
 def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
-    """Refuse --cache-time where FROM is all there, and lookups reach back to its beginning.
+    """Refuse --cache-time if FROM is complete, since lookups then use all data.
 
     Raises:
         UsageError: If it was given.
@@ -226,7 +226,7 @@ def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
 
 
 def nanoseconds(time: float) -> Duration:
-    """Return seconds in nanoseconds; what `seconds` made already stays as it is."""
+    """Convert seconds to nanoseconds; values made by `seconds` are kept."""
     if not time > 0:
         raise UsageError(f"{time} s is too short to listen or to play: give more than 0.")
     # Nobody listens for eleven days.

@@ -1,4 +1,4 @@
-"""Mounts as recorded motion gives them, of one recording and in windows of it."""
+"""Mounts measured from recorded motion, over one recording or in windows of it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -34,7 +34,7 @@ _MOST_WINDOWS: Final = 6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MountWindow:
-    """Mount in a part of a recording.
+    """A mount measured over a part of a recording.
 
     Attributes:
         begin: First stamp of the part.
@@ -49,7 +49,7 @@ class MountWindow:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MeasuredMount:
-    """Mount of a frame as the motion gives it.
+    """A frame's mount measured from motion.
 
     Attributes:
         parent: The frame it is mounted on.
@@ -77,7 +77,7 @@ class MeasuredMount:
 def measured_mounts(
     model: "Model", before: Sequence[MeasuredMount] = ()
 ) -> tuple[MeasuredMount, ...]:
-    """Measure every mount between two chains of one body that were recorded apart.
+    """Measure every mount between two independently recorded chains of one body.
 
     Args:
         model: The recording.
@@ -93,7 +93,7 @@ def measured_mounts(
 
 
 def apart(mount: Transform, other: Transform) -> Floats:
-    """Return by how much a mount differs from another, metres and degrees, shape (6,)."""
+    """Return a mount's difference from another, in metres and degrees, shape (6,)."""
     shift = np.subtract(mount.translation, other.translation)
     rotations = np.array([mount.rotation]), np.array([other.rotation])
     turn = -np.degrees(rotation_vectors(multiply(conjugate(rotations[0]), rotations[1]))[0])
@@ -152,7 +152,7 @@ def _between(path: TransformArray, begin: int, end: int) -> TransformArray:
 
 
 def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Transform]]:
-    """Yield two motions of one body that were measured apart, and the mount between them."""
+    """Yield two independently measured motions of one body, and the mount between them."""
     # Here, as the solver is loaded only where mounts are asked for.
     from tftool.frames.calibration.motion import poses_of
 
@@ -181,7 +181,7 @@ def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Tra
 
 
 def _climbed(frame: str, static: dict[str, Edge]) -> tuple[str, Transform]:
-    """Climb static links; return the frame above them, and the first frame's pose in it."""
+    """Follow static links up; return the topmost frame and the first frame's pose in it."""
     mount = Transform.identity()
     seen = {frame}
     while frame in static and static[frame].parent not in seen:

@@ -1,4 +1,4 @@
-"""Proposals for transforms that are missing, from what the data or the description say of them."""
+"""Proposals for missing transforms, based on the data or the description."""
 
 import shlex
 from collections.abc import Iterable
@@ -22,7 +22,7 @@ _MOUNTED = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class Join:
-    """Transform that is missing, with the evidence for it.
+    """A missing transform, with the evidence for it.
 
     Attributes:
         edge: Its parent and child; None where the evidence names none.
@@ -38,7 +38,7 @@ class Join:
 
 
 def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
-    """Propose what joins two trees; None where neither data nor description say it.
+    """Propose a transform that joins two trees; None without evidence.
 
     Args:
         model: Knowledge of the frames.
@@ -63,7 +63,7 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
 
 
 def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join | None:
-    """Propose what publishes a frame that no transform names; None without evidence.
+    """Propose a publisher for a frame that no transform names; None without evidence.
 
     Args:
         model: Knowledge of the frames.
@@ -83,7 +83,7 @@ def proposed_frame(model: Model, name: str, kinds: Iterable[str] = ()) -> Join |
 
 
 def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
-    """The joint of the robot description above a root, if it leads to other frames."""
+    """Return the description's joint above a root, if it leads to other frames."""
     joint = model.joint_above.get(root)
     if joint is None or model.prefix + joint.parent not in others:
         return None
@@ -97,7 +97,7 @@ def _described(model: Model, root: str, others: frozenset[str]) -> Join | None:
 
 
 def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
-    """The Odometry messages that say where a frame of one tree is in one of another."""
+    """Return a proposal from Odometry messages that relate a frame of each tree."""
     odometry = model.evidence.odometry
     if odometry is None:
         return None
@@ -116,7 +116,7 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
 
 
 def _localised(tree: Tree, other: Tree) -> Join | None:
-    """A map in one tree and odometry at the root of the other: REP-105 joins them."""
+    """Propose map to odom, by REP-105, if one tree has a map and the other's root is odometry."""
     if not last_part(tree.root).startswith(("odom", "camera_init")):
         return None
     maps = sorted(frame for frame in other.frames if last_part(frame) == "map")
@@ -128,7 +128,7 @@ def _localised(tree: Tree, other: Tree) -> Join | None:
 
 
 def _by_another_name(tree: Tree, other: Tree) -> Join | None:
-    """A root that another tree seems to know under a near name: base_link, base_footprint."""
+    """Propose a join if another tree has a similar name for the root: base_footprint."""
     root = tree.root
     for name in sorted(other.frames):
         if _prefix(name) != _prefix(root) or _core(name) != _core(root):
@@ -140,12 +140,12 @@ def _by_another_name(tree: Tree, other: Tree) -> Join | None:
 
 
 def _core(name: str) -> frozenset[str]:
-    """The words of a name that tell it from others: of base_laser_link, laser."""
+    """Return the distinctive words of a name: "laser" of base_laser_link."""
     return frozenset(last_part(name).lower().split("_")) - _PLAIN
 
 
 def _are_two_robots(main: Tree, lesser: Tree) -> bool:
-    """Whether two trees hold a base each, and not of one robot under two names."""
+    """Whether each tree has a base, and the bases are not one robot's under two names."""
     ours, theirs = _bases(main), _bases(lesser)
     if not ours or not theirs:
         return False
@@ -163,7 +163,7 @@ def _prefix(name: str) -> str:
 
 
 def base_of(tree: Tree) -> str:
-    """The frame on which a robot's sensors are mounted; empty where there is none."""
+    """Return the frame on which a robot's sensors are mounted; empty if there is none."""
     for name in (*BASES, "body"):
         found = sorted(frame for frame in tree.frames if last_part(frame) == name)
         if found:
@@ -172,7 +172,7 @@ def base_of(tree: Tree) -> str:
 
 
 def static_publisher(parent: str, child: str, pose: Transform | None = None) -> str:
-    """The line that publishes a mount; with letters for its numbers where they are not known."""
+    """Return the command that publishes a mount, with letters in place of unknown numbers."""
     numbers = "--x X --y Y --z Z --yaw A"
     if pose is not None:
         names = ("x", "y", "z", "qx", "qy", "qz", "qw")
@@ -185,5 +185,5 @@ def static_publisher(parent: str, child: str, pose: Transform | None = None) -> 
 
 
 def quoted(name: str) -> str:
-    """A name as a word of a shell's command line."""
+    """Quote a name for a shell's command line."""
     return shlex.quote(name)

@@ -1,4 +1,4 @@
-"""Model the checks look at: columns and headers on one clock, in laps, as trees.
+"""Model of the evidence that the checks read: columns and headers on one clock, laps, trees.
 
 Nothing here reads a file; see `evidence` for the input.
 """
@@ -36,7 +36,7 @@ WARM_UP = seconds(1)
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """Settings of the imagined listener, and limits other than the usual ones.
+    """Settings of the assumed listener, and changed thresholds.
 
     Attributes:
         cache_time: How far back its buffer remembers, nanoseconds.
@@ -57,7 +57,7 @@ SHIFT = seconds(2)
 
 @dataclass(frozen=True, slots=True)
 class Shift:
-    """Constant between the clock of the stamps and that of the recorder.
+    """Constant difference between the stamps' clock and the recorder's.
 
     Attributes:
         by: How long before their reception most stamps are, nanoseconds; negative if behind it.
@@ -72,7 +72,7 @@ class Shift:
 
 @dataclass(frozen=True, slots=True)
 class Lap:
-    """A moment at which time went back.
+    """A time at which the clock jumped back.
 
     Attributes:
         log: When, as log time.
@@ -89,7 +89,7 @@ class Lap:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """Frames that hang together.
+    """Connected frames.
 
     Attributes:
         root: The frame without a parent; some frame of the circle where there is none.
@@ -103,7 +103,7 @@ class Tree:
 
 
 class Model:
-    """The evidence, read once for all checks.
+    """The evidence, prepared once for all checks.
 
     Attributes:
         evidence: What it was made of.
@@ -140,33 +140,33 @@ class Model:
 
     @cached_property
     def dynamic(self) -> tuple[Track, ...]:
-        """Edges that came on a topic that is not static."""
+        """Edges recorded on a non-static topic."""
         return tuple(track for track in self.tracks if not track.static)
 
     @cached_property
     def statics(self) -> tuple[Track, ...]:
-        """Edges that came on a static topic."""
+        """Edges recorded on a static topic."""
         return tuple(track for track in self.tracks if track.static)
 
     @cached_property
     def start(self) -> Stamp:
-        """Log time at which the first lap begins."""
+        """Log time of the start of the first lap."""
         return max(self.evidence.start, -(2**61))
 
     @cached_property
     def epoch(self) -> Stamp:
-        """The first stamp of moving links; log time where nothing does."""
+        """First stamp of a moving link; without one, the first log time."""
         firsts = [int(t.sorted_stamps[0]) for t in self.dynamic if len(t.sorted_stamps)]
         return min(firsts, default=self.start)
 
     @cached_property
     def end(self) -> Stamp:
-        """Log time at which the first lap ends."""
+        """Log time of the end of the first lap."""
         return self.laps[0].log if self.laps else min(self.evidence.end, 2**61)
 
     @cached_property
     def edges_above(self) -> dict[str, list[Track]]:
-        """Every edge above each child, in the order of `tracks`."""
+        """Edges above each child, in the order of `tracks`."""
         edges: dict[str, list[Track]] = {}
         for track in self.tracks:
             edges.setdefault(track.child, []).append(track)
@@ -174,7 +174,7 @@ class Model:
 
     @cached_property
     def parents(self) -> dict[str, Track]:
-        """The latest edge above each child."""
+        """The newest edge above each child."""
         latest: dict[str, tuple[int, Track]] = {}
         for track in self.tracks:
             if not len(track.stamps):
@@ -187,12 +187,12 @@ class Model:
 
     @cached_property
     def frames(self) -> frozenset[str]:
-        """Every frame that a transform names."""
+        """All frames named by a transform."""
         return frozenset(name for track in self.tracks for name in track.edge)
 
     @cached_property
     def prefix(self) -> str:
-        """Return the prefix of a described link's name in that of its frame; usually empty."""
+        """Return the prefix that frames have before the description's link names; often empty."""
         robot = self.evidence.robot
         if robot is None:
             return ""
@@ -200,20 +200,20 @@ class Model:
 
     @cached_property
     def joint_above(self) -> Mapping[str, RobotJoint]:
-        """The description's joint above each frame; none without a description."""
+        """The description's joint above each frame; empty without a description."""
         robot = self.evidence.robot
         joints = () if robot is None else robot.joints.values()
         return {self.prefix + joint.child: joint for joint in joints}
 
     @cached_property
     def described(self) -> frozenset[str]:
-        """The frames that the description promises; none without one."""
+        """Frames that the description defines; empty without one."""
         robot = self.evidence.robot
         return frozenset(() if robot is None else (self.prefix + link for link in robot.links))
 
     @cached_property
     def trees(self) -> tuple[Tree, ...]:
-        """By the latest parents, the largest first."""
+        """Trees by the newest parents, the largest first."""
         root_of: dict[str, tuple[str, bool]] = {}
         for frame in sorted(self.frames):
             walked: dict[str, None] = {}
@@ -245,18 +245,18 @@ class Model:
         return {frame: tree for tree in self.trees for frame in tree.frames}
 
     def above(self, frame: str) -> list[Track]:
-        """The edges from a frame up to its root, lowest first."""
+        """Return the edges from a frame up to its root, lowest first."""
         return climbed(frame, self.parents.get)
 
     def path(self, frame: str, other: str) -> list[Track] | None:
-        """The edges between two frames; None where they are not joined."""
+        """Return the edges between two frames; None if they are not connected."""
         if frame not in self.frames or other not in self.frames:
             return None
         legs = up_to_join(frame, other, self.above)
         return None if legs is None else legs[0] + legs[1]
 
     def below(self, frame: str) -> frozenset[str]:
-        """A frame and everything that hangs below it by the latest parents."""
+        """Return a frame and all its descendants by the newest parents."""
         found: set[str] = set()
         waiting = [frame]
         while waiting:
@@ -300,11 +300,11 @@ class Model:
 
     @cached_property
     def warm(self) -> tuple[Stamp, Stamp]:
-        """Log times between which coverage is judged."""
+        """Return the log times between which coverage is judged."""
         return self.start + WARM_UP, self.end - WARM_UP
 
     def log_of(self, stamp: Stamp) -> Stamp:
-        """The log time of a moment on the clock of the stamps."""
+        """Convert a time on the stamps' clock to log time."""
         read, received = self.evidence.clock
         if stamp >= SIMULATED_BELOW or self.evidence.end < SIMULATED_BELOW:
             return stamp if self.shift is None else stamp + self.shift.by
@@ -357,7 +357,7 @@ class Model:
                 every.lap = int(np.searchsorted(every.all_logs, laps[0].log, side="left"))
 
     def _put_on_one_clock(self) -> None:
-        """Reckon arrivals on the clock of the stamps: 2.1 of the specification's latency."""
+        """Convert arrivals to the stamps' clock: 2.1 of the specification's latency."""
         streams: list[Stream] = [*self.tracks, *self.nameless, *self.heard]
         simulated = [one for one in streams if one.families[0]]
         read, received = self.evidence.clock
@@ -382,7 +382,7 @@ class Model:
             stream.arrivals = np.where(is_sim, on_clock, stream.arrivals)
 
     def _find_shift(self, streams: list[Stream]) -> None:
-        """Find the constant that most stamps are off by, and reckon arrivals without it."""
+        """Find the constant by which most stamps differ from arrivals, and remove it."""
         late, spreads = [], []
         for stream in streams:
             is_static = isinstance(stream, Track) and stream.static
@@ -409,7 +409,7 @@ class Model:
 
     @cached_property
     def _clock(self) -> tuple[Stamps, Stamps]:
-        """Readings of a simulation's clock and their log times; guessed without `/clock`."""
+        """Return a simulation clock's readings and their log times; estimated without `/clock`."""
         kept: list[tuple[Stamps, Stamps]] = []
         offset, steady = 0, True
         for stream in self._streams():
@@ -440,7 +440,7 @@ def _is_nameless(track: Track) -> bool:
 
 
 def _steps_back(stamps: Stamps) -> list[int]:
-    """Places at which stamps of one clock step back by more than a lap's least."""
+    """Return where stamps of one clock step back by more than a lap's minimum."""
     stamped = np.flatnonzero(stamps != 0)
     kept = stamps[stamped]
     back = np.flatnonzero(

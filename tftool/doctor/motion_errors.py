@@ -1,4 +1,4 @@
-"""Errors of a motion at constant velocity: how well two samples of a track foretell the next."""
+"""Prediction errors of motion at constant velocity: how far each sample is from its prediction."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ RADIAN = 0.5
 
 
 def motion_errors(track: Track, places: Places) -> Floats:
-    """Compare samples with where their two predecessors would lead at constant velocity.
+    """Return each sample's distance from its prediction by the two before it.
 
     The turn between two samples may be longer by a whole turn either way, as that of a fast
     wheel is: of the three the best one counts.

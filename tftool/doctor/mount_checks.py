@@ -86,7 +86,7 @@ def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
-    """Return the step of the mount at a window, and the half-width of its interval, shape (6,)."""
+    """Return the step of the mount at a window, and its interval's half-width, shape (6,)."""
     shifts = np.array([window.shift for window in one.windows])
     weights = np.array([window.widths for window in one.windows]) ** -2.0
     means, spreads = [], []
@@ -100,7 +100,7 @@ def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
 
 
 def _outside(difference: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
-    """Name the axes along which a difference is too large; NaN is unseen, and never outside."""
+    """Name the axes on which a difference exceeds the limit; NaN (unseen) never does."""
     said = []
     for place, name in enumerate((*AXES, *ANGLES)):
         is_length = place < len(AXES)

@@ -1,4 +1,4 @@
-"""Checks of names: frames that messages use and tf lacks, and names that mean the same."""
+"""Checks of names: frames of messages that tf lacks, and different names for one frame."""
 
 import re
 from collections import defaultdict
@@ -83,12 +83,12 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _slashed(heard: Heard, model: Model) -> Iterable[str]:
-    """What `slash-twins` speaks about."""
+    """Return the frames that `slash-twins` reports."""
     return model.frames if heard.frame.startswith("/") else ()
 
 
 def alike_frames(model: Model, name: str) -> list[str]:
-    """Frames that were probably meant by one that tf does not know."""
+    """Return known frames that were probably meant by an unknown one."""
     kinds = [heard.type for heard in model.heard if heard.frame == name]
     near = near_names(last_part(name), sorted(model.frames), 3)
     return list(dict.fromkeys((*(f for kind in kinds for f in _fitting(model, kind)), *near)))
@@ -258,7 +258,7 @@ def typo_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 class _Spelled:
-    """A name, and what of it counts beside its letters when it is compared."""
+    """A name in its spelling for comparison, and what else distinguishes it."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -268,7 +268,7 @@ class _Spelled:
 
 
 def _bare(name: str) -> str:
-    """A name without case, hyphens, underscores and blanks."""
+    """Return a name in lower case without hyphens, underscores and blanks."""
     return re.sub(r"[-_\s]", "", name).casefold()
 
 
@@ -283,7 +283,7 @@ def _is_typo(one: _Spelled, other: _Spelled, limits: Limits) -> bool:
 
 
 def distance(one: str, other: str, most: int) -> int:
-    """Letters to insert, drop, change or swap with a neighbour to make one word of another.
+    """Return the number of letters to insert, drop, replace or swap to get the other word.
 
     Args:
         one: A word.
@@ -320,7 +320,7 @@ def distance(one: str, other: str, most: int) -> int:
 
 
 def _shared(one: str, other: str) -> int:
-    """With how many letters both begin."""
+    """Return the length of the common prefix."""
     for place, (letter, its) in enumerate(zip(one, other, strict=False)):
         if letter != its:
             return place
@@ -432,7 +432,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """For each frame a frame that stands for all it is joined with."""
+    """Return for each frame a representative of its connected frames."""
     above: dict[str, str] = {}
 
     def top(name: str) -> str:
@@ -480,7 +480,7 @@ def _awkward(name: str, limits: Limits) -> str:
 
 
 def _names(model: Model) -> list[str]:
-    """All names that transforms and messages use, those of messages without their slash."""
+    """Return all frame names in transforms and messages, the latter without leading slash."""
     heard = {h.frame.removeprefix("/") for h in model.heard if h.is_spatial}
     return sorted((model.frames | heard) - {""})
 

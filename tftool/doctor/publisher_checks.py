@@ -1,4 +1,4 @@
-"""Checks of who publishes what: two opinions of one frame, statics that move."""
+"""Checks of publishers: conflicting values for one frame, moving statics."""
 
 import math
 from collections import Counter, defaultdict
@@ -153,7 +153,7 @@ def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
-    """Two publishers that are known, at the same time, of different opinion."""
+    """Find two known publishers that disagree at the same time."""
     places = track.by_stamp
     senders = track.senders[places]
     numbers, counts = np.unique(senders, return_counts=True)
@@ -190,7 +190,7 @@ def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
 
 
 def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
-    """Two opinions of single moments: stamps that come twice, with different values."""
+    """Find stamps that occur twice with different values."""
     if len(track.steps) == len(track.by_stamp) - 1:
         return None
     # A stamp that comes more than twice stands still: that is another fault.
@@ -215,7 +215,7 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
 
 
 def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
-    """Two opinions seen from the values: each continues itself, and they alternate."""
+    """Find two tracks by their values alone: each is continuous, and they alternate."""
     places = track.by_stamp[:MOST_FOLLOWED]
     if len(places) < max(2 * limits["samples"], 2):
         return None
@@ -243,7 +243,7 @@ def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
 def _alternating(
     track: Track, places: Places, owners: Places, together: Floats, limits: Limits
 ) -> tuple[Places, Places] | None:
-    """Return the samples of two tracks that take turns; None where one motion explains both.
+    """Return two alternating tracks of samples; None if one motion explains both.
 
     Args:
         track: The samples.
@@ -277,7 +277,7 @@ def _alternating(
 
 
 def _follow(track: Track, places: Places, limits: Limits) -> Places:
-    """Which of at most three tracks each sample continues; the nearest where it continues none."""
+    """Assign each sample to one of at most three tracks, by its best prediction."""
     stamps = (track.stamps[places] / NANOSECONDS).tolist()
     poses = np.hstack((track.translations[places], unit(track.rotations[places]))).tolist()
     reach, speed = limits["reach"], limits["speed"]
@@ -401,7 +401,7 @@ def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
 def _ends_at_the_root(
     model: Model, moving: Sequence[Track], statics: Sequence[Track]
 ) -> tuple[Fix, ...]:
-    """Propose the root of the mounts as the moving one's child, where the two have two parents."""
+    """Propose the mounts' root as a child of the moving frame, if that has two parents."""
     if {track.parent for track in moving} & {track.parent for track in statics}:
         return ()
     # The latest parent of the frame may be either; what the mount hangs from is above it.
@@ -565,7 +565,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _could_move(model: Model, track: Track) -> bool:
-    """Whether anything but its values says that an edge may move."""
+    """Whether anything besides its values shows that an edge may move."""
     joint = model.joint_above.get(track.child)
     if joint is not None:
         return joint.moves
@@ -583,7 +583,7 @@ def _could_move(model: Model, track: Track) -> bool:
 
 
 def _joints_by_statics(model: Model) -> list[Track]:
-    """The dynamic edges that carry a mount of the message in which all fixed joints are sent.
+    """Return the dynamic edges among mounts that one message of all fixed joints carries.
 
     robot_state_publisher sends all fixed joints in one message, and on /tf what can move.
     """
@@ -630,7 +630,7 @@ def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
-    """The edges of each child that has at least `least` of them."""
+    """Yield the edges of each child that has at least `least` of them."""
     grouped: dict[str, list[Track]] = defaultdict(list)
     for track in tracks:
         if len(track.by_stamp):
@@ -639,7 +639,7 @@ def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]
 
 
 def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
-    """How often the parent changes, how many seconds it stays on average, and when first."""
+    """Return the number of parent changes, the mean time between them, and the first."""
     stamps = np.concatenate([track.sorted_stamps for track in tracks])
     logs = np.concatenate([track.logs[track.by_stamp] for track in tracks])
     owner = np.repeat(np.arange(len(tracks)), [len(track.by_stamp) for track in tracks])
@@ -651,7 +651,7 @@ def _switching(tracks: Sequence[Track]) -> tuple[int, float, int]:
 
 
 def _root(model: Model, frame: str, without: str) -> str:
-    """The topmost frame above one, as long as the way does not lead over another."""
+    """Return the topmost frame above one, if the path avoids another."""
     for track in model.above(frame):
         if track.parent == without:
             break
@@ -669,7 +669,7 @@ def _is_odometry(track: Track) -> bool:
 
 
 def _switches_off(track: Track) -> Fix:
-    """What turns one of the two publishers of an edge off, by what the edge is."""
+    """Return how to switch off one of an edge's two publishers, by the edge's kind."""
     if track.is_localisation:
         return Fix(
             "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "

@@ -1,4 +1,4 @@
-"""Checks of how the frames hang together: circles, several trees, names in the wrong order."""
+"""Checks of the tree's shape: loops, several trees, wrong order of names."""
 
 from collections import defaultdict, deque
 from collections.abc import Iterator, Mapping
@@ -81,7 +81,7 @@ def loop(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
-    """Of links from child to parent those that lie in a circle, or lead from one to another."""
+    """Return the links, from child to parent, in a loop or between two loops."""
     for _ in range(2):
         parents, children = defaultdict(set), defaultdict(set)
         for child, parent in links:
@@ -164,7 +164,7 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def nothing_says(root: str) -> Fix:
-    """The remedy where nothing says what a root belongs to: where to look."""
+    """Return the remedy when nothing shows to what a root belongs: where to look."""
     return Fix(
         f"nothing in the data says where {root} belongs: look at what should publish it (a driver, "
         "the robot description and its joint states, a localiser)"
@@ -172,13 +172,13 @@ def nothing_says(root: str) -> Fix:
 
 
 def _is_convention(tree: Tree, topics: Mapping[str, int]) -> bool:
-    """Whether a tree without messages is one name in several conventions: odom and odom_ned."""
+    """Whether a tree without messages repeats a name in another convention: odom and odom_ned."""
     others = {f"{tree.root}_{axes}" for axes in ("ned", "enu", "frd", "flu")}
     return not topics and len(tree.frames) > 1 and tree.frames <= {tree.root, *others}
 
 
 def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
-    """Topics whose messages are in a tree's frames, and how many."""
+    """Return the topics with messages in a tree's frames, and their counts."""
     counts: dict[str, int] = defaultdict(int)
     for heard in model.heard:
         if heard.is_spatial and heard.frame in tree.frames:
@@ -187,7 +187,7 @@ def _messages_in(model: Model, tree: Tree) -> dict[str, int]:
 
 
 def _is_complete(tree: Tree) -> bool:
-    """Whether a tree is a whole robot: odometry and a base of its own."""
+    """Whether a tree is a complete robot: its own odometry and base."""
     parts = {last_part(frame) for frame in tree.frames}
     return any(part.startswith("odom") for part in parts) and not parts.isdisjoint(BASES)
 

@@ -1,4 +1,4 @@
-"""One stream of stamps and arrivals: of a link's samples, or of a topic's headers."""
+"""Stamps and arrivals of one stream: a link's samples, or a topic's headers."""
 
 import math
 import re
@@ -40,7 +40,7 @@ ZERO_QUATERNION = 1e-12
 
 
 class Stream:
-    """Stamped things that arrive one after the other, in the order of their log times.
+    """Stamped items in order of their log times.
 
     Attributes:
         stamps: Nanoseconds, shape (n,).
@@ -58,17 +58,17 @@ class Stream:
         self.arrivals: Stamps = self.all_logs
 
     def in_order(self, column: npt.NDArray[Number]) -> npt.NDArray[Number]:
-        """Rows in the order of log times."""
+        """Return the rows in order of log times."""
         return column if self.order is None else column[self.order]
 
     @property
     def stamps(self) -> Stamps:
-        """Nanoseconds, of the first lap."""
+        """Stamps of the first lap, nanoseconds."""
         return self.all_stamps[: self.lap]
 
     @property
     def logs(self) -> Stamps:
-        """Log times, of the first lap."""
+        """Log times of the first lap, nanoseconds."""
         return self.all_logs[: self.lap]
 
     @cached_property
@@ -78,13 +78,13 @@ class Stream:
 
     @cached_property
     def median_latency(self) -> int:
-        """Nanoseconds; of those whose stamp is not 0."""
+        """Median latency, nanoseconds, of stamps other than 0."""
         stamped = self.latency[self.stamps != 0]
         return int(median(stamped)) if len(stamped) else 0
 
     @cached_property
     def wild(self) -> Mask:
-        """Tell stamps that are far from those of the arrivals before and after, shape (n,).
+        """Return a mask of stamps far from the arrivals around them, shape (n,).
 
         No stamp does where they are many: those are two clocks by turns, and no accident.
         """
@@ -108,14 +108,14 @@ class Stream:
 
     @cached_property
     def families(self) -> tuple[int, int]:
-        """Count the stamps since a simulation's start, and since 1970; zeros aside."""
+        """Count the stamps on a simulation's clock and on the calendar clock, without zeros."""
         zero = int(np.count_nonzero(self.stamps == 0))
         wall = int(np.count_nonzero(self.stamps >= SIMULATED_BELOW))
         return len(self.stamps) - wall - zero, wall
 
 
 class Track(Stream):
-    """Every transform of one edge, in the order of their arrival.
+    """All transforms of one edge in order of arrival.
 
     Attributes:
         parent: Name without its one leading slash.
@@ -140,33 +140,33 @@ class Track(Stream):
 
     @property
     def name(self) -> str:
-        """For people."""
+        """Name for messages."""
         return f"{self.child} in {self.parent}"
 
     @cached_property
     def translations(self) -> Floats:
-        """Metres, shape (n, 3), of the first lap."""
+        """Translations in metres, shape (n, 3), of the first lap."""
         return self.in_order(self._edge.translations)[: self.lap]
 
     @cached_property
     def rotations(self) -> Floats:
-        """As recorded, shape (n, 4), of the first lap."""
+        """Rotations as recorded, shape (n, 4), of the first lap."""
         return self.in_order(self._edge.rotations)[: self.lap]
 
     @cached_property
     def senders(self) -> npt.NDArray[np.int32]:
-        """Places in the publishers, shape (n,), of the first lap."""
+        """Indices into the publishers, shape (n,), of the first lap."""
         senders: npt.NDArray[np.int32] = self.in_order(self._transforms.senders_of(self._edge))
         return senders[: self.lap]
 
     @cached_property
     def messages(self) -> Places32:
-        """Numbers of the messages that carried them, shape (n,), of the first lap."""
+        """Numbers of the messages that contained the samples, shape (n,), of the first lap."""
         return self.in_order(self._edge.messages)[: self.lap]
 
     @cached_property
     def publishers(self) -> list[Publisher]:
-        """Return who publishes it, known by name or not."""
+        """Return the publishers, with or without known names."""
         senders = self.senders
         if len(senders) and senders.min() == senders.max():
             return [self._transforms.publishers[senders[0]]]
@@ -174,17 +174,17 @@ class Track(Stream):
 
     @cached_property
     def nodes(self) -> tuple[str, ...]:
-        """Return its publisher, if that is known."""
+        """Return the publishing nodes, as far as known."""
         return tuple(sorted({one.node for one in self.publishers if one.node}))
 
     @cached_property
     def topics(self) -> tuple[str, ...]:
-        """Return its source."""
+        """Return the topics."""
         return tuple(sorted({one.topic for one in self.publishers}))
 
     @cached_property
     def is_orderly(self) -> bool:
-        """Whether all are known to be usable, and to have come in the order of their stamps."""
+        """Whether all samples are known to be usable and sorted by stamp."""
         return (
             self.order is None
             and self._edge.kept == len(self._edge) > 0
@@ -194,7 +194,7 @@ class Track(Stream):
 
     @cached_property
     def finite(self) -> Mask:
-        """Return the samples with finite numbers only, shape (n,)."""
+        """Return a mask of the samples with finite numbers only, shape (n,)."""
         if self.is_orderly:
             return np.ones(self.lap, dtype=np.bool_)
         finite = np.isfinite(self.translations).all(axis=1)
@@ -211,7 +211,9 @@ class Track(Stream):
 
     @cached_property
     def usable(self) -> Mask:
-        """Return samples tf2 would store: finite, with a rotation, and a stamp unless static."""
+        """Return a mask of the samples tf2 would store: finite, with a rotation, a stamp unless
+        static.
+        """
         if self.is_orderly:
             return self.finite
         mask: Mask = self.finite & (self.squares > ZERO_QUATERNION)
@@ -219,7 +221,7 @@ class Track(Stream):
 
     @cached_property
     def by_stamp(self) -> npt.NDArray[np.intp]:
-        """Places of the usable ones in the order of their stamps; of equal ones, as they came."""
+        """Indices of usable samples in order of stamps; equal ones in order of arrival."""
         if self.is_orderly:
             return np.arange(self.lap)
         places = np.flatnonzero(self.usable)
@@ -228,7 +230,7 @@ class Track(Stream):
 
     @property
     def last(self) -> int:
-        """Return the place of the last valid value; of statics the last to arrive, as in tf2.
+        """Return the index of the last valid sample; for statics the last to arrive, as in tf2.
 
         Raises:
             IndexError: If none is usable.
@@ -237,31 +239,31 @@ class Track(Stream):
 
     @cached_property
     def sorted_stamps(self) -> Stamps:
-        """Of the usable ones, ascending."""
+        """Stamps of usable samples, ascending."""
         stamps: Stamps = self.stamps if self.is_orderly else self.stamps[self.by_stamp]
         return stamps
 
     @cached_property
     def steps(self) -> Stamps:
-        """Differences of neighbouring sorted stamps, those of equal ones left out."""
+        """Differences between neighbouring sorted stamps, without zeros."""
         steps = self.sorted_stamps[1:] - self.sorted_stamps[:-1]
         positive: Stamps = steps[steps > 0]
         return positive
 
     @cached_property
     def period(self) -> int:
-        """Median step, nanoseconds; 0 where there is none."""
+        """Median step, nanoseconds; 0 if there is none."""
         return int(median(self.steps)) if len(self.steps) else 0
 
     @cached_property
     def first_arrivals(self) -> Stamps:
-        """Return when the first sample with this sorted stamp or a later one had arrived, (k,)."""
+        """Return when the first sample with each sorted stamp or a later one arrived, (k,)."""
         arrivals = self.arrivals[self.by_stamp]
         earliest: Stamps = np.minimum.accumulate(arrivals[::-1])[::-1]
         return earliest
 
     def served_from(self, stamps: Stamps) -> Stamps:
-        """Return when the first sample of each stamp or later arrives; NEVER where none does."""
+        """Return for each stamp when data up to it is available; NEVER if it is not."""
         if self.static:
             return np.full(len(stamps), np.iinfo(np.int64).min)
         places = np.searchsorted(self.sorted_stamps, stamps, side="left")
@@ -270,29 +272,29 @@ class Track(Stream):
         return served
 
     def apart(self, some: Places, others: Places) -> Floats:
-        """Metres between poses, row by row."""
+        """Return the distance between poses in metres, row by row."""
         away = self.translations[some] - self.translations[others]
         apart: Floats = np.sqrt(np.einsum("ij,ij->i", away, away))
         return apart
 
     @cached_property
     def strides(self) -> Floats:
-        """Metres between neighbours by stamp, shape (k - 1,)."""
+        """Distances in metres between neighbours by stamp, shape (k - 1,)."""
         return self.apart(self.by_stamp[1:], self.by_stamp[:-1])
 
     def turned(self, some: Places, others: Places) -> Floats:
-        """Radians between poses, row by row."""
+        """Return the angle between poses in radians, row by row."""
         return angles_between(unit(self.rotations[some]), unit(self.rotations[others]))
 
     def has_turns(self, some: Places, others: Places, radians: float) -> bool:
-        """Whether two poses of a row differ by more than `radians`; faster than their angle."""
+        """Whether two poses of a row differ by more than `radians`; faster than `turned`."""
         dots = np.einsum("ij,ij->i", self.rotations[some], self.rotations[others])
         lengths = np.sqrt(self.squares[some] * self.squares[others])
         return bool((np.abs(dots) < math.cos(radians / 2.0) * lengths).any())
 
     @cached_property
     def is_localisation(self) -> bool:
-        """Whether REP-105 lets it jump: it places odometry or a map in something larger."""
+        """Whether REP-105 lets the edge jump: it places odometry or a map in a larger frame."""
         parent, child = last_part(self.parent), last_part(self.child)
         return parent in ("map", "earth", "world") and child.startswith(("odom", "map"))
 
@@ -315,7 +317,7 @@ class Track(Stream):
 
 
 class Heard(Stream):
-    """Messages of one topic that are in one frame.
+    """Messages of one topic in one frame.
 
     Attributes:
         topic: Name of the topic.
@@ -335,12 +337,12 @@ class Heard(Stream):
 
     @property
     def is_spatial(self) -> bool:
-        """Whether what it carries has a place."""
+        """Whether its data has a position."""
         return is_spatial(self.type)
 
 
 def bounded(stamps: Stamps) -> Stamps:
-    """Moments near enough that their differences fit 64 bits; those of ROS all are."""
+    """Return stamps limited so that differences fit into 64 bits; ROS's own always do."""
     if len(stamps) and (stamps.max() > FAR or stamps.min() < -FAR):
         return np.clip(stamps, -FAR, FAR)
     return stamps
@@ -380,7 +382,7 @@ _SPATIAL = frozenset(
 
 
 def is_spatial(kind: str) -> bool:
-    """Whether messages of a type carry something that has a place."""
+    """Whether messages of a type contain data with a position."""
     if kind in NOT_SPATIAL:
         return False
     package, _, name = kind.partition("/")
@@ -392,14 +394,14 @@ def is_spatial(kind: str) -> bool:
 
 
 def unsorted_share(stamps: Stamps) -> int:
-    """Return how many stamps are older than one that arrived before."""
+    """Return the number of stamps older than one received before."""
     if len(stamps) < 2:
         return 0
     return int(np.count_nonzero(stamps[1:] < np.maximum.accumulate(stamps)[:-1]))
 
 
 def rate(track: Stream) -> float:
-    """Samples a second of stamps; 0.0 where there is no telling."""
+    """Return samples per second; 0.0 if unknown."""
     if len(track.stamps) < 2:
         return 0.0
     span = int(track.stamps.max()) - int(track.stamps.min())
@@ -407,7 +409,7 @@ def rate(track: Stream) -> float:
 
 
 def overlap(tracks: Sequence[Track]) -> bool:
-    """Whether there is a moment at which all of them exist; statics always do."""
+    """Whether all of them exist at one common time; statics always do."""
     spans = [(int(t.sorted_stamps[0]), int(t.sorted_stamps[-1])) for t in tracks if _lives(t)]
     return not spans or max(low for low, _ in spans) <= min(high for _, high in spans)
 
@@ -426,10 +428,10 @@ _FAMILY = re.compile(
 
 
 def family(name: str) -> str:
-    """Return a name without what tells siblings apart: numbers, left and right, front and back."""
+    """Return a name without its number, left or right, front or back."""
     return _FAMILY.sub("#", name.lower())
 
 
 def last_part(name: str) -> str:
-    """Return the last part of a name, behind namespaces."""
+    """Return the last part of a name, after any namespace."""
     return name.rsplit("/", 1)[-1]

@@ -1,4 +1,4 @@
-"""State of one listener at one moment, and each link's answer to its question."""
+"""State of one listener at one time, and each link's answer to its lookup."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -24,7 +24,7 @@ MOST_SET = 200_000
 
 
 class LinkVerdict(Enum):
-    """Verdict of a link on a question."""
+    """Outcome of a link for a lookup."""
 
     ANSWERS = "answers"
     FORWARD = "forward"
@@ -35,7 +35,7 @@ class LinkVerdict(Enum):
 
 @dataclass(frozen=True, slots=True)
 class TracedLink:
-    """One link of the way, as the imagined listener holds it.
+    """One link of the path, with the samples of the assumed listener.
 
     Attributes:
         parent: Its parent.
@@ -70,13 +70,13 @@ class TracedLink:
 
     @property
     def name(self) -> str:
-        """For people."""
+        """Name for messages."""
         return f"{self.child} in {self.parent}"
 
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """Question, and the listener that asks.
+    """A lookup, and the listener that makes it.
 
     Attributes:
         target: The frame to express things in.
@@ -99,7 +99,7 @@ class Question:
 
 
 def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Stamp]:
-    """The message of a topic that is stamped nearest to a moment, the first one without it.
+    """Return a topic's message stamped nearest to a time; without a time the first.
 
     Returns:
         The messages of its frame, and its stamp.
@@ -126,7 +126,7 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
 
 
 class LookupTrace:
-    """The work on one question."""
+    """Trace of one lookup."""
 
     def __init__(self, model: Model, question: Question) -> None:
         self.model = model
@@ -138,7 +138,7 @@ class LookupTrace:
         self.asked, self.because, self.after = self._asked()
 
     def _message(self) -> Heard | None:
-        """The messages asked about: of the topic named, else in the source frame."""
+        """Return the messages asked about: of the named topic, else in the source frame."""
         for heard in self.model.heard:
             if heard.frame != self.question.source or not len(heard.stamps):
                 continue
@@ -165,14 +165,14 @@ class LookupTrace:
     # Held samples
 
     def arrived(self, track: Track) -> "np.ndarray[tuple[int], np.dtype[np.intp]]":
-        """Places of the usable samples that had arrived."""
+        """Return the indices of usable samples that had arrived."""
         places: np.ndarray[tuple[int], np.dtype[np.intp]] = np.flatnonzero(
             track.usable & (track.logs <= self.asked)
         )
         return places
 
     def held(self, track: Track) -> Stamps:
-        """Stamps held, sorted: those that had arrived and are not pruned."""
+        """Return the stamps in the buffer, sorted: arrived and not pruned."""
         stamps = track.stamps[self.arrived(track)]
         if not track.static and len(stamps) > 1:
             # tf2 prunes before it inserts: by the newest stamp without the last one.
@@ -181,11 +181,11 @@ class LookupTrace:
 
     @staticmethod
     def newest_before(stamps: Stamps) -> Stamp:
-        """The newest of those before the last; of one, that."""
+        """Return the newest stamp before the last; the only one if there is one."""
         return int(stamps[:-1].max(initial=stamps[0]))
 
     def way(self) -> list[Track] | None:
-        """The edges from source to target by the parents at the moment; None without a join."""
+        """Return the edges from source to target at that time; None without a path."""
         legs = up_to_join(
             self.question.source,
             self.question.target,
@@ -194,7 +194,7 @@ class LookupTrace:
         return None if legs is None else [*legs[0], *reversed(legs[1])]
 
     def _parent(self, frame: str) -> Track | None:
-        """The edge above a frame at the moment asked about; of several, the nearest in time."""
+        """Return the edge above a frame at the lookup's time; of several, the nearest in time."""
         tracks = [t for t in self.model.edges_above.get(frame, ()) if len(t.by_stamp)]
         if len(tracks) < 2:
             return tracks[0] if tracks else None
@@ -203,7 +203,7 @@ class LookupTrace:
         return min(tracks, key=lambda track: int(np.abs(track.sorted_stamps - self.stamp).min()))
 
     def link(self, track: Track) -> TracedLink:
-        """Return the samples held of one edge, and its verdict on the question."""
+        """Return one edge's samples in the buffer, and its outcome for the lookup."""
         held = self.held(track)
         verdict, short_by = self._verdict(track, held)
         if track.static and len(held):
@@ -241,7 +241,7 @@ class LookupTrace:
         return LinkVerdict.ANSWERS, 0
 
     def buffer(self) -> Buffer:
-        """A buffer that holds the samples that had arrived."""
+        """Return a buffer with the samples that had arrived."""
         # As many as the recording may have: where a frame is missing must be the robot's fault.
         buffer = Buffer(self.cache, log=_silent, max_frames=MOST_FRAMES)
         tracks = sorted(self.model.tracks, key=lambda track: track.static)
@@ -269,7 +269,7 @@ class LookupTrace:
         return buffer
 
     def settle(self, way: Sequence[Track]) -> None:
-        """Of a question for the latest, find the moment that is asked about: the last in common."""
+        """For a lookup of the latest, determine its time: the newest common one."""
         if self.stamp == LATEST:
             newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
             self.moment = min(newest, default=LATEST)
@@ -277,7 +277,7 @@ class LookupTrace:
     # When it answers
 
     def answerable(self, tracks: Sequence[Track]) -> tuple[Stamp | None, Stamp | None]:
-        """Log times from which and until which the moment can be answered."""
+        """Return the log times between which the lookup can succeed."""
         begins: list[int] = []
         ends: list[int] = []
         for track in tracks:
@@ -305,4 +305,4 @@ class LookupTrace:
 
 
 def _silent(_level: str, _text: str) -> None:
-    """Log nothing: the checks report refusals of the imagined buffer."""
+    """Log nothing: the checks report the failures of the assumed buffer."""

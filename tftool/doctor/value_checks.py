@@ -1,4 +1,4 @@
-"""Checks of the numbers: NaN, rotations that are none, jumps, axes."""
+"""Checks of numbers: NaN, invalid rotations, jumps, axes."""
 
 from collections.abc import Iterator
 
@@ -261,7 +261,7 @@ def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _stem(name: str) -> str | None:
-    """What an optical frame is called before it says that it is one."""
+    """Return an optical frame's name without its optical suffix."""
     part = last_part(name)
     for ending in _ENDINGS:
         if part.endswith(ending):
@@ -316,7 +316,7 @@ _UPRIGHT = 0.7
 
 
 def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
-    """Return where y and z of a frame look, on the robot that carries it; None if unknown."""
+    """Return the directions of a frame's y and z on the robot; None if unknown."""
     if frame not in model.frames:
         return None
     turn = IDENTITY
@@ -405,7 +405,7 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
 def _disagreement(
     track: Track, told: Track, topic: str, end: Stamp, limits: Limits
 ) -> "Hit | None":
-    """How far the two are apart where they are stamped alike, if that is too far too often."""
+    """Return how far the two differ at equal stamps, if that is too much too often."""
     if track.static:
         return None
     places = told.by_stamp[told.logs[told.by_stamp] <= end]

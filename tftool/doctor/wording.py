@@ -1,4 +1,4 @@
-"""Facts as people read them: the numbers of a finding in the sentences of the catalogue."""
+"""Numbers of a finding formatted for the sentences of the checks."""
 
 import string
 from collections.abc import Mapping, Sequence
@@ -13,7 +13,7 @@ MOST_NAMED = 5
 
 
 def span(nanoseconds: float) -> str:
-    """A length of time, to three digits: "20 ms", "1.02 s"."""
+    """Format a duration with three digits: "20 ms", "1.02 s"."""
     seconds = nanoseconds / 1e9
     size = abs(seconds)
     if size >= 3.16e7:
@@ -34,21 +34,21 @@ def span(nanoseconds: float) -> str:
 
 
 def arrival(latency: float) -> str:
-    """Write how long after its stamp a thing arrives, or before: "20 ms after its stamp"."""
+    """Format the time from stamp to arrival: "20 ms after its stamp", or before."""
     if abs(latency) < 1e5:
         return "as soon as it is stamped"
     return f"{span(abs(latency))} {'after' if latency > 0 else 'before'} its stamp"
 
 
 def moment(stamp: int) -> str:
-    """A stamp, as seconds with three decimals."""
+    """Format a stamp in seconds with three decimals."""
     sign = "-" if stamp < 0 else ""
     milliseconds = (abs(stamp) + 500_000) // 1_000_000
     return f"{sign}{milliseconds // 1000}.{milliseconds % 1000:03}"
 
 
 def dated(stamp: int) -> str:
-    """A stamp and what day that is, or that it is a simulation's."""
+    """Format a stamp with its date, or as a simulation's."""
     if stamp < SIMULATED_BELOW:
         return f"{moment(stamp)} (simulation)"
     day = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=stamp // 1000)
@@ -56,7 +56,7 @@ def dated(stamp: int) -> str:
 
 
 def metres(length: float) -> str:
-    """A length: "2.50 m", "3.1 mm"."""
+    """Format a length: "2.50 m", "3.1 mm"."""
     size = abs(length)
     if size >= 0.1:
         return f"{length:.2f} m"
@@ -64,14 +64,14 @@ def metres(length: float) -> str:
 
 
 def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
-    """A list, cut after its first few: "a, b and 12 more"."""
+    """Format a list, cut after its first items: "a, b and 12 more"."""
     shown = [str(name) for name in names[:most]]
     rest = len(names) - len(shown)
     return f"{', '.join(shown)} and {rest} more" if rest else ", ".join(shown)
 
 
 def filled(template: str, facts: Mapping[str, Fact]) -> str:
-    """A sentence of the catalogue with its facts."""
+    """Fill a sentence of a check with its facts."""
     return _FORMATTER.vformat(template, (), facts)
 
 

@@ -1,4 +1,4 @@
-"""Calibrations as text, and as an object for programs."""
+"""Text and JSON of calibrations."""
 
 import math
 from collections.abc import Sequence

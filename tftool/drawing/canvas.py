@@ -1,4 +1,4 @@
-"""A picture of frames as coloured lines of text, at any size.
+"""Picture of frames as coloured text lines, at any size.
 
 Trails, axes and the lines to the parents are drawn in braille (eight dots to a
 cell), turtles in blocks or as arrows, so that a metre is as long across as it is
@@ -68,7 +68,7 @@ THICK_FROM: Final = 26
 
 @dataclass(frozen=True, slots=True)
 class _Pens:
-    """Cells of a drawing by pen, how much of it there is, and whether only its end is."""
+    """Cells of a drawing by pen, with the drawn length of each stroke."""
 
     key: object = None
     done: int = 0
@@ -78,7 +78,7 @@ class _Pens:
 
 @dataclass(slots=True)
 class _KeptRow:
-    """The cells of a row without what moves, what they were made from, and their line."""
+    """Static cells of a row, what they were made from, and their line."""
 
     state: object
     cells: list[Cell]
@@ -86,7 +86,7 @@ class _KeptRow:
 
 
 class Canvas:
-    """A picture of a given size that remembers what it has drawn of the trails.
+    """Picture of a given size that keeps the trails drawn so far.
 
     Args:
         columns: Cells across, with those of the scale.
@@ -128,7 +128,7 @@ class Canvas:
         self._placer = Placer(self.columns, self.rows)
 
     def lines(self, picture: PlanePicture, view: Viewport) -> list[Line]:
-        """Draw a picture: exactly as many lines, and cells in each, as were asked for."""
+        """Draw a picture of exactly the requested lines and cells."""
         if not self.columns or not self.rows:
             return [[] for _ in range(self.rows)]
         if view != self._view:
@@ -169,7 +169,7 @@ class Canvas:
         return Ink(self.columns, self.rows, view.left, view.bottom, self._wide, self._high)
 
     def _gridded(self) -> Ink:
-        """Faint lines at every step; without colours, dots where they would cross."""
+        """Draw faint lines at every step; without colours, dots at their crossings."""
         ink, view = self._new_ink(), self._view
         step = grid_step(view.per_row)
         xs = list(_multiples(view.left, view.left + self._wide, step))
@@ -187,7 +187,7 @@ class Canvas:
         return ink
 
     def _stand(self, field: TurtleField | None) -> None:
-        """Work out which cells lie on the field."""
+        """Determine which cells are on the field."""
         where = None if field is None else (field.x, field.y, field.theta)
         if where == self._standing:
             return
@@ -203,7 +203,7 @@ class Canvas:
                 self._inside[row] = first, min(self.columns, math.floor(ends[1] + 0.5))
 
     def _follow(self, picture: PlanePicture) -> None:
-        """Draw the new ends of the trails; start again where they changed or got shorter."""
+        """Draw new ends of the trails; start again if they changed or became shorter."""
         field = picture.field
         if field is not None:
             moved = (field.x, field.y, field.theta)
@@ -235,7 +235,7 @@ class Canvas:
     # Drawn at every look
 
     def _loose(self, picture: PlanePicture) -> LooseInk:
-        """Draw the lines to the parents, the pair's, the walls and the axes."""
+        """Draw the lines to parents, the pair's line, walls and axes."""
         view = self._view
         ink = LooseInk(self.columns, self.rows, view.left, view.bottom, self._wide, self._high)
         for one in picture.frames:
@@ -264,7 +264,7 @@ class Canvas:
         return ink
 
     def _signs(self, picture: PlanePicture, loose: LooseInk) -> _Overlay:
-        """Put turtles, origins and names over the dots."""
+        """Draw turtles, origins and names above the dots."""
         signs: _Overlay = {}
         hard: set[tuple[int, int]] = set()
         labels: list[Label] = []
@@ -342,12 +342,12 @@ class Canvas:
         return Label(one.name, text, math.floor(place[0]), row, reach)
 
     def _ink_of(self, one: PlaneFrame, place: Point) -> Color:
-        """A frame's colour on the ground it stands on; amber and red where it is stale."""
+        """Return a frame's colour on its ground; amber or red if it is stale."""
         palette = theme.DARK if self._on_field(place) else self._palette
         return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
 
     def _write(self, signs: _Overlay, placed: PlacedLabel, one: PlaneFrame) -> None:
-        """Write a name, each letter in the colour that is read where it stands."""
+        """Write a name, each letter in a colour readable on its ground."""
         cells = signs.setdefault(placed.row, {})
         inks: dict[bool, Color] = {}
         for offset, sign in cells_of(placed.label.text):
@@ -362,14 +362,14 @@ class Canvas:
     # Cells to lines
 
     def _still(self, row: int) -> Line:
-        """Give a line with nothing on it that moves, kept until a trail changes there."""
+        """Return a line without moving parts, cached until a trail changes there."""
         kept = self._base(row)
         if kept.line is None:
             kept.line = line_of(kept.cells)
         return kept.line
 
     def _base(self, row: int) -> "_KeptRow":
-        """A row of everything static, recomposed only where a trail grew."""
+        """Return a row of all static parts, composed again only after a trail grew."""
         ground = None if self._field_colors is None else self._field_colors.ground
         state = (
             self._pen_ink.revisions[row],
@@ -395,7 +395,7 @@ class Canvas:
         return line_of(cells)
 
     def _cells(self, row: int) -> list[Cell]:
-        """A row of grid, pens and trails, every cell with its ground."""
+        """Return a row of grid, pens and trails, each cell with its ground."""
         ascii_only = self._ascii
         grid = self._grid.cells(row, ascii_only=ascii_only)
         cells = list(grid)
@@ -417,7 +417,7 @@ class Canvas:
         return cells
 
     def _faint(self, color: Color, ground: Color | None) -> Color:
-        """A frame's colour for the way it went: less than the frame itself."""
+        """Return the paler colour of a frame's trail."""
         if ground is not None:
             return theme.blend(color, ground, 0.1)
         return theme.blend(theme.readable(color, self._palette), self._palette.panel, 0.3)
@@ -436,7 +436,7 @@ class Canvas:
         return first <= math.floor(place[0]) < end
 
     def place(self, x: float, y: float) -> Point:
-        """The column and row of a point of the plane."""
+        """Return the column and row of a point of the plane."""
         view = self._view
         if not abs(x) + abs(y) <= FARTHEST:
             return math.inf, math.inf
@@ -485,14 +485,14 @@ def axis_length(view: Viewport, rows: int) -> float:
 
 
 def metres(value: float, step: float) -> str:
-    """A number of a scale, with as many digits as its steps have."""
+    """Format a number of a scale with as many digits as its steps need."""
     digits = max(0, -math.floor(math.log10(step) + 1e-9))
     text = f"{value:.{digits}f}"
     return "0" if not text.strip("-0.") else text
 
 
 def _by_weight(picture: PlanePicture) -> list[PlaneFrame]:
-    """The frames whose names matter most first: the pair, then the turtles."""
+    """Sort frames by the importance of their names: the pair, then turtles, then others."""
     return sorted(
         picture.frames,
         key=lambda one: (one.name not in picture.pair, not one.is_turtle, one.parent is None),
@@ -505,7 +505,7 @@ def _multiples(first: float, last: float, step: float) -> Iterator[float]:
 
 
 def _crossings(corners: Sequence[Point], row: float) -> tuple[float, float] | None:
-    """Return where a row enters a convex shape and leaves it; None where it misses it."""
+    """Return where a row enters and leaves a convex shape; None if it misses it."""
     found = []
     for (x0, y0), (x1, y1) in zip(corners, (*corners[1:], corners[0]), strict=True):
         if min(y0, y1) <= row < max(y0, y1):
@@ -528,7 +528,9 @@ _SIDES: Final = {
 
 
 def _dashes(start: Point, end: Point, dot: float) -> Iterator[tuple[float, float, float, float]]:
-    """Every other pair of dots of a line, so that it is no trail; of a long one fewer."""
+    """Return every other pair of dots of a line, to distinguish it from a trail; fewer of a long
+    one.
+    """
     length = math.hypot(end[0] - start[0], end[1] - start[1])
     if not dot < length <= FARTHEST:
         return

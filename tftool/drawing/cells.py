@@ -1,4 +1,4 @@
-"""Cells of a terminal: the braille dots drawn in them, and the lines rich makes of them."""
+"""Cells of a terminal: braille dots, and their conversion to rich's lines."""
 
 import math
 from collections.abc import Iterator
@@ -16,7 +16,7 @@ Line: TypeAlias = list[Segment]
 
 
 class Cell(NamedTuple):
-    """Content of one cell of the screen. No ground colour: the field's own."""
+    """Content of one cell. No ground colour: the field's own."""
 
     text: str
     ink: Color | None = None
@@ -25,7 +25,7 @@ class Cell(NamedTuple):
 
 
 def cells_of(text: str) -> Iterator[tuple[int, str]]:
-    """Share a text out over cells; the cell after a wide sign holds nothing."""
+    """Split a text into cells; the cell after a wide character is empty."""
     offset = 0
     shown: list[tuple[int, str]] = []
     for sign in text:
@@ -43,7 +43,7 @@ def cells_of(text: str) -> Iterator[tuple[int, str]]:
 
 
 def line_of(cells: list[Cell]) -> Line:
-    """Join cells that look the same into segments."""
+    """Join cells of equal style into segments."""
     line: Line = []
     text: list[str] = []
     look: tuple[Color | None, Color | None, bool] = (None, None, False)
@@ -79,7 +79,7 @@ Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
 
 
 class Ink:
-    """Dots that stay, on a rectangle of the world, shown by columns × rows of cells.
+    """Permanent dots on a rectangle of the world, shown by columns × rows of cells.
 
     Args:
         columns: Cells across.
@@ -110,7 +110,7 @@ class Ink:
         self._colors: list[list[Color | None]] = [[None] * columns for _ in range(rows)]
 
     def draw(self, stroke: Stroke) -> None:
-        """Draw what of a stroke lies on the square; ends that are no numbers draw nothing."""
+        """Draw the part of a stroke within the square; NaN ends draw nothing."""
         x0, y0, x1, y1, color, width = stroke
         clipped = _clip(
             (x0 - self.left) / self.size,
@@ -140,7 +140,7 @@ class Ink:
                     self._dot(x, y, color)
 
     def cells(self, row: int, *, ascii_only: bool = False) -> list[Cell]:
-        """Give one row of the square."""
+        """Return one row of the square."""
         signs = _ASCII if ascii_only else _BRAILLE
         return [
             Cell(signs[mask], color) if mask else _BLANK
@@ -163,7 +163,7 @@ class Ink:
 
 
 class LooseInk(Ink):
-    """Dots that are redrawn at every look: only the cells with dots in them are kept.
+    """Temporary dots, drawn anew each time: only cells with dots are stored.
 
     Attributes:
         marks: By row and column, the dots of a cell and the colour drawn there last.
@@ -185,12 +185,12 @@ class LooseInk(Ink):
 
 
 def sign_of(dots: int, *, ascii_only: bool = False) -> str:
-    """The sign with these dots, as `LooseInk.marks` has them."""
+    """Return the character with these dots, numbered as in `LooseInk.marks`."""
     return (_ASCII if ascii_only else _BRAILLE)[dots]
 
 
 def _clip(x0: float, y0: float, x1: float, y1: float) -> tuple[float, float, float, float] | None:
-    """Cut a line to the unit square (Liang and Barsky); None when nothing is left."""
+    """Clip a line to the unit square (Liang and Barsky); None if nothing remains."""
     first, last = 0.0, 1.0
     along, up = x1 - x0, y1 - y0
     if not math.isfinite(along + up + x0 + y0):

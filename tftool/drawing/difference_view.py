@@ -1,4 +1,4 @@
-"""Differences between two sets of frames: a line a link, an object, a table for the web."""
+"""Differences between two sets of frames: as text lines, as JSON, as Markdown."""
 
 from typing import Final
 
@@ -19,7 +19,7 @@ HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
 def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
-    """A line for each link that differs, and a summary.
+    """Return a line for each link that differs, and a summary.
 
     Args:
         found: What to write.
@@ -50,7 +50,7 @@ def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
 
 
 def summary(found: Differences) -> str:
-    """One sentence: how many links differ, by which measure."""
+    """Return one sentence: how many links differ, and by which measure."""
     count, total = len(found.changed), len(found.links)
     limit = found.tolerance
     measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
@@ -66,7 +66,7 @@ def summary(found: Differences) -> str:
 
 
 def as_object(found: Differences) -> dict[str, object]:
-    """Everything, for programs."""
+    """Return the differences for --json."""
     limit = found.tolerance
     return {
         "a": found.first,
@@ -84,7 +84,7 @@ def as_object(found: Differences) -> dict[str, object]:
 
 
 def as_markdown(found: Differences) -> str:
-    """A table for an issue on the web; nothing in a name acts."""
+    """Return a Markdown table in which all names are escaped."""
     rows = [_row(one, found.start) for one in found.changed]
     text = [f"**tftool diff** {_code(found.first)} {_code(found.second)}", ""]
     if rows:
@@ -96,7 +96,7 @@ def as_markdown(found: Differences) -> str:
 
 
 def _code(text: str) -> str:
-    """A text as code, in which no mark-up acts."""
+    """Format a text as code, without active Markdown."""
     shown = visible(text).replace("|", "¦").replace("`", "ˋ")
     return f"`{shown}`" if shown.strip() else ""
 
@@ -159,7 +159,7 @@ def _detail(one: LinkDifference, start: Stamp) -> str:
 
 
 def _number(value: float) -> str:
-    """Three digits that count, and none behind the fourth decimal."""
+    """Format three significant digits, at most four decimals."""
     size = abs(value)
     if size < 5e-5:
         return "<0.0001" if size > 1e-9 else "0"

@@ -1,4 +1,4 @@
-"""Frames of a drawing: children below parents, loops and all, as rows with guides and facts.
+"""Frames of a drawing as rows: children below parents, with guides and facts; loops too.
 
 A buffer holds a forest, but data from a link may be anything: a frame whose
 parent hangs from itself must not send a drawing round in circles.
@@ -31,12 +31,12 @@ class Forest:
 
     @property
     def left_out(self) -> int:
-        """Return the frames that are not drawn."""
+        """Return the number of frames not drawn."""
         return len(self.info) - len(self.children)
 
 
 def grow(snapshot: Snapshot, *, most: int | None = None) -> Forest:
-    """Sort a snapshot into trees and keep the `most` frames nearest to their roots."""
+    """Sort a snapshot into trees, and keep the `most` frames nearest to the roots."""
     info = {frame.frame: frame for frame in snapshot.frames}
     children: dict[str, list[str]] = {name: [] for name in info}
     roots = []
@@ -85,7 +85,7 @@ def grow(snapshot: Snapshot, *, most: int | None = None) -> Forest:
 
 
 def _walk(roots: list[str], children: dict[str, list[str]]) -> list[str]:
-    """Every frame below the roots, level by level; each once, whatever hangs from what."""
+    """Yield every frame below the roots once, level by level; loops end."""
     order = list(roots)
     for name in order:  # grows while it is walked
         order.extend(children[name])
@@ -98,7 +98,7 @@ DEEPEST = 64
 
 @dataclass(frozen=True, slots=True)
 class Guides:
-    """The four pieces a tree is drawn with, all equally wide, and the text before a name."""
+    """The four guides of a tree drawing, equally wide, and the text before a name."""
 
     child: str
     last: str
@@ -107,7 +107,7 @@ class Guides:
     gap: str = ""
 
     def lead(self, branch: "Branch", most: int | None = None, more: str = "…") -> str:
-        """Return the drawing before a name: guides, or its depth as a number and one guide.
+        """Return the text before a name: guides, or its depth as a number and one guide.
 
         Args:
             branch: The frame.
@@ -122,7 +122,7 @@ class Guides:
         return "".join(self.blank if last else self.past for last in branch.turns[:-1]) + own
 
     def width(self, depth: int) -> int:
-        """Return the cells before the name of a frame so far below its root."""
+        """Return the width in cells of the text before a name at a depth."""
         return len(self.child) * depth + len(self.gap) if depth else 0
 
 
@@ -144,7 +144,7 @@ ASCII = (
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """One frame where it stands in its tree.
+    """One frame at its place in the tree.
 
     Attributes:
         info: The frame.
@@ -161,7 +161,7 @@ class Branch:
 
 
 def branches(forest: Forest) -> Iterator[Branch]:
-    """Every frame, parents before children; a deep tree needs no deep stack."""
+    """Yield every frame, parents before children, without recursion."""
     waiting: list[tuple[str, int, tuple[bool, ...]]]
     waiting = [(root, 0, ()) for root in reversed(forest.roots)]
     loops = frozenset(forest.loops)
@@ -174,7 +174,7 @@ def branches(forest: Forest) -> Iterator[Branch]:
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """Facts about one link, as text; numbers lose trailing zeros as they do in rqt_tf_tree."""
+    """Facts of one link as text; trailing zeros are dropped as in rqt_tf_tree."""
 
     broadcaster: str
     rate: str
@@ -183,7 +183,7 @@ class Facts:
     oldest: str
 
     def lines(self, *, units: bool) -> tuple[str, str, str, str, str]:
-        """The five lines in rqt_tf_tree's words, with units behind the numbers if asked for."""
+        """Return the five lines in rqt_tf_tree's words, with units on request."""
         hertz, second = (" Hz", " s") if units else ("", "")
         return (
             f"Broadcaster: {self.broadcaster}",
@@ -195,7 +195,7 @@ class Facts:
 
 
 def facts(frame: FrameInfo) -> Facts:
-    """Write the facts of the link above `frame`; the numbers pass through Python's own floats."""
+    """Format the facts of the link above `frame`."""
     return Facts(
         broadcaster=frame.authority or "no recorded authority",
         rate=str(float(f"{frame.rate:.3f}")),
@@ -206,6 +206,6 @@ def facts(frame: FrameInfo) -> Facts:
 
 
 def recorded_at(now: Stamp) -> str:
-    """The legend: when the snapshot was taken."""
+    """Return the legend with the snapshot's time."""
     whole, rest = divmod(now, NANOSECONDS)
     return f"Recorded at time: {whole + rest / 1e9}"

@@ -1,4 +1,4 @@
-"""One lookup as text: tf2_echo's block, one JSON object, one sentence."""
+"""One lookup as text: tf2_echo's block, a JSON object, or a sentence."""
 
 import math
 import re
@@ -19,7 +19,7 @@ AXES = ("x", "y", "z")
 
 
 def in_words(target: str, source: str) -> str:
-    """Say what a lookup of `source` in `target` gives: "turtle1 in turtle2"."""
+    """Describe the result of looking up `source` in `target`: "turtle1 in turtle2"."""
     return f"{visible(source)} in {visible(target)}"
 
 
@@ -30,7 +30,7 @@ def block(
     with_distance: bool = False,
     quaternion_tag: str = "",
 ) -> str:
-    """Write a transform as tf2_echo does, line by line.
+    """Format a transform as tf2_echo does, line by line.
 
     The nanoseconds are not padded with zeros, as tf2_echo's are not: 5 s and 12 ns
     is `5.12`. `as_object` has the exact stamp.
@@ -68,7 +68,7 @@ _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w
 
 
 def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
-    """The lines of `block` with x, y and z in the colours of the axes, for a terminal.
+    """Colour x, y and z of `block` like the axes, for a terminal.
 
     So are roll, pitch and yaw, which turn about them, and of the matrix the columns, which
     are the source's axes as the target sees them.
@@ -88,7 +88,7 @@ def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool 
 
 
 def live_heading(target: str, source: str, age: Duration | None) -> "Text":
-    """Return the pair and its age; amber, then red, where it is not new any more.
+    """Return the pair and its age, in amber, then red, when it gets old.
 
     Args:
         target: The frame looked up in.
@@ -104,14 +104,14 @@ def live_heading(target: str, source: str, age: Duration | None) -> "Text":
 
 
 def age_style(age: Duration) -> str:
-    """Return the colour of an age, as views fade frames that get no news."""
+    """Return the colour for an age, with the limits of all views."""
     if as_seconds(age) <= FRAME_TIMEOUT / 3:
         return "dim"
     return "yellow" if as_seconds(age) <= FRAME_TIMEOUT else "red"
 
 
 def failure(now: Stamp, error: TransformException, frames: str) -> str:
-    """Write what tf2_echo prints when a lookup fails that worked before.
+    """Format tf2_echo's message for a lookup that fails after it had worked.
 
     Args:
         now: What the clock read.
@@ -126,7 +126,7 @@ def failure(now: Stamp, error: TransformException, frames: str) -> str:
 
 
 def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
-    """Return it for programs: full precision, the exact stamp, NaN and infinity as null."""
+    """Return the transform for --json: full precision, the exact stamp, null for NaN."""
     pose = found.transform
     rpy = rpy_from_quaternion(pose.rotation)
     result: dict[str, Any] = {
@@ -143,7 +143,7 @@ def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[s
 
 
 def failure_as_object(now: Stamp, error: TransformException) -> dict[str, Any]:
-    """A refusal for programs."""
+    """Return a failed lookup for --json."""
     return {"failed_at_ns": now, "error": type(error).__name__, "message": str(error)}
 
 

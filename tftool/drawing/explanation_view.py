@@ -1,4 +1,4 @@
-"""One lookup's trace: for a terminal, for a program."""
+"""One lookup's trace for a terminal or a program."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,7 @@ _WORDS = {
 
 
 def render(found: Explanation) -> "RenderableType":
-    """Views of an explanation: the question, tf2's answer, each link, the cause and the cures."""
+    """Yield the views of an explanation: lookup, tf2's answer, links, cause, remedies."""
     from rich.console import Group
     from rich.padding import Padding
     from rich.table import Table
@@ -77,7 +77,7 @@ def _headline(found: Explanation) -> "Text":
 
 
 def _later(found: Explanation) -> str:
-    """Whether it would answer later, or would have before."""
+    """Whether the lookup would succeed later, or would have before."""
     if found.answerable_from is None:
         return ", and would be at any later time"
     late = found.answerable_from - found.asked
@@ -89,7 +89,7 @@ def _later(found: Explanation) -> str:
 
 
 class _Links:
-    """A row for each link; where rows would be too wide, what a link says stands below it."""
+    """A row for each link; if rows are too wide, the link's message goes below it."""
 
     def __init__(self, found: Explanation) -> None:
         self._found = found
@@ -166,7 +166,7 @@ def _refusal(link: TracedLink) -> str:
 
 
 def _base(found: Explanation) -> Stamp:
-    """Return the zero of the times in the table: that of --at, and 0 in simulations."""
+    """Return the zero of the table's times: that of --at, and 0 in simulations."""
     if found.stamp and found.stamp < SIMULATED_BELOW:
         return 0
     return found.epoch if found.epoch >= SIMULATED_BELOW else 0
@@ -188,7 +188,7 @@ def _exactly(stamp: Stamp) -> str:
 
 
 def as_object(found: Explanation) -> dict[str, Any]:
-    """Return it as JSON; stamps are whole nanoseconds, names exactly as recorded."""
+    """Return the explanation for --json; whole nanoseconds, names exactly as recorded."""
     return {
         "schema": SCHEMA,
         "target": found.target,

@@ -1,4 +1,4 @@
-"""Curves over time, and a path from above, as a figure of matplotlib.
+"""Curves over time, and a path from above, as a matplotlib figure.
 
 matplotlib is an extra, and is imported when something is drawn.
 """
@@ -89,7 +89,7 @@ def plot(
     start: Stamp | None = None,
     dark: bool = False,
 ) -> "Figure | Axes":
-    """Draw one pair of frames over time, or several, into a figure of matplotlib.
+    """Draw one or several pairs over time into a matplotlib figure.
 
         tftool.plot(recording, "map", "base_link").savefig("path.svg")
         path = recording.buffer.lookup_transforms("map", "base_link", stamps, missing="nan")
@@ -143,7 +143,7 @@ def _trajectories(
     target: str | None,
     source: str | None,
 ) -> list[Trajectory]:
-    """Look up a pair of frames, or take poses as they are."""
+    """Look up a pair of frames, or use poses as they are."""
     if isinstance(frames, TransformArray | Trajectory | Sequence):
         if target is not None or source is not None:
             raise TypeError(
@@ -168,7 +168,7 @@ def write(
     xy: bool = False,
     dark: bool = False,
 ) -> None:
-    """Write a figure, in one of `FORMATS`.
+    """Write a figure in one of `FORMATS`.
 
     Raises:
         UsageError: If the extra `plot` is not installed.
@@ -180,7 +180,7 @@ def write(
 def write_panels(
     drawn: Sequence[PlotPanel], title: str, file: BinaryIO, form: str, *, dark: bool = False
 ) -> None:
-    """Write some panels under a title as a figure, in one of `FORMATS`.
+    """Write panels under a title as a figure in one of `FORMATS`.
 
     Raises:
         UsageError: If the extra `plot` is not installed.
@@ -243,7 +243,7 @@ def _figure_of_panels(
     make: Any,
     named: bool = True,
 ) -> "Figure":
-    """Draw panels one above the other; `named` if each has curves of its own to name."""
+    """Draw panels below each other; with `named`, each has its own named curves."""
     figure = _empty_figure(1.0 + 1.7 * len(drawn), dark, make)
     with _needed("matplotlib").rc_context(_settings(dark)):
         figure.suptitle(_plain(title), fontsize=11)
@@ -302,7 +302,7 @@ def _legend(ax: "Axes", handles: Sequence[tuple[Any, str]]) -> None:
 
 
 def _plain(text: str) -> str:
-    """A text in which no dollar begins mathematics, and no underscore hides a label."""
+    """Escape what matplotlib reads as mathematics ($) or as a hidden label (_)."""
     shown = visible(text).replace("$", r"\$")
     return f" {shown}" if shown.startswith("_") else shown
 

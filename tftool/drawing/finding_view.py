@@ -1,4 +1,4 @@
-"""Views of a diagnosis: for a terminal, a program, an issue, a build server."""
+"""Views of a diagnosis: for terminals, programs, issue trackers, build servers."""
 
 from collections.abc import Sequence
 from textwrap import TextWrapper
@@ -37,7 +37,7 @@ _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE
 
 
 def render(diagnosis: Diagnosis, *, verbose: bool = False) -> "RenderableType":
-    """A report of one source: the input, the findings, the areas in order, their number."""
+    """Return one source's report: the input, findings, areas in order, counts."""
     from rich.console import Group
     from rich.text import Text
 
@@ -102,7 +102,7 @@ def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
 
 
 def head(model: Model) -> str:
-    """Return a line about the source that was read."""
+    """Return a line about the source."""
     material = model.evidence
     facts = [material.kind]
     if material.end > material.start and material.timed:
@@ -116,7 +116,7 @@ def head(model: Model) -> str:
 
 
 def areas(diagnosis: Diagnosis) -> str:
-    """Return a line about the areas that were looked at and found in order."""
+    """Return a line about the areas without findings."""
     wrong = {finding.area for finding in diagnosis.findings}
     skipped = {one.id: one.reason for one in diagnosis.skipped}
     told = []
@@ -143,7 +143,7 @@ def _latencies(model: Model, area: Area) -> str:
 
 
 def summary(diagnosis: Diagnosis) -> str:
-    """Return a line with the number of findings, and where to read on."""
+    """Return a line with the number of findings and where to read more."""
     counts = counted(diagnosis)
     if not counts:
         skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
@@ -163,13 +163,13 @@ def summary(diagnosis: Diagnosis) -> str:
 
 
 def counted(diagnosis: Diagnosis) -> str:
-    """The findings by severity: "1 error, 2 warnings"; empty where there are none."""
+    """Count findings by severity: "1 error, 2 warnings"; empty if there are none."""
     numbers = [(severity.value, diagnosis.count(severity)) for severity in Severity]
     return ", ".join(count(number, word) for word, number in numbers if number)
 
 
 def brief(diagnosis: Diagnosis) -> str:
-    """Return a line about findings, below another command's output."""
+    """Return a line about findings, shown below another command's output."""
     told = [f for f in diagnosis.findings if f.because_of is None and f.severity is not _CALM]
     if not told:
         return "Doctor: nothing is wrong."
@@ -178,7 +178,7 @@ def brief(diagnosis: Diagnosis) -> str:
 
 
 def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
-    """Consequences by the check that explains them, with how many of each."""
+    """Group consequences by the check that explains them, with counts."""
     counts: dict[str, dict[str, int]] = {}
     for finding in diagnosis.findings:
         if finding.because_of is not None:
@@ -191,7 +191,7 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
 
 
 def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
-    """Several sources in a table: the findings of each, or why it could not be read."""
+    """Return several sources in a table: findings of each, or why it was unreadable."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -220,7 +220,7 @@ def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
 
 
 def statistics(model: Model) -> "Table":
-    """Every edge and every topic: how often, how late, and its largest gap."""
+    """Return every edge and topic: rate, latency, and largest gap."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -259,7 +259,7 @@ def _numbers(stream: Stream, *, timed: bool) -> tuple[str, str, str, str]:
 
 
 def listing() -> "Table":
-    """Every check in a line."""
+    """Return every check in a line."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -279,7 +279,7 @@ def listing() -> "Table":
 
 
 def explained(check: Check, width: int | None = None) -> str:
-    """All that is known of one check, as text.
+    """Return everything about one check as text.
 
     Args:
         check: Which.
@@ -318,7 +318,7 @@ def explained(check: Check, width: int | None = None) -> str:
 
 
 def as_page() -> str:
-    """Every check as a page of Markdown, by area."""
+    """Return every check as a Markdown page, by area."""
     lines = [
         "# What the doctor looks for",
         "",
@@ -334,7 +334,7 @@ def as_page() -> str:
 
 
 def _paragraphs(check: Check) -> list[str]:
-    """One check as Markdown."""
+    """Return one check as Markdown."""
     lines = [f"### {check.id}", "", f"*{check.severity.value}*: {_marked(check.summary)}.", ""]
     lines.append(f"- **rule**: {_marked(filled(check.rule, check.limits))}.")
     if check.why:
@@ -357,14 +357,14 @@ def _paragraphs(check: Check) -> list[str]:
 
 
 def _marked(text: str) -> str:
-    """A text in which nothing of Markdown acts."""
+    """Escape a text for Markdown."""
     from re import sub
 
     return sub(r"([\\`*_<>\[\]|])", r"\\\1", text)
 
 
 def _general(text: str) -> str:
-    """A text of the catalogue without the facts of a finding: their names stand for them."""
+    """Return a check's text with the facts' names in place of their values."""
     from string import Formatter
 
     parts = []
@@ -383,7 +383,7 @@ def _general(text: str) -> str:
 
 
 def as_object(diagnosis: Diagnosis) -> dict[str, Any]:
-    """The report as JSON has it; stamps are whole nanoseconds, names exactly as recorded."""
+    """Return the report for --json; whole nanoseconds, names exactly as recorded."""
     material = diagnosis.model.evidence
     return {
         "schema": SCHEMA,
@@ -404,7 +404,7 @@ def as_object(diagnosis: Diagnosis) -> dict[str, Any]:
 
 
 def as_row(finding: Finding) -> dict[str, Any]:
-    """One finding as JSON has it."""
+    """Return one finding for --json."""
     links = CHECKS[finding.id].links
     return {
         "id": finding.id,
@@ -434,7 +434,7 @@ def as_row(finding: Finding) -> dict[str, Any]:
 
 
 def as_markdown(diagnosis: Diagnosis) -> str:
-    """The report for an issue: a table, then the details; nothing in a name acts."""
+    """Return the report as Markdown: a table, then details; names are escaped."""
     told = [finding for finding in diagnosis.findings if finding.because_of is None]
     lines = [f"**tftool doctor** {_code(head(diagnosis.model))}", ""]
     if told:
@@ -465,13 +465,13 @@ def _plain(finding: Finding) -> list[str]:
 
 
 def _fenced(lines: list[str]) -> list[str]:
-    """A block in which nothing acts: its fence is longer than any in it."""
+    """Return a code block whose fence is longer than any in the text."""
     fence = "`" * max(3, _longest_ticks("\n".join(lines)) + 1)
     return [f"{fence}text", *lines, fence]
 
 
 def _code(text: str, *, in_table: bool = False) -> str:
-    """A text as code, in which nothing acts."""
+    """Format a text as code, without active Markdown."""
     text = visible(text)
     if in_table:
         # A bar would end the cell, even in code.
@@ -490,7 +490,7 @@ def _longest_ticks(text: str) -> int:
 
 
 def as_junit(rows: "Sequence[tuple[str, Diagnosis | str]]", fails: Severity | None) -> str:
-    """The reports of several sources as a JUnit document.
+    """Return reports of several sources as a JUnit document.
 
     Args:
         rows: Each source with its diagnosis, or why it could not be read.

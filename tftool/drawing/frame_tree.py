@@ -1,4 +1,4 @@
-"""Every tree of frames: as text for people, in full or in a terminal's width; as data for programs.
+"""Trees of frames: as full text, fitted to a terminal, or as data for programs.
 
 In a terminal, what does not fit goes one by one: first the columns that say least, of the
 broadcasters' names their middle, then wide guides, then the middle of the frames' names.
@@ -53,7 +53,7 @@ def render(
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Text:
-    """Draw every tree with all that is known of each link, as wide as it gets.
+    """Draw every tree with all facts of each link, without a limit on width.
 
     `compact` draws it in a terminal's width. Args as `pieces`.
 
@@ -71,7 +71,7 @@ def pieces(
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Iterator[tuple[str, str]]:
-    """Draw every tree piece by piece, so that the first lines of a large one show at once.
+    """Yield every tree in pieces, so that a large one starts to appear at once.
 
     Args:
         snapshot: What to draw.
@@ -110,7 +110,7 @@ def pieces(
 
 
 def advice(marks: Marks) -> str:
-    """Return where to read on about faults of frames."""
+    """Return where to read more about faults of frames."""
     first = next(iter(marks.values()))[0]
     return f"'tftool doctor --explain {first}' tells more."
 
@@ -118,7 +118,7 @@ def advice(marks: Marks) -> str:
 def as_object(
     snapshot: Snapshot, moving: Collection[str] | None = None, marks: Marks = NO_MARKS
 ) -> dict[str, Any]:
-    """Return it for programs; stamps in nanoseconds, no fact as null."""
+    """Return the trees for --json; stamps in nanoseconds, null for unknown facts."""
     if moving is not None:
         told = as_object(snapshot, marks=marks)
         for frame in told["frames"]:
@@ -170,7 +170,7 @@ def _yaml_entry(info: FrameInfo) -> str:
 
 
 def _plain(value: object) -> str:
-    """A value as YAML has it; empty where that is not known here."""
+    """Convert a value for YAML; empty if unknown."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):
@@ -196,7 +196,7 @@ def facts(info: FrameInfo) -> tuple[str, ...]:
 
 
 class _Row(NamedTuple):
-    """One line: guides, the guides with the frame's name and the facts of its link, its colour."""
+    """One line: guides, name, facts of the link, colour."""
 
     lead: str
     cells: tuple[str, ...]
@@ -219,7 +219,7 @@ def _row(
 
 
 def _table(rows: list[_Row], headings: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-    """One line a frame, under headings where there are links to describe, and its styles."""
+    """Format one line per frame, with headings if there are links, and its styles."""
     if any(len(row.cells) > 1 for row in rows):
         rows = [_Row("", headings, "dim"), *rows]
     sizes = [[cell_len(cell) for cell in row.cells] for row in rows]
@@ -292,7 +292,7 @@ class TreeOrder(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CompactTree:
-    """Lines of a terminal.
+    """Tree fitted to a terminal's lines.
 
     Attributes:
         heading: Above the frames: when, how many trees, and what the columns are.
@@ -340,7 +340,7 @@ def compact(
     most: int | None = None,
     history: TrafficHistory = NO_HISTORY,
 ) -> CompactTree:
-    """Draw every tree, one line a frame.
+    """Draw every tree with one line per frame.
 
     Args:
         snapshot: What to draw.
@@ -389,18 +389,18 @@ def compact(
 
 
 def _of_robot(branch: Branch, moving: Collection[str]) -> Branch:
-    """Return the frame as part of a description: nothing is sent, and a moving joint counts."""
+    """Convert a frame for a description: nothing is published, moving joints count."""
     info = branch.info
     return replace(branch, info=info._replace(is_static=info.frame not in moving))
 
 
 def moment(stamp: Stamp) -> str:
-    """A stamp where the drawing has little room: to the millisecond."""
+    """Format a stamp briefly, to the millisecond."""
     return f"{as_seconds(stamp):.3f}"
 
 
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
-    """Return the drawing's subject, in few words."""
+    """Describe the drawing's subject in few words."""
     if moving is not None:
         return f"{len(moving)} of {len(snapshot.frames) - 1} joints move"
     if snapshot.at:
@@ -461,7 +461,7 @@ def _link_columns(
     moving: Collection[str] | None,
     marks: Mapping[str, Sequence[str]],
 ) -> list[TableColumn]:
-    """Return the columns about each frame, beside its name."""
+    """Return the columns of facts beside the names."""
 
     def cells(told: Told, style: str = "") -> list[Cell]:
         return [
@@ -496,7 +496,7 @@ def _link_columns(
 
 
 class _Drawing:
-    """The first column: guides, and names behind them."""
+    """First column: guides followed by names."""
 
     def __init__(
         self,
@@ -515,7 +515,7 @@ class _Drawing:
         self.is_cut = False
 
     def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
-        """Guides and name of one frame in `room` cells."""
+        """Return guides and name of one frame in `room` cells."""
         lead = self._lead(branch, more)
         name = self.names[branch.info.frame]
         shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)
@@ -525,7 +525,7 @@ class _Drawing:
         )
 
     def longest(self, guides: Guides) -> int:
-        """Return the cells of the longest name with its guides."""
+        """Return the width in cells of the longest name with its guides."""
         return max(
             (
                 cell_len(self.names[one.info.frame])

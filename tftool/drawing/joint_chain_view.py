@@ -1,4 +1,4 @@
-"""The way between two links of a robot description: for a terminal, for a program."""
+"""Joints between two links of a robot description, for a terminal or a program."""
 
 from typing import Any
 
@@ -13,7 +13,7 @@ from tftool.drawing.explanation_view import SCHEMA
 
 
 def render(found: ChainExplanation) -> RenderableType:
-    """Return the question, tf2's answer, each joint, the reason, and the remedy."""
+    """Yield the lookup, tf2's answer, each joint, the reason, and the remedy."""
     headline = Text(visible(f"{found.source} in {found.target}: "))
     if found.available:
         headline.append("answers", "green")
@@ -61,7 +61,7 @@ def _position(link: ChainLink) -> str:
 
 
 def as_object(found: ChainExplanation) -> dict[str, Any]:
-    """Return JSON's form, in the schema of `tftool explain`; radians and metres."""
+    """Return the `tftool explain` schema's JSON; radians and metres."""
     return {
         "schema": SCHEMA,
         "target": found.target,

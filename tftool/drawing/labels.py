@@ -1,4 +1,4 @@
-"""Names beside what they name, nudged apart until none covers another."""
+"""Placement of labels beside their frames without overlaps."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ FARTHEST_ROWS = 7
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A text to place.
+    """A label to place.
 
     Attributes:
         name: What it belongs to.
@@ -30,7 +30,7 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class PlacedLabel:
-    """First cell of a label; and whether it is far from its frame."""
+    """A label's first cell, and whether it is far from its frame."""
 
     label: Label
     column: int
@@ -39,7 +39,7 @@ class PlacedLabel:
 
 
 class Placer:
-    """Places labels, and keeps them where they were while that is good.
+    """Placer of labels that keeps good positions between pictures.
 
     Args:
         columns: Cells across.
@@ -53,7 +53,7 @@ class Placer:
     def placed(
         self, labels: list[Label], hard: set[tuple[int, int]], soft: set[tuple[int, int]]
     ) -> list[PlacedLabel]:
-        """Give every label a place; one for which there is none anywhere near is left out.
+        """Place every label; omit one for which there is no room nearby.
 
         Args:
             labels: The most important ones first.

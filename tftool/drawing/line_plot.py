@@ -1,4 +1,4 @@
-"""Curves over time, and a path from above, as braille dots: for `plot`, and beside the picture."""
+"""Curves over time and paths from above, drawn with braille dots."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -48,7 +48,7 @@ _LIGHT: Final = (Color(175, 0, 0), Color(0, 115, 0), Color(0, 0, 215),
 
 @dataclass(frozen=True, slots=True)
 class PlotLook:
-    """Size and paint of a plot.
+    """Size and style of a plot.
 
     Attributes:
         width: Cells across.
@@ -68,7 +68,7 @@ class PlotLook:
 
     @property
     def colors(self) -> tuple[Color, ...]:
-        """One for each curve, from the first on."""
+        """Return a colour for each curve."""
         return _LIGHT if self.light else _DARK
 
     @property
@@ -85,7 +85,7 @@ def over_time(
     *,
     span: tuple[float, float] | None = None,
 ) -> Text:
-    """Every panel under the other, with one axis of time; refused spans are shaded.
+    """Draw panels below each other on one time axis; times without an answer are shaded.
 
     Args:
         found: The pairs.
@@ -115,7 +115,7 @@ def over_time(
 
 
 def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
-    """The path of each pair in the x-y plane, a metre as long across as up.
+    """Draw each pair's path in the x-y plane at equal scale on both axes.
 
     Args:
         found: The pairs.
@@ -168,7 +168,7 @@ def _span(drawn: Sequence[PlotPanel], shaded: Sequence[RefusedSpan]) -> tuple[fl
 
 
 def _titled(panel: PlotPanel, look: PlotLook, number: int) -> Text:
-    """Return the title of a panel, with the name and the last value of each curve."""
+    """Return a panel's title, with the name and last value of each curve."""
     line = Text(f"{panel.title}, {panel.unit}", style="bold")
     is_alone = len(panel.curves) == 1 and panel.curves[0].label == panel.title
     for place, one in enumerate(panel.curves):
@@ -239,7 +239,7 @@ def _append_row(text: Text, label: str, ink: Ink, row: int, shade: str, look: Pl
 
 
 def draw_curve(ink: Ink, across: Floats, up: Floats, color: Color) -> None:
-    """Draw a curve of the unit square; a single point where its neighbours are missing."""
+    """Draw a curve of the unit square; a single point between gaps."""
     points = list(zip(across.tolist(), up.tolist(), strict=True))
     for here, there in pairwise(points):
         ink.draw((*here, *there, color, 0))
@@ -248,7 +248,7 @@ def draw_curve(ink: Ink, across: Floats, up: Floats, color: Color) -> None:
 
 
 def _axis(low: float, high: float, width: int) -> str:
-    """Write round seconds below their columns, and the unit at the end."""
+    """Format the time axis: round seconds below their columns, and the unit."""
     columns = max(10, width - LABELS - 1)
     # A tick just outside of the data is written at the edge.
     slack = 0.02 * (high - low)
@@ -279,7 +279,7 @@ TITLED_FROM: Final = 4
 
 @dataclass(frozen=True, slots=True)
 class PlotSpan:
-    """Seconds that are drawn, and the moment that is marked in them.
+    """Seconds to draw, and the time to mark in them.
 
     Attributes:
         first: The first moment.
@@ -303,7 +303,7 @@ def pair_plot(
     *,
     ascii_only: bool = False,
 ) -> list[Text]:
-    """Draw distance and yaw one under the other, each on a scale that does not breathe.
+    """Draw distance and yaw below each other, on scales that stay the same.
 
     Args:
         path: The poses, a row a moment, NaN where there is none.
@@ -391,14 +391,14 @@ def _curve(
 
 
 def _value_at(times: np.ndarray, values: np.ndarray, span: PlotSpan) -> float | None:
-    """The last value up to the moment shown."""
+    """Return the last value up to the shown time."""
     moment = as_seconds((span.last if span.cursor is None else span.cursor) - span.start)
     holds = np.flatnonzero(np.isfinite(values) & (times <= moment + 1e-9))
     return float(values[holds[-1]]) if len(holds) else None
 
 
 def _scale(title: str, values: np.ndarray) -> tuple[float, float]:
-    """From nothing to a round number above, or all there is round."""
+    """Return the range from zero to a round number above, or a full turn."""
     if title == "yaw":
         return -180.0, 180.0
     holds = values[np.isfinite(values)]

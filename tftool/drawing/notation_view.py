@@ -1,4 +1,4 @@
-"""One transform in every notation, as lines and as an object."""
+"""One transform in every notation, as lines and as JSON."""
 
 import math
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ _POLE: Final = 1.0 - 1e-9
 
 
 def as_object(transform: Transform) -> dict[str, object]:
-    """Everything, for programs: angles in radians, and in degrees under names that say so."""
+    """Return every notation for --json: radians, and degrees under names that say so."""
     turn = transform.rotation
     found: dict[str, object] = {"translation": list(transform.translation)}
     for notation in NOTATIONS.values():
@@ -39,7 +39,7 @@ def as_object(transform: Transform) -> dict[str, object]:
 
 
 def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
-    """One notation in full precision, on as many lines as it has rows.
+    """Return one notation in full precision, a line per row.
 
     Args:
         transform: What to write.
@@ -63,7 +63,7 @@ def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
 def lines(
     transform: Transform, *, with_translation: bool, precision: int = 6, all_orders: bool = False
 ) -> str:
-    """Every notation, a line or a few each.
+    """Return every notation in one or a few lines each.
 
     Args:
         transform: What to write.
@@ -103,12 +103,12 @@ def lines(
 
 
 def at_a_pole(transform: Transform) -> bool:
-    """Whether roll and yaw turn about one axis, so that only their sum is known."""
+    """Whether pitch is ±90°, where only the sum of roll and yaw is determined."""
     return abs(matrix_from_quaternion(transform.rotation)[2][0]) > _POLE
 
 
 def rounded(number: float, precision: int) -> str:
-    """So many decimals at most: no zeros behind them, and no minus before a zero."""
+    """Format a number with at most so many decimals, without trailing zeros or "-0"."""
     text = f"{number:.{precision}f}"
     if "." in text:
         text = text.rstrip("0").rstrip(".")

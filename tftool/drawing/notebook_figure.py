@@ -1,4 +1,4 @@
-"""A figure that a notebook shows once, whether it is a cell's last value or drawn on the way.
+"""Figure that a notebook shows once, as a cell's value or while drawing.
 
 Imported when something is drawn: it needs matplotlib, an extra.
 """
@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 
 
 class NotebookFigure(Figure):
-    """One of pyplot's figures; elsewhere than in a notebook it is like any other."""
+    """A pyplot figure; outside notebooks it is like any other."""
 
     def _ipython_display_(self) -> None:
-        """Take itself off the figures that are shown when the cell ends, and be shown as usual."""
+        """Show the figure, and remove it from those shown at the end of the cell."""
         if "inline" in get_backend():
             pyplot.close(self)
         # IPython's word for: show it as if this method were not there.

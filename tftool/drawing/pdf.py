@@ -1,4 +1,4 @@
-"""A picture of the tree as PDF: one page as large as the drawing, Helvetica, no library.
+"""PDF of a tree picture: one page of the drawing's size, in Helvetica, without a library.
 
 Every PDF reader brings Helvetica along, for the letters of Western Europe only. Any
 other letter is written as its number, <U+4E16>, so that nothing vanishes in silence.
@@ -29,7 +29,7 @@ _BOLD = 1.07
 
 
 def width(text: str, size: float, *, bold: bool = False) -> float:
-    """Estimate how long a text is, in the unit of `size`."""
+    """Estimate the width of a text, in the unit of `size`."""
     total = sum(map(_char_width, text)) * size / 1000
     return total * _BOLD if bold else total
 
@@ -43,7 +43,7 @@ def _char_width(char: str) -> int:
 
 
 def fit(text: str, size: float, room: float, *, bold: bool = False) -> str:
-    """Cut a text in its middle until it is no wider than `room`."""
+    """Shorten a text in its middle until it fits into `room`."""
     if width(text, size, bold=bold) <= room:
         return text
     budget = room - width("…", size, bold=bold)
@@ -119,14 +119,14 @@ def render(picture: "Picture") -> bytes:
 
 
 def missing_letters(picture: "Picture") -> str:
-    """The letters of a picture that Helvetica has not, each once, in their order there."""
+    """Return the letters of a picture that Helvetica lacks, each once, in order."""
     return "".join(
         dict.fromkeys(char for text in picture.texts for char in text.text if not _has_letter(char))
     )
 
 
 def _file(objects: list[bytes]) -> bytes:
-    """Number the objects, the last being the file's own description, and write where each is."""
+    """Number the objects, the last one describing the file, and write their offsets."""
     out = bytearray(b"%PDF-1.4\n%\xe2\xe3\xcf\xd3\n")
     offsets = []
     for number, body in enumerate(objects, start=1):
@@ -190,7 +190,7 @@ def _text(text: "Text") -> str:
 
 
 def _latin(text: str) -> str:
-    """Write what Helvetica has no letter for as its number."""
+    """Encode letters that Helvetica lacks as their numbers."""
     return "".join(char if _has_letter(char) else f"<U+{ord(char):04X}>" for char in text)
 
 
@@ -203,7 +203,7 @@ def _has_letter(char: str) -> bool:
 
 
 def _string(text: str) -> str:
-    """Write a PDF string; the bytes are WinAnsi's, kept in a text as Latin-1."""
+    """Return a PDF string: WinAnsi bytes, kept as Latin-1 text."""
     quoted = text.replace("\\", r"\\").replace("(", r"\(").replace(")", r"\)")
     return f"({quoted.encode('cp1252').decode('latin-1')})"
 

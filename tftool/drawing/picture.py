@@ -1,4 +1,4 @@
-"""A snapshot laid out on paper: cards, links and a legend, as plain shapes.
+"""Layout of a snapshot on paper: cards, links and a legend, as plain shapes.
 
 One card per frame with rqt_tf_tree's five facts about the link above it; trees side by
 side; many leaves of one parent folded into a group, so that three hundred frames stay
@@ -47,7 +47,7 @@ Kind = Literal["root", "dynamic", "stale", "static", "group", "more"]
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A rounded rectangle; `title` is the full name of the frame it stands for."""
+    """A rounded rectangle; `title` is the full name of its frame."""
 
     x: float
     y: float
@@ -59,7 +59,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """One line of text, from its left end on its baseline; `room` is how long it may be."""
+    """One line of text, from its left end on its baseline; `room` limits its width."""
 
     x: float
     y: float
@@ -71,7 +71,7 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """A link between two points; it leaves and arrives downwards, or to the right."""
+    """A link between two points; it starts and ends vertically, or horizontally."""
 
     x0: float
     y0: float
@@ -82,7 +82,7 @@ class Curve:
 
     @property
     def bends(self) -> tuple[float, ...]:
-        """Its two control points and its end, as a cubic Bézier curve has them."""
+        """The curve's two control points and its end, as a cubic Bézier curve."""
         if self.down:
             half = (self.y0 + self.y1) / 2
             return self.x0, half, self.x1, half, self.x1, self.y1
@@ -104,7 +104,7 @@ class Picture:
 
 
 def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str] = ()) -> Picture:
-    """Lay a snapshot out.
+    """Lay out a snapshot as a picture.
 
     Args:
         snapshot: The frames.
@@ -131,7 +131,9 @@ class _Card:
 
 
 def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
-    """One card per drawn frame; for frames left out below one, a card named with a newline."""
+    """Return one card per drawn frame; frames left out below one get a card whose name has a
+    newline.
+    """
     cards = {}
     shown = distinct(forest.children)
     room = MOST_WIDTH - 2 * PADDING
@@ -156,7 +158,7 @@ def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
 
 
 def _aged(line: str, age: Duration) -> str:
-    """The line of the newest sample with how old it is; every other as it is."""
+    """Add its age to the line of the newest sample; return other lines unchanged."""
     newest = line.startswith("Most recent transform")
     return f"{line}, {short_duration(age)} old" if newest else line
 
@@ -177,7 +179,7 @@ def _card(kind: Kind, name: str, lines: tuple[str, ...], title: str) -> _Card:
 
 @dataclass(frozen=True, slots=True)
 class _Group:
-    """Leaves of one parent, in rows and columns."""
+    """Leaves of one parent, arranged in rows and columns."""
 
     parent: str
     members: tuple[str, ...]
@@ -190,7 +192,7 @@ class _Group:
 
 @dataclass
 class _Sheet:
-    """One way of laying the forest out, growing downwards or to the right."""
+    """One candidate layout of the forest, growing downwards or to the right."""
 
     forest: Forest
     cards: dict[str, _Card]
@@ -227,11 +229,11 @@ class _Sheet:
         self._items_placed = (items, corners)
 
     def squareness(self) -> float:
-        """Return the distance from the shape of a screen; 0 is just that."""
+        """Return how far the shape is from a screen's; 0 is the same."""
         return abs(math.log(self.width / self.height / 1.6))
 
     def _items(self) -> list[Item]:
-        """Turn cards and groups into items of breadth and levels, roots first."""
+        """Convert cards and groups to items with breadth and levels, roots first."""
         self.subjects = [self.cards[name] for name in self.forest.roots]
         names: list[str | None] = list(self.forest.roots)
         hanging: list[tuple[int, ...]] = []
@@ -262,7 +264,7 @@ class _Sheet:
         return math.ceil((subject.width + ACROSS_GAP) / self.pitch)
 
     def _below(self, name: str) -> list[tuple[_Card | _Group, str | None]]:
-        """Return the cards below a frame, and one group when there are many leaves."""
+        """Return the cards below a frame, and one group if there are many leaves."""
         children = [*self.forest.children[name]]
         if name in self.forest.hidden:
             children.append(_rest(name))
@@ -393,7 +395,7 @@ class _Sheet:
         return notes
 
     def _legend(self, snapshot: Snapshot, notes: list[str]) -> float:
-        """Write the legend, return how wide it is."""
+        """Write the legend; return its width."""
         head = recorded_at(snapshot.now)
         self.texts.append(Text(MARGIN, MARGIN + 12.0, head, NAME_SIZE, "name"))
         if snapshot.at:

@@ -1,4 +1,4 @@
-"""A picture of frames, as values: everything seen along the z axis of one fixed frame.
+"""Values for a picture of frames, seen along the z axis of one fixed frame.
 
 Metres and radians in that frame. The drawing is `drawing/canvas.py`.
 """
@@ -56,7 +56,7 @@ class PlaneFrame:
 
 @dataclass(frozen=True, slots=True)
 class TurtleField:
-    """The square turtles draw on, which lies in the plane as its own frame does.
+    """The turtles' square field, in the plane of its own frame.
 
     Attributes:
         x: Where its lower left corner is, metres.
@@ -73,18 +73,18 @@ class TurtleField:
     walls: frozenset[str] = frozenset()
 
     def place(self, x: float, y: float) -> Point:
-        """A point of the field as a point of the plane."""
+        """Convert a point of the field to the plane."""
         cosine, sine = math.cos(self.theta), math.sin(self.theta)
         return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
 
     def corners(self) -> tuple[Point, ...]:
-        """Lower left, lower right, upper right, upper left."""
+        """Corners: lower left, lower right, upper right, upper left."""
         return tuple(self.place(x, y) for x, y in ((0, 0), (FIELD, 0), (FIELD, FIELD), (0, FIELD)))
 
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """Strokes that only ever grow in number, until they are another drawing.
+    """Strokes that only grow in number, until they are replaced.
 
     Attributes:
         strokes: The newest of them, oldest first.
@@ -101,7 +101,7 @@ class Drawn:
 
 @dataclass(frozen=True, slots=True)
 class PlanePicture:
-    """Scene at one moment, in one fixed frame.
+    """Scene at one time in one fixed frame.
 
     Attributes:
         fixed: The fixed frame; empty where there are no frames.
@@ -124,7 +124,7 @@ class PlanePicture:
     nowhere: tuple[str, ...] = ()
 
     def bounds(self) -> Box:
-        """All there is; what does not stand on the field gets room beside it."""
+        """Return the box around everything, with room beside the field for what is outside it."""
         field = None if self.field is None else _box(self.field.corners())
         points = [(one.x, one.y) for one in self.frames]
         if self.trails.box is not None:
@@ -151,7 +151,7 @@ class Viewport(NamedTuple):
 
 
 def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
-    """The view that shows a whole box, centred in cells that are twice as high as wide."""
+    """Return the viewport that shows a whole box, centred; cells are twice as high as wide."""
     left, bottom, right, top = box
     per_row = max((right - left) / max(1, columns) * 2.0, (top - bottom) / max(1, rows), 1e-9)
     middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)
@@ -159,7 +159,7 @@ def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
 
 
 def grid_step(per_row: float) -> float:
-    """Metres between two lines of a grid: 1, 2 or 5 of a power of ten, some rows apart."""
+    """Return a grid's step in metres: 1, 2 or 5 times a power of ten, some rows apart."""
     wanted = _APART * per_row
     power = 10.0 ** math.floor(math.log10(wanted))
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= wanted * 0.999)

@@ -1,4 +1,4 @@
-"""Position in a recording while it plays, as one line."""
+"""Position in a playing recording, as one line."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -64,7 +64,7 @@ class Playback:
 def line(
     playback: Playback, width: int, *, with_keys: bool = True, ascii_only: bool = False
 ) -> str:
-    """One line of at most `width` columns: state, seconds, rate, a bar, the keys that fit.
+    """Return a line of at most `width` columns: state, seconds, rate, bar, and the keys that fit.
 
     Args:
         playback: Where the player stands.
@@ -99,17 +99,17 @@ def line(
 
 
 def passed(marks: Sequence[PlaybackMark], before: Duration, now: Duration) -> list[PlaybackMark]:
-    """Return the marks that begin after one moment and not after another."""
+    """Return the marks between one time and another."""
     return [one for one in marks if before < one.since <= now]
 
 
 def after(marks: Sequence[PlaybackMark], now: Duration) -> Duration | None:
-    """Return where the next mark begins; None behind the last."""
+    """Return where the next mark begins; None after the last."""
     return min((one.since for one in marks if one.since > now), default=None)
 
 
 def _keys(room: int, ascii_only: bool) -> str:
-    """As many keys with their words as fit; `q` in any case that has room for one."""
+    """Return as many keys with their explanations as fit; `q` always, if there is room for one."""
     first, last = KEYS[:-1], KEYS[-1]
     for count in range(len(first), -1, -1):
         text = "  ".join(

@@ -1,4 +1,4 @@
-"""One fixed pose in words, so that a wrong order of arguments shows at once."""
+"""One static pose in words, which makes a wrong order of arguments visible."""
 
 import math
 
@@ -13,7 +13,7 @@ NOTHING = 5e-7
 
 
 def lines(parent: str, child: str, pose: Transform) -> str:
-    """Return static_transform_publisher's words for a pose, and the same in a sentence."""
+    """Return a pose as static_transform_publisher's arguments, and in a sentence."""
     x, y, z = pose.translation
     qx, qy, qz, qw = pose.rotation
     return (
@@ -25,7 +25,7 @@ def lines(parent: str, child: str, pose: Transform) -> str:
 
 
 def in_words(parent: str, child: str, pose: Transform) -> str:
-    """Say where `child` is in `parent`, and about which axis it is turned how far."""
+    """Describe where `child` is in `parent`, and its rotation by axis and angle."""
     return f"{visible(child)} in {visible(parent)}: {_place(pose.translation)}, {_turn(pose)}."
 
 

@@ -25,7 +25,7 @@ _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 
 
 def as_text(recording: Recording, width: int | None = None, name: str | None = None) -> str:
-    """Everything about a recording, in lines.
+    """Return everything about a recording as lines.
 
     Args:
         recording: Which.
@@ -83,7 +83,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
 
 
 def wrapped(sentence: str, width: int | None, indent: str = "") -> list[str]:
-    """A sentence behind `indent`; broken between words where a line has an end."""
+    """Indent a sentence by `indent`, wrapped between words if the width is limited."""
     if width is None or len(indent) + cell_len(sentence) <= width:
         return [indent + sentence]
     return wrap(
@@ -136,7 +136,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
 
 
 def as_object(recording: Recording, name: str | None = None) -> dict[str, Any]:
-    """Return it for programs; moments and durations in nanoseconds."""
+    """Return the contents for --json; times and durations in nanoseconds."""
     source, publishers = recording.source, _publishers(recording)
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
     return {
@@ -237,7 +237,7 @@ def table(
     goes: tuple[str, ...] = (),
     right: tuple[str, ...] = (),
 ) -> list[str]:
-    """Lines of columns, as wide as their cells within reason; the last one is not padded.
+    """Format lines in columns as wide as their cells, up to a limit; the last is not padded.
 
     Args:
         heads: Headings.
@@ -301,7 +301,7 @@ def _moment(stamp: Stamp) -> str:
 
 
 def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str:
-    """Several recordings, a line each; below them the faults of each.
+    """Return a line for each of several recordings, with its faults below.
 
     Args:
         rows: What each holds, or why it cannot be read.

@@ -15,7 +15,7 @@ from tftool.base.report import Judgement, Report
 
 
 def render(reports: Sequence[Report]) -> Table:
-    """A line for each report, and below it, in full, the failures."""
+    """Return a line for each report, and all failures below it."""
     table = Table.grid(padding=(0, 2), pad_edge=False)
     for _ in range(3):
         table.add_column(overflow="fold")
@@ -49,7 +49,7 @@ def _told(report: Report) -> str:
 
 
 def render_all(reports: Sequence[Report]) -> Table:
-    """Every judgement in a table, grouped by report; failures are highlighted."""
+    """Return every judgement in a table, grouped by report; failures are highlighted."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("scenario", overflow="fold")
     table.add_column("expected", overflow="fold", ratio=3)
@@ -75,7 +75,7 @@ def render_all(reports: Sequence[Report]) -> Table:
 
 
 def summary(reports: Sequence[Report], noun: str = "scenario") -> str:
-    """All of it in one sentence; `noun` is what each report is about."""
+    """Summarise the reports in one sentence; `noun` names what each report is about."""
     bad = [report for report in reports if not report.ok]
     judgements = [judgement for report in reports for judgement in report.judgements]
     held = sum(judgement.ok for judgement in judgements)
@@ -92,7 +92,7 @@ def summary(reports: Sequence[Report], noun: str = "scenario") -> str:
 
 
 def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
-    """Return it for programs: one mapping a report, with names exactly as they are."""
+    """Return a mapping for each report, for --json, with exact names."""
     return [
         {
             "scenario": report.name,

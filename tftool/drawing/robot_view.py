@@ -10,7 +10,7 @@ from tftool.robots.robot_model import Robot
 
 
 def as_text(name: str, robot: Robot, width: int | None = None) -> str:
-    """Everything about a description, in lines.
+    """Return everything about a description as lines.
 
     Args:
         name: Name as it was given.
@@ -53,7 +53,7 @@ def as_text(name: str, robot: Robot, width: int | None = None) -> str:
 
 
 def as_object(name: str, robot: Robot) -> dict[str, Any]:
-    """Return it for programs; radians, metres, kilograms."""
+    """Return the description for --json; radians, metres, kilograms."""
     rest = robot.positions()
     return {
         "name": name,

@@ -1,4 +1,4 @@
-"""Findings as SARIF 2.1.0, the format in which code hosts take the results of checkers."""
+"""Findings in SARIF 2.1.0, the format in which code hosts import results of checkers."""
 
 import json
 import sys

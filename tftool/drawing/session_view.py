@@ -28,7 +28,7 @@ def lines(
     height: int | None = None,
     ascii_only: bool = False,
 ) -> list[Text]:
-    """Processes, nodes of others, topics and services; names of strangers are made harmless.
+    """Return processes, foreign nodes, topics and services as lines; names are escaped.
 
     Args:
         found: What `tftool session --json` writes.
@@ -105,7 +105,7 @@ def _brief(
     *,
     ascii_only: bool,
 ) -> list[Text]:
-    """Return topics in a line each, and services in as few lines as hold their names."""
+    """Return topics in a line each, and services in few lines."""
     shown = {name: one for name, one in topics.items() if "/_action/" not in name}
     arrow = "->" if ascii_only else "→"
     ways = [
@@ -137,7 +137,7 @@ def _brief(
 
 
 class _Writer:
-    """Rows in as many columns as there are, or as many lines."""
+    """Writer of rows in aligned columns, or without a width as separate lines."""
 
     def __init__(self, width: int | None, more: str) -> None:
         self.width = width
@@ -145,13 +145,13 @@ class _Writer:
 
     @staticmethod
     def heading(what: str, count: int) -> list[Text]:
-        """Return the kind of entity, and how many there are."""
+        """Return the kind of entity and its number."""
         return [Text(f"{what} ({count})", style="bold")]
 
     def rows(
         self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
-        """Names in a column, what belongs to them beside, and long lists at the end or below."""
+        """Return names in a column, their details beside, and long lists at the end or below."""
         if not names:
             return []
         longest = max(map(cell_len, names))
@@ -183,6 +183,6 @@ def _names(nodes: Iterable[str], none: str) -> str:
 
 
 def _goes_without_saying(name: str, ros_type: str) -> bool:
-    """Whether a service is no node's own: one that every node has, or hidden as in ROS 2."""
+    """Whether a service exists on every node, or is hidden as in ROS 2."""
     hidden = any(part.startswith("_") for part in name.split("/"))
     return hidden or ros_type.startswith(_EVERY_NODES)

@@ -1,4 +1,4 @@
-"""The tree as PNG, drawn by matplotlib, which is an extra."""
+"""PNG of the tree, drawn by matplotlib (an extra)."""
 
 import io
 from importlib import import_module
@@ -22,7 +22,7 @@ _INKS: Final = {"name": "#171c24", "fact": "#5a6472", "note": "#8a6a17"}
 
 
 def render(picture: Picture) -> bytes:
-    """Write a picture as PNG, with two points to each of its own where it is not too large.
+    """Render a picture as PNG, with two pixels per point unless it is very large.
 
     Raises:
         UsageError: If the extra `plot` is not installed.

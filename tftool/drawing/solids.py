@@ -1,4 +1,4 @@
-"""Triangles of a robot's links: its boxes, cylinders and spheres, and meshes with fewer corners."""
+"""Triangles of a robot's links: boxes, cylinders, spheres, and simplified meshes."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -53,7 +53,7 @@ class Solids:
     colors: Floats
 
     def placed(self, poses: Mapping[str, Transform]) -> Floats:
-        """Return the corners where frames are now; NaN for those of an unknown frame."""
+        """Return the vertices at the frames' current poses; NaN for unknown frames."""
         placed = np.full_like(self.points, np.nan)
         first = 0
         for frame, (end, _) in zip(self.frames, self.ends, strict=True):
@@ -65,7 +65,7 @@ class Solids:
         return placed
 
     def parts(self) -> Indices:
-        """Return the index of the frame of each triangle, shape (m,)."""
+        """Frame index of each triangle, shape (m,)."""
         ends = [end for _, end in self.ends]
         return np.repeat(np.arange(len(ends)), np.diff([0, *ends]))
 
@@ -107,7 +107,7 @@ def solids_of(
 
 
 def coarse(mesh: Mesh, width: float) -> Mesh:
-    """Join the corners in each cube of a grid, and drop the triangles that vanish by that.
+    """Merge the vertices in each cube of a grid, and drop collapsed triangles.
 
     Source:
         Rossignac and Borrel, "Multi-resolution 3D approximations for rendering complex
@@ -159,7 +159,7 @@ def _joined(by_frame: Mapping[str, Sequence[Mesh]]) -> Solids:
 
 
 def _shape(shape: LinkShape, folders: MeshFolders) -> list[Mesh]:
-    """Return the triangles of a shape in its link, in the colour that the description gives."""
+    """Return a shape's triangles in its link, in the description's colour."""
     given = None if shape.material is None else shape.material.color
     color = None if given is None else given[:3]
     rotation, origin = _rotation(shape.origin), np.array(shape.origin.translation)
@@ -191,7 +191,7 @@ def _surface(shape: LinkShape, folders: MeshFolders) -> list[Mesh]:
 
 
 def _turned(outline: npt.NDArray[np.float64]) -> Mesh:
-    """Turn an outline of radii and heights around the z axis."""
+    """Rotate an outline of radii and heights around the z axis."""
     angles = np.arange(_AROUND) * (2.0 * np.pi / _AROUND)
     radii, heights = outline[:, 0][:, None], outline[:, 1][:, None]
     rings = np.stack(

@@ -1,4 +1,4 @@
-"""Frames in space as a screen shows them, and the camera that turns around them."""
+"""Values for a 3-D picture of frames, and the orbiting camera."""
 
 import math
 from collections.abc import Sequence
@@ -59,7 +59,7 @@ class Line3(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SpacePicture:
-    """Frames at one moment, seen in one of them.
+    """Scene at one time in one fixed frame, in 3-D.
 
     Attributes:
         fixed: The fixed frame.
@@ -79,7 +79,7 @@ class SpacePicture:
 
 
 class Viewpoint(NamedTuple):
-    """Direction, middle and scale of a picture without perspective.
+    """Direction, centre and scale of an orthographic view.
 
     Attributes:
         axes: Unit vectors to the right, up and towards the viewer, as rows.
@@ -92,18 +92,18 @@ class Viewpoint(NamedTuple):
     scale: float
 
     def project(self, points: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
-        """Return dots to the right and up from the middle, and towards the viewer."""
+        """Project points: dots right and up from the centre, and depth towards the viewer."""
         axes = (self.axes / self.scale).astype(points.dtype)
         return (points - self.middle.astype(points.dtype)) @ axes.T
 
     @property
     def grid(self) -> float:
-        """Metres between two lines of the grid on the ground."""
+        """Step of the ground grid, metres."""
         return grid_step(4.0 * self.scale)
 
 
 class OrbitCamera:
-    """Turns around a scene, which it keeps in sight until a person zooms or moves it.
+    """Camera that orbits a scene, and fits it until the user zooms or pans.
 
     Fitted, it grows at once with the scene, and shrinks only when most of it is empty.
 
@@ -132,27 +132,27 @@ class OrbitCamera:
         self.look_from(names[(names.index(self.name) + 1) % len(names)])
 
     def turn(self, right: float, up: float) -> None:
-        """Turn around the scene by some steps."""
+        """Orbit the scene by some steps."""
         self.name = "orbit"
         self._azimuth += TURN * right
         quarter = 0.5 * math.pi
         self._elevation = min(quarter, max(-quarter, self._elevation + TURN * up))
 
     def zoom(self, steps: float) -> None:
-        """Come nearer by some steps, or go back by fewer than none."""
+        """Zoom in by some steps; out if negative."""
         self._factor = min(NEAREST, max(MOST_DISTANT, self._factor * STEP**steps))
 
     def pan(self, columns: float, rows: float) -> None:
-        """Move the picture by a number of cells, to the right and down."""
+        """Pan by some cells to the right and down."""
         right, up = self._shift
         self._shift = right + 2.0 * columns * self._scale, up - 4.0 * rows * self._scale
 
     def fit(self) -> None:
-        """Show everything again."""
+        """Fit the whole scene again."""
         self._factor, self._shift, self._box, self.follows = 1.0, (0.0, 0.0), None, ""
 
     def view(self, picture: SpacePicture, corners: Floats, columns: int, rows: int) -> Viewpoint:
-        """Return the view of a picture in columns × rows of cells.
+        """Return the view for a picture of columns × rows of cells.
 
         Args:
             picture: Content of the picture.
@@ -207,5 +207,5 @@ class OrbitCamera:
 
 
 def axis_length(view: Viewpoint, rows: int) -> float:
-    """Metres that the axes of a frame are drawn long."""
+    """Return the drawn length of a frame's axes, metres."""
     return view.scale * 4.0 * max(1.2, rows / 10.0)

@@ -1,4 +1,4 @@
-"""A picture of frames in space: a depth buffer in numpy, shaded half blocks, braille lines.
+"""3-D picture of frames: depth buffer in numpy, shaded half blocks, braille lines.
 
 The depth buffer has a point for each dot of braille. Four of them make half a cell of a solid.
 Lines are dots: those of the ground are hidden by solids, axes are drawn through them.
@@ -69,7 +69,7 @@ class Layer(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnSpace:
-    """A picture before it becomes cells or a file.
+    """Picture before conversion to cells or a file.
 
     Attributes:
         image: Red, green and blue from 0 to 255 of the solids at every dot.
@@ -197,7 +197,7 @@ def drawn(
 
 
 def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
-    """Return the brightness of each point, from the triangle it is on."""
+    """Return the brightness of each point from its triangle's orientation."""
     used, where = np.unique(owners, return_inverse=True)
     first, second, third = (corners[triangles[used, corner]] for corner in range(3))
     ahead, aside = second - first, third - first
@@ -218,7 +218,7 @@ def _shades(corners: Floats, triangles: Indices, owners: Indices) -> Floats:
 
 
 def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
-    """Find the points where one part ends in front of another, or far in front of itself."""
+    """Find the points where one part ends in front of another or of a distant part of itself."""
     edge = np.zeros(whose.shape, bool)
     with np.errstate(invalid="ignore"):
         for here, there in (
@@ -236,7 +236,7 @@ def _edges(whose: Indices, depths: Floats) -> npt.NDArray[np.bool_]:
 def _named(
     picture: SpacePicture, places: Sequence[Sequence[float]]
 ) -> list[tuple[SpaceFrame, str, Sequence[float]]]:
-    """Give frames at one place one label, the one under the cursor first."""
+    """Give frames at one place a common label, beginning with the one under the cursor."""
     labels: dict[tuple[int, int], list[int]] = {}
     order = sorted(range(len(places)), key=lambda n: picture.frames[n].name != picture.chosen)
     for number in order[:MOST_NAMED]:
@@ -255,7 +255,7 @@ def _named(
 def _layers(
     picture: SpacePicture, view: Viewpoint, rows: int, palette: theme.Palette
 ) -> list[Layer]:
-    """Return the ground, the trails, the lines to the parents, the pair and the axes."""
+    """Return the layers: ground, trails, lines to parents, the pair, axes."""
     paper = theme.paper(palette)
     poses = {one.name: one.pose for one in picture.frames}
     layers = [Layer(paper.grid, view.project(_ground(picture, view)), is_hidden=True)]
@@ -282,7 +282,7 @@ def _layers(
 
 
 def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
-    """Return the lines of a grid on the ground under the frames, shape (n, 2, 3)."""
+    """Return the lines of the ground grid under the frames, shape (n, 2, 3)."""
     step = view.grid
     places = np.array([one.pose.translation[:2] for one in picture.frames]).reshape(-1, 2)
     places = places if len(places) else np.zeros((1, 2))
@@ -300,7 +300,7 @@ def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
 
 
 def _dots(layer: Layer, width: int, height: int) -> tuple[Indices, Indices, Floats]:
-    """Return the dots of some lines that are inside of a picture: across, down, and depth."""
+    """Return the dots of some lines within the picture: column, row, and depth."""
     ends = layer.ends[np.isfinite(layer.ends).all((1, 2))]
     middle = np.array([0.5 * width, 0.5 * height])
     start = ends[:, 0] * [1, -1, 1] + [*middle, 0.0]
@@ -354,7 +354,7 @@ class SpaceCanvas:
         self._places: list[tuple[float, float, str]] = []
 
     def lines(self, picture: SpacePicture, view: Viewpoint) -> list[Line]:
-        """Draw a picture: exactly as many lines, and cells in each, as were asked for."""
+        """Draw a picture of exactly the requested lines and cells."""
         columns, rows = self.columns, self.rows
         if not columns or not rows:
             return [[] for _ in range(rows)]
@@ -377,7 +377,7 @@ class SpaceCanvas:
         return [_line(*row) for row in zip(texts, inks, grounds, bold, strict=True)]
 
     def frame_at(self, column: int, row: int) -> str | None:
-        """Return the frame nearest to a cell, within three cells of it."""
+        """Return the frame nearest to a cell, at most three cells away."""
         near = [
             (max(0.5 * abs(x - column - 0.5), abs(y - row - 0.5)), name)
             for x, y, name in self._places
@@ -386,7 +386,7 @@ class SpaceCanvas:
         return name if away <= 1.5 else None
 
     def _shaded(self, sheet: DrawnSpace) -> tuple[npt.NDArray[np.str_], Indices, Indices]:
-        """Return the signs, inks and grounds of the solids' cells."""
+        """Return characters, foreground and background colours of the solids' cells."""
         columns, rows = self.columns, self.rows
         found = sheet.depth.owners >= 0
         texts = np.full((rows, columns), " ", "<U4")
@@ -418,7 +418,7 @@ class SpaceCanvas:
         return texts, inks, grounds
 
     def _dotted(self, sheet: DrawnSpace) -> tuple[Indices, Indices]:
-        """Return the dots of all lines in each cell, and their colour: the last one wins."""
+        """Return each cell's dots and their colour; the last line wins."""
         width, height = 2 * self.columns, 4 * self.rows
         masks = np.zeros((self.rows, self.columns), np.int64)
         colors = np.full_like(masks, _NONE)
@@ -449,7 +449,7 @@ class SpaceCanvas:
         bold: npt.NDArray[np.bool_],
         marked: npt.NDArray[np.bool_],
     ) -> None:
-        """Write the names of frames where they cover no other name."""
+        """Write frame names where they cover no other name."""
         more = "~" if self._ascii else "…"
         named: dict[str, SpaceFrame] = {}
         labels = []
@@ -493,7 +493,7 @@ def _number(color: Color) -> int:
 
 
 def _packed(colors: npt.NDArray[np.floating]) -> Indices:
-    """Return colours as whole numbers, a few shades of each: styles are kept and used again."""
+    """Pack colours into integers with few shades, so that styles can be cached."""
     red, green, blue = np.moveaxis(np.clip(colors, 0, 255).astype(np.int64) & 0xF8, -1, 0)
     packed: Indices = (red << 16) + (green << 8) + blue
     return packed
@@ -502,7 +502,7 @@ def _packed(colors: npt.NDArray[np.floating]) -> Indices:
 def _line(
     texts: npt.NDArray[np.str_], inks: Indices, grounds: Indices, bold: npt.NDArray[np.bool_]
 ) -> Line:
-    """Join the cells of a row that look the same."""
+    """Join a row's cells of equal style."""
     # The ink of a blank is not seen: no new segment for it.
     key = (np.where(texts == " ", _NONE, inks) << 26) + (grounds << 1) + bold
     starts = [0, *(np.flatnonzero(np.diff(key)) + 1).tolist(), len(key)]
@@ -521,7 +521,7 @@ def _color(number: int) -> Color | None:
 
 
 def corners_of(picture: SpacePicture) -> npt.NDArray[np.float64]:
-    """Return the points of a picture that should be in sight, shape (n, 3)."""
+    """Return the points to keep in view, shape (n, 3)."""
     parts: list[npt.NDArray[np.floating]] = [
         np.array([one.pose.translation for one in picture.frames], float).reshape(-1, 3)
     ]

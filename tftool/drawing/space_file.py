@@ -30,7 +30,7 @@ _WIDE, _HIGH = 8, 16
 def drawn_file(
     picture: SpacePicture, form: str, palette: theme.Palette = theme.DARK, *, title: str = ""
 ) -> bytes:
-    """Draw a picture as the file of a form: "svg" or "png".
+    """Draw a picture as a file: "svg" or "png".
 
     Raises:
         UsageError: If the extra `plot`, which writes PNG, is not installed.
@@ -48,13 +48,13 @@ def drawn_file(
 
 
 def _pixels(sheet: DrawnSpace) -> npt.NDArray[np.uint8]:
-    """Return the solids as red, green, blue and opacity, from 0 to 255."""
+    """Return the solids as RGBA values from 0 to 255."""
     seen = sheet.depth.owners >= 0
     return np.dstack([np.clip(sheet.image, 0, 255), np.where(seen, 255, 0)]).astype(np.uint8)
 
 
 def png_bytes(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """Write an image, shape (height, width, 4), as PNG.
+    """Encode an image, shape (height, width, 4), as PNG.
 
     Source:
         W3C, "Portable Network Graphics (PNG) Specification", 2003.

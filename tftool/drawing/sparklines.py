@@ -1,4 +1,4 @@
-"""Rate and delay of each frame over the last seconds, as small curves of one line."""
+"""Sparklines of rate and delay of each frame over the last seconds."""
 
 from collections import deque
 from collections.abc import Iterable
@@ -15,7 +15,7 @@ _SIGNS: Final = {True: "_.-=+*#@", False: "▁▂▃▄▅▆▇█"}
 
 
 def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = False) -> str:
-    """Draw values from nothing to the largest of them, the newest at the right.
+    """Draw values from zero to their maximum, the newest on the right.
 
     Args:
         values: The values, oldest first; None where there is none.
@@ -33,7 +33,7 @@ def sparkline(values: Iterable[float | None], width: int, *, ascii_only: bool = 
 
 
 class TrafficHistory:
-    """Rate and delay of every repeated frame at the last looks."""
+    """Rate and delay of every repeated frame over the last looks."""
 
     def __init__(self) -> None:
         self._counts: dict[str, deque[tuple[Stamp, int]]] = {}
@@ -41,7 +41,7 @@ class TrafficHistory:
         self._delays: dict[str, deque[float | None]] = {}
 
     def look(self, now: Stamp, traffic: Traffic) -> None:
-        """Note how many messages came since the looks before, and how late the newest was."""
+        """Record how many messages arrived since the last look, and the newest delay."""
         for name, link in traffic.links.items():
             if link.is_static:
                 continue
@@ -57,7 +57,7 @@ class TrafficHistory:
     def columns(
         self, frames: Iterable[str], width: int, *, ascii_only: bool = False
     ) -> list[TableColumn]:
-        """Return a column of rates and one of delays, where a table of this width has room.
+        """Return a column of rates and one of delays, if a table of this width has room.
 
         Args:
             frames: The frame of each row.

@@ -1,4 +1,4 @@
-"""Pictures of a turtle at any size: a drawn body when there is room, else an arrow.
+"""Pictures of a turtle at any size: a body if there is room, else an arrow.
 
 A body is drawn with quadrant blocks: four pixels and two colours to a cell.
 """
@@ -26,7 +26,7 @@ BADGE_FROM = 0.9
 
 
 def octant(theta: float) -> int:
-    """Give the nearest of the eight headings: 0 is east, 2 north, counter-clockwise."""
+    """Return the nearest of eight headings: 0 is east, 2 north, counter-clockwise."""
     # Brought into one turn first: a heading near the largest float would overflow.
     return round(math.remainder(theta, math.tau) / (math.pi / 4.0)) % 8
 
@@ -91,7 +91,7 @@ def body(
 
 
 def _quadrants(parts: list[int | None], shades: dict[int, Color]) -> Cell | None:
-    """Show four parts with two colours: the ground's if any corner is free, else the second."""
+    """Choose a block character for four quadrants in two colours."""
     seen = Counter(part for part in parts if part is not None).most_common()
     if not seen:
         return None
@@ -112,7 +112,7 @@ def _quadrants(parts: list[int | None], shades: dict[int, Color]) -> Cell | None
 def badge(
     x: float, y: float, theta: float, color: Color, per_metre: float, *, blocks: bool = True
 ) -> Iterator[tuple[int, int, Cell]]:
-    """Draw a turtle as an arrow, on a badge where a metre has room for one.
+    """Draw a turtle as an arrow, on a badge if a metre is large enough.
 
     Args and yields as `body`; without `blocks` in ASCII.
     """

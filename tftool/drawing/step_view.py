@@ -1,4 +1,4 @@
-"""Steps of a localiser or of odometry: for a terminal, for a program."""
+"""Jumps of a localiser or of odometry, for terminals and programs."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -18,7 +18,7 @@ SCHEMA = "tftool.steps/1"
 
 
 def render(model: Model, steps: Sequence[LocalisationStep]) -> "RenderableType":
-    """A table of steps: when, in which edge, how far, and the drift since the one before."""
+    """Return a table of jumps: time, edge, size, and the drift since the last."""
     from rich.table import Table
     from rich.text import Text
 
@@ -45,7 +45,7 @@ def _both(metres: float, radians: float) -> tuple[str, str]:
 
 
 def as_object(model: Model, steps: Sequence[LocalisationStep]) -> dict[str, Any]:
-    """The steps as JSON has them: whole nanoseconds, metres and radians."""
+    """Return the jumps for --json: whole nanoseconds, metres and radians."""
     return {
         "schema": SCHEMA,
         "source": model.evidence.name,

@@ -1,4 +1,4 @@
-"""The tree as SVG, and as a page of HTML with that picture and a table.
+"""SVG of the tree, and an HTML page with it and a table.
 
 Each is one self-contained file, light or dark as its viewer is, and fetches nothing. The page has
 a script that fits, moves and searches the picture; without it everything is still there.
@@ -46,7 +46,7 @@ path.still { stroke: #b4964a; }
 
 
 def render(picture: Picture) -> str:
-    """Write a picture as SVG; names are text in it and nothing else."""
+    """Write a picture as SVG; names are escaped."""
     wide, high = _number(picture.width), _number(picture.height)
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" '
@@ -197,7 +197,7 @@ _TOOLS = """\
 
 
 def page(snapshot: Snapshot, svg: str, marks: Marks = NO_MARKS) -> str:
-    """Write the page.
+    """Write the HTML page.
 
     Args:
         snapshot: The frames.
@@ -269,7 +269,7 @@ def _table_row(info: FrameInfo, names: dict[str, str], marks: Marks) -> str:
 
 
 def _class(place: int, count: int, has_marks: bool) -> str:
-    """Return the class of a column: names may break, numbers are aligned right."""
+    """Return a column's CSS class: names may wrap, numbers are right-aligned."""
     if place < 2:
         return ' class="frame"'
     return ' class="number"' if 4 <= place < count - has_marks else ""

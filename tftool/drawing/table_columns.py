@@ -1,4 +1,4 @@
-"""Columns beside a first one, as many as a terminal's width has room for."""
+"""Columns beside the first one, as many as fit a terminal."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ Cell: TypeAlias = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class TableColumn:
-    """Cells under each other.
+    """One column of cells.
 
     Attributes:
         heading: Text above them.
@@ -36,12 +36,12 @@ class TableColumn:
 
     @property
     def width(self) -> int:
-        """Return the cells it takes, within the first of its caps."""
+        """Return the column's width in cells, within its first limit."""
         longest = max(map(cell_len, [self.heading, *(text for text, _ in self.cells)]))
         return min([longest, *self.caps[:1]])
 
     def written(self, text: str, width: int, more: str) -> str:
-        """`text`, cut or padded to exactly `width` cells."""
+        """Cut or pad `text` to exactly `width` cells."""
         shown = middle_cut(text, width, more=more)
         room = " " * (width - cell_len(shown))
         return room + shown if self.stands_right else shown + room
@@ -49,7 +49,7 @@ class TableColumn:
 
 @dataclass(frozen=True, slots=True)
 class FittedColumns:
-    """The columns that have room.
+    """The columns that fit.
 
     Attributes:
         columns: From left to right.
@@ -65,11 +65,11 @@ class FittedColumns:
 
     @property
     def width(self) -> int:
-        """Return the cells of the longest line."""
+        """Width of the longest line in cells."""
         return self.room + sum(GAP + width for width in self.widths)
 
     def heading(self, first: str) -> Text:
-        """The line above the rows; `first` is above the text before the columns."""
+        """Return the heading line; `first` is the first column's heading."""
         shown = middle_cut(first, self.room, more=self.more)
         line = shown + " " * (self.room - cell_len(shown))
         for one, width in zip(self.columns, self.widths, strict=True):
@@ -77,7 +77,7 @@ class FittedColumns:
         return Text(line.rstrip(), style="dim")
 
     def row(self, place: int, first: Text) -> Text:
-        """One row, behind `first`, which has room."""
+        """Return one row, after the first column's text `first`."""
         line = Text(no_wrap=True, overflow="crop").append_text(first)
         line.append(" " * (self.room - first.cell_len))
         for one, width in zip(self.columns, self.widths, strict=True):
@@ -90,7 +90,7 @@ class FittedColumns:
 def fit(
     columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
 ) -> FittedColumns:
-    """Keep as many columns as leave `wanted` cells to the text before them.
+    """Keep as many columns as leave `wanted` cells for the first one.
 
     Args:
         columns: From left to right; one in which nothing stands goes in any case.

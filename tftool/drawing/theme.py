@@ -36,7 +36,7 @@ _PALETTE = (
 
 
 def blend(start: Color, end: Color, share: float) -> Color:
-    """Mix two colours: `start` for a share of 0, `end` for 1."""
+    """Mix two colours: `start` at share 0, `end` at 1."""
     return Color(
         round(start.r + share * (end.r - start.r)),
         round(start.g + share * (end.g - start.g)),
@@ -45,7 +45,7 @@ def blend(start: Color, end: Color, share: float) -> Color:
 
 
 def of_name(name: str) -> Color:
-    """Give every name its colour: the same in every run, on every machine.
+    """Return a name's colour, the same in every run on every machine.
 
     Names that end in a number step through the palette, so that `turtle1` and
     `turtle2` never look alike.
@@ -59,19 +59,19 @@ def of_name(name: str) -> Color:
 
 
 def hexadecimal(color: Color) -> str:
-    """Write a colour as `#rrggbb`."""
+    """Format a colour as `#rrggbb`."""
     return f"#{color.r:02x}{color.g:02x}{color.b:02x}"
 
 
 def ink(color: Color, *, bold: bool = False) -> "Style":
-    """The style of text in a colour."""
+    """Return the style of text in a colour."""
     from rich.style import Style
 
     return Style(color=hexadecimal(color), bold=bold or None)
 
 
 class Palette(NamedTuple):
-    """Colours of a screen beside the field, dark or light."""
+    """Colours of a screen outside the turtles' field, dark or light."""
 
     ground: Color
     panel: Color
@@ -103,13 +103,13 @@ LIGHT = Palette(
 
 
 def is_stale(age: float) -> bool:
-    """Whether a frame was silent for a third of `FRAME_TIMEOUT`: its age is worth saying."""
+    """Whether a frame was silent for a third of `FRAME_TIMEOUT`, so that its age is shown."""
     # Asked this way round, an age that is not a number is stale.
     return not age <= FRAME_TIMEOUT / 3.0
 
 
 def of_age(color: Color, age: float, palette: Palette) -> Color:
-    """The colour of a frame without news: its own, then amber, and red when it counts as dead.
+    """Return the colour of a silent frame: its own, then amber, then red when it counts as lost.
 
     Args:
         color: Its own.
@@ -122,18 +122,18 @@ def of_age(color: Color, age: float, palette: Palette) -> Color:
 
 
 def readable(color: Color, palette: Palette) -> Color:
-    """A frame's colour, dark enough to be read on a light screen."""
+    """Return a frame's colour, dark enough for a light screen."""
     return blend(color, INK, 0.55) if palette is LIGHT else color
 
 
 def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool:
-    """Tell from COLORFGBG, which some terminals set, whether their ground is light."""
+    """Whether the terminal's background is light, by COLORFGBG, which some terminals set."""
     ground = environment.get("COLORFGBG", "").rpartition(";")[2]
     return ground in {"7", "15"}
 
 
 class PaperColors(NamedTuple):
-    """Colours of all that is no frame's own, on one ground."""
+    """Colours of everything but frames on one background."""
 
     ground: Color
     grid: Color
@@ -155,7 +155,7 @@ ROLES: Final = {LINK: 2, X_AXIS: 3, Y_AXIS: 4, Z_AXIS: 5, PAIR: 6}
 
 
 def paper(palette: Palette) -> PaperColors:
-    """The colours on a screen's own ground."""
+    """Return the colours on a screen's own background."""
     red, green, blue = _DEEP if palette is LIGHT else _BRIGHT
     return PaperColors(
         palette.panel,
@@ -169,7 +169,7 @@ def paper(palette: Palette) -> PaperColors:
 
 
 def on_field(ground: Color) -> PaperColors:
-    """The colours on the turtles' field, turtlesim's blue unless it is repainted."""
+    """Return the colours on the turtles' field, turtlesim's blue unless changed."""
     return PaperColors(
         ground,
         blend(ground, WHITE, 0.13),

@@ -1,4 +1,4 @@
-"""Rates and delays of arriving transforms: tf2_monitor's lines, a table, an object."""
+"""Rates and delays of received transforms: tf2_monitor's lines, a table, JSON."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ NONE = "-"
 
 @dataclass(frozen=True, slots=True)
 class Chain:
-    """The two frames a monitor was asked about, and the links between them.
+    """A monitor's two frames, and the links between them.
 
     Attributes:
         target: The frame looked up in.
@@ -38,7 +38,7 @@ class Chain:
 
 
 def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False) -> str:
-    """Write a report as tf2_monitor does.
+    """Format a report as tf2_monitor does.
 
     Args:
         traffic: What came.
@@ -68,7 +68,7 @@ def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False)
 
 
 def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
-    """One frame, as tf2_monitor writes it."""
+    """Format a frame as tf2_monitor does."""
     average, maximum = _delays(link.series, as_tf2)
     return (
         f"Frame: {visible(link.frame)}, published by {visible(link.sender)}, "
@@ -77,7 +77,7 @@ def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
 
 
 def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
-    """One broadcaster, as tf2_monitor writes it (the missing comma is its own)."""
+    """Format a broadcaster as tf2_monitor does (without a comma, as there)."""
     average, maximum = _delays(series, as_tf2)
     rate = series.tf2_rate if as_tf2 else series.rate
     return (
@@ -96,7 +96,7 @@ def table(
     ascii_only: bool = False,
     history: TrafficHistory = NO_HISTORY,
 ) -> Text:
-    """Return a table for people: frames, in the order of the chain where there is one, and senders.
+    """Return a table of frames, in the chain's order if there is one, and of publishers.
 
     Late links, by the doctor's limits, are amber: dated long before it arrives, or not heard
     of for many periods; those silent for longer still are red.
@@ -171,7 +171,7 @@ def _rows(
 
 
 def _within(rows: list[Text], room: int) -> list[Text]:
-    """The first rows, and how many there are more where they are too many."""
+    """Return the first rows, and the number of rows left out."""
     if len(rows) <= max(2, room):
         return rows
     kept = max(1, room - 1)
@@ -181,7 +181,7 @@ def _within(rows: list[Text], room: int) -> list[Text]:
 def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
 ) -> list[TableColumn]:
-    """Rate, delay, and silence of each repeated transform."""
+    """Return rate, delay, and silence of each repeated transform."""
     rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
     late = [_late(now, one, still) for one, still in zip(series, statics, strict=True)]
 
@@ -242,7 +242,7 @@ def _is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
 
 
 def _late(now: Stamp, series: Series, is_static: bool) -> str:
-    """Return the style of a late link; "" for others."""
+    """Return the style of a delayed link; "" for others."""
     if _is_silent(now, series, is_static):
         return "red" if as_seconds(_silence(now, series)) > FRAME_TIMEOUT else "yellow"
     delay = series.average_delay
@@ -252,7 +252,7 @@ def _late(now: Stamp, series: Series, is_static: bool) -> str:
 
 
 def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[str, Any]:
-    """Return it for programs: seconds and hertz, null where nothing can be measured."""
+    """Return the report for --json: seconds and hertz, null where unknown."""
     result: dict[str, Any] = {"at_ns": now}
     if chain is not None:
         result |= {

@@ -1,4 +1,4 @@
-"""Trajectory errors: a table for people, an object for programs, panels for a figure."""
+"""Trajectory errors as a table, as JSON, and as panels of a figure."""
 
 from typing import Final
 
@@ -24,7 +24,7 @@ _FIGURES: Final = ("rmse", "mean", "median", "std", "min", "max")
 
 
 def lines(found: TrajectoryErrors, names: tuple[str, str], width: int | None = None) -> str:
-    """Return both sides, how they were matched, and a line for each kind of error.
+    """Return both sides, their matching, and a line for each kind of error.
 
     Args:
         found: The errors.
@@ -51,7 +51,7 @@ def lines(found: TrajectoryErrors, names: tuple[str, str], width: int | None = N
 
 
 def as_object(found: TrajectoryErrors, names: tuple[str, str]) -> dict[str, object]:
-    """Return everything, for programs."""
+    """Return everything for --json."""
     kinds = dict.fromkeys(one.name for one in found.columns)
     return {
         "a": names[0],

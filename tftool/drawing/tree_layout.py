@@ -1,4 +1,4 @@
-"""A tidy drawing of a forest: where every item stands, by numbers alone.
+"""Tidy layout of a forest, in numbers only.
 
 A parent stands over the middle of its first and last child, siblings keep a gap, and
 subtrees slide together as far as their outlines allow (the idea of Reingold and
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """One thing to place.
+    """One item to place.
 
     Attributes:
         breadth: Its extent across the direction of growth.
@@ -38,7 +38,7 @@ class Spot:
 
 
 def tidy(items: Sequence[Item], roots: Sequence[int], *, gap: float, tree_gap: float) -> list[Spot]:
-    """Place a forest of items, the leftmost edge at 0.
+    """Place a forest of items, with its left edge at 0.
 
     Args:
         items: All items; each is reached from the roots exactly once.
@@ -84,7 +84,7 @@ def _pack(
     *,
     mirrored: bool,
 ) -> list[float]:
-    """Push every subtree as far to one side as its neighbours allow; return the middles."""
+    """Move each subtree as far to one side as its neighbours allow; return the centres."""
     offsets = [0.0] * len(items)
     outlines: dict[int, _Outline] = {}
     for index in reversed(order):
@@ -113,7 +113,7 @@ def _pack(
 def _row(
     indices: Sequence[int], outlines: dict[int, "_Outline"], offsets: list[float], gap: float
 ) -> "_Outline":
-    """Set subtrees side by side, note where each came to stand, return their common outline."""
+    """Place subtrees side by side, note their positions, return their common outline."""
     together = _Outline()
     for index in indices:
         outline = outlines.pop(index)
@@ -123,7 +123,7 @@ def _row(
 
 
 class _Outline:
-    """Return the extent of a subtree to either side, level by level.
+    """Extent of a subtree on either side, level by level.
 
     The lists run from the deepest level up, so that a new top is appended and the common
     levels of two outlines are the ends of both; each list keeps a shift of its own, so
@@ -149,7 +149,7 @@ class _Outline:
         return max(self.right) + self.right_shift
 
     def crown(self, half: float, levels: int) -> None:
-        """Put an item of this half breadth on top, filling this many levels."""
+        """Put an item of half this breadth on top, as high as this many levels."""
         self.left.extend([-half - self.left_shift] * levels)
         self.right.extend([half - self.right_shift] * levels)
 
@@ -164,7 +164,7 @@ class _Outline:
         return reach + self.right_shift - other.left_shift + gap
 
     def add(self, other: "_Outline", position: float) -> None:
-        """Take in `other`, standing to the right at `position`."""
+        """Add `other` to the outline, to the right at `position`."""
         other.shift(position)
         common = min(len(self.left), len(other.left))
         if len(other.left) > len(self.left):

@@ -19,7 +19,7 @@ from tftool.drawing.picture import MOST_DRAWN, lay_out
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A drawing, ready to be written to a file.
+    """A drawing, ready to write to a file.
 
     Attributes:
         content: Text, or bytes for PDF.
@@ -47,7 +47,7 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
 
 
 def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Write what view_frames writes, byte for byte while no link is static.
+    """Format view_frames' dot, byte for byte as long as no link is static.
 
     Static links are dashed. Where view_frames ties its legend to one of several trees, or
     fails on a loop, every root gets its line, and a loop none. All frames are in it.
@@ -106,7 +106,7 @@ _MERMAID_NAME = 60
 
 
 def mermaid(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Write a Mermaid flowchart, as GitHub and many wikis draw it.
+    """Format a Mermaid flowchart, as GitHub and many wikis draw it.
 
     Mermaid refuses large charts. Links then carry their rate alone, and if that is not
     enough, the frames farthest from their root are left out; either is said in the chart.
@@ -152,7 +152,7 @@ def _flowchart(snapshot: Snapshot, forest: Forest, *, full: bool, note: str = ""
 
 
 def _mermaid_text(text: str) -> str:
-    """Write every sign Mermaid, Markdown or HTML could read as one of theirs by its number."""
+    """Escape every character with a meaning in Mermaid, Markdown or HTML as its number."""
     # "fa:fa-car" would become a picture, and numbers are read before that happens.
     text = text.replace(":fa-", ":\u200bfa-")
     return _ACTIVE.sub(lambda found: f"#{ord(found[0])};", text)
@@ -163,13 +163,13 @@ _ACTIVE = re.compile(r"[^\w\s,:/.\-\u0080-\U0010ffff]|(?<![^\W_])[_.-]|[_.-](?![
 
 
 def svg(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Draw the trees as SVG, laid out by ourselves; at most `MOST_DRAWN` frames."""
+    """Draw the trees as SVG in our own layout; at most `MOST_DRAWN` frames."""
     picture = lay_out(snapshot, stale=_stale(marks))
     return Drawing(svg_writer.render(picture), picture.left_out, _picture_note(picture.left_out))
 
 
 def page(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
-    """Draw the trees as one file of HTML: the SVG, and below it every frame in a table."""
+    """Draw the trees as one HTML file: the SVG, and below it a table of all frames."""
     picture = lay_out(snapshot, stale=_stale(marks))
     content = svg_writer.page(snapshot, svg_writer.render(picture), marks)
     return Drawing(content, picture.left_out, _picture_note(picture.left_out))

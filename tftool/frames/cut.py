@@ -1,4 +1,4 @@
-"""A buffer cut off at a moment."""
+"""Copy of a buffer up to a time."""
 
 from itertools import pairwise
 
@@ -11,7 +11,7 @@ from tftool.geometry.rigid import Transform
 
 
 def up_to(whole: Buffer, moment: Stamp) -> Buffer:
-    """Return a buffer's samples up to a moment; static transforms stay."""
+    """Return a buffer's samples up to a time; static transforms are kept."""
     frames = whole.frames()
     found = Buffer(whole.cache_time, max_frames=max(1, len(frames)))
     for frame in frames:

@@ -1,4 +1,4 @@
-"""The comparison in Python: of frames, recordings, buffers and descriptions, in any mix."""
+"""Comparison in Python: of frames, recordings, buffers and descriptions, in any mix."""
 
 import os
 
@@ -24,7 +24,7 @@ def diff(
     rate_percent: float | None = None,
     align_starts: bool = False,
 ) -> Differences:
-    """Say what differs between two sets of frames, link by link; see `compare`::
+    """Compare two sets of frames, link by link; see `compare`::
 
         for one in tftool.diff("monday.mcap", "robot.urdf").changed:
             print(one.child, *one.changes)
@@ -49,7 +49,7 @@ def diff(
 
 
 def side_of(frames: Comparable, name: str) -> Side:
-    """Take frames as one side of a comparison.
+    """Return frames as one side of a comparison.
 
     Args:
         frames: What they come from.
@@ -72,7 +72,7 @@ def side_of(frames: Comparable, name: str) -> Side:
 
 
 def joints_of(robot: Robot) -> frozenset[str]:
-    """The links of a robot whose place its description leaves open."""
+    """Return the links of a robot whose pose depends on a joint."""
     return frozenset(one.child for one in robot.joints.values() if one.moves)
 
 

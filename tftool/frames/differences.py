@@ -1,4 +1,4 @@
-"""Two sets of frames, link by link: what came, went, hangs elsewhere, and lies elsewhere."""
+"""Differences of two sets of frames: links added, removed, reattached or displaced."""
 
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ MOST_MOMENTS: Final = 2_000_000
 
 
 class Behaviour(StrEnum):
-    """Behaviour of a link."""
+    """Kind of a link: static, moving, or a joint."""
 
     static = "static"
     moving = "moving"
@@ -49,7 +49,7 @@ class Change(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Allowance:
-    """Largest difference that does not count.
+    """Tolerance: the largest difference that does not count.
 
     Attributes:
         millimetres: Of places.
@@ -81,7 +81,7 @@ class Side:
 
 @dataclass(frozen=True, slots=True)
 class LinkState:
-    """One link in one of the two.
+    """One link in one of the sets.
 
     Attributes:
         parent: What it hangs from, at last.
@@ -145,12 +145,12 @@ class LinkDifference:
 
     @property
     def is_same(self) -> bool:
-        """Whether nothing changed that counts."""
+        """Whether no difference exceeds the tolerance."""
         return self.changes == (Change.same,)
 
     @property
     def parent(self) -> str:
-        """Return its parent: in A, else in B."""
+        """Return the link's parent: in A, else in B."""
         state = self.before or self.after
         return "" if state is None else state.parent
 
@@ -179,7 +179,7 @@ class Differences:
 
     @property
     def changed(self) -> tuple[LinkDifference, ...]:
-        """The links that differ by more than the tolerance."""
+        """Return the links that differ by more than the tolerance."""
         return tuple(one for one in self.links if not one.is_same)
 
     def __bool__(self) -> bool:
@@ -303,7 +303,7 @@ def _state(side: Side, held: SampleColumns) -> LinkState:
 def _static_offset(
     second: Buffer, child: str, before: LinkState, after: LinkState
 ) -> Displacement | None:
-    """Return the offset of the child in B from the child in A, both seen from A's parent."""
+    """Return the pose of B's child relative to A's child, both seen from A's parent."""
     old, new = before.pose, after.pose
     assert old is not None
     if before.parent != after.parent:
@@ -337,7 +337,7 @@ def _moving_offset(
     parent: str,
     tolerance: Allowance,
 ) -> tuple[Displacement | None, str]:
-    """Return the offset of a moving child, seen from A's parent, at the stamps the two share."""
+    """Return the offset of a moving child, seen from A's parent, at common times."""
     stamps = _common(held[0][child], held[1][child], shift)
     if not len(stamps):
         return None, APART
@@ -371,7 +371,7 @@ def _moving_offset(
 
 
 def _common(old: SampleColumns, new: SampleColumns, shift: Duration) -> Stamps:
-    """Stamps of A at which both have something to say."""
+    """Return A's stamps at which both sides have data."""
     if old.is_static or new.is_static:
         return np.unique(new.stamps - shift if old.is_static else old.stamps)
     shared: Stamps = np.intersect1d(old.stamps, new.stamps - shift)

@@ -1,4 +1,4 @@
-"""Files to frames: recordings, robot descriptions, files of static transforms."""
+"""Reading frames from files: recordings, robot descriptions, static transforms."""
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
@@ -46,7 +46,7 @@ def _read_recording(
 
 
 def _robot_beside(options: RobotOptions) -> Robot | None:
-    """Read the description that goes with a recording."""
+    """Read a recording's robot description."""
     if options.joints:
         options.refuse("The joints of a recording cannot be set")
     if options.urdf is None and not options.arguments:
@@ -72,7 +72,7 @@ def _described(found: Found, options: RobotOptions) -> Frames:
 
 
 def load_described(found: Found, options: RobotOptions) -> Robot:
-    """Read the description that FROM names.
+    """Read the description named by FROM.
 
     Raises:
         InputError: If it cannot be read or has mistakes.

@@ -1,4 +1,4 @@
-"""Frames, over the whole of their time: the one value that an opened FROM is."""
+"""Frames over their whole time span: the value that an opened FROM is."""
 
 from typing import TYPE_CHECKING, Literal, Self, TypeAlias
 
@@ -47,7 +47,7 @@ class Frames:
         found: "Found | None" = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        """Take opened files; a recording brings its own buffer, span, robot and notes.
+        """Make frames from opened files; a recording provides its buffer, span, robot and notes.
 
         Args:
             kind: What it was opened from.
@@ -82,37 +82,37 @@ class Frames:
         return f"<Frames of {self.title}{lasts}>"
 
     def close(self) -> None:
-        """Close the files; data already read stays."""
+        """Close the files; data already read stays available."""
         if self._recording is not None:
             self._recording.close()
 
     @property
     def title(self) -> str:
-        """The kind and the name, fit for a sentence: "recording 'run.mcap'"."""
+        """Kind and name for a sentence: "recording 'run.mcap'"."""
         if self.kind == "session":
             return self.name
         return f"{self.kind} '{visible(self.name)}'"
 
     @property
     def label(self) -> str:
-        """The name of a file as it was given, else the title."""
+        """Name of a file as it was given, else the title."""
         return self.title if self.kind in ("scenario", "session") else self.name
 
     @property
     def buffer(self) -> Buffer:
-        """All that is known of the frames; nothing is pruned."""
+        """Buffer of all frames; nothing is pruned."""
         if self._buffer is None:
             self._buffer = Buffer() if self._recording is None else self._recording.buffer
         return self._buffer
 
     @property
     def recording(self) -> "Recording | None":
-        """The recording they were read from."""
+        """Recording that the frames were read from."""
         return self._recording
 
     @property
     def robot(self) -> "Robot | None":
-        """The robot of the description, or of the recording."""
+        """Robot of the description or recording."""
         return self._robot if self._recording is None else self._recording.robot
 
     @property
@@ -136,14 +136,14 @@ class Frames:
 
     @property
     def moving(self) -> frozenset[str] | None:
-        """The links of a robot description whose joint moves; None for other frames."""
+        """Links of a description with a movable joint; None for other frames."""
         if self.kind != "robot description" or self._robot is None:
             return None
         return frozenset(one.child for one in self._robot.joints.values() if one.moves)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Return notes on them, as sentences: damage, gaps, joints at rest."""
+        """Return notes as sentences: damage, gaps, joints without a position."""
         if self._recording is None:
             return self._notes
         from tftool.frames.notes import recording_notes
@@ -151,12 +151,12 @@ class Frames:
         return tuple(recording_notes(self._recording))
 
     def at(self, time: float) -> Stamp:
-        """Return the stamp so many seconds after the start; 0 for static transforms."""
+        """Return the stamp this many seconds after the start; 0 for static transforms."""
         start = self.start
         return LATEST if start is None else start + seconds(time)
 
     def moment(self, at: At) -> Stamp:
-        """Return the stamp of a moment, as `--at` names it.
+        """Return the stamp of a time given as for `--at`.
 
         Raises:
             UsageError: If it lies before the beginning or after the end.

@@ -1,4 +1,4 @@
-"""Moment as people name it: seconds since the start of FROM, or a stamp."""
+"""Times as users give them: seconds since FROM's start, or a stamp."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 @dataclass(frozen=True, slots=True)
 class At:
-    """A moment as `--at` names it: seconds since the start of FROM, or a stamp.
+    """A time as for `--at`: seconds since FROM's start, or a stamp.
 
     Attributes:
         nanoseconds: How much, in nanoseconds.
@@ -20,7 +20,7 @@ class At:
     is_stamp: bool = False
 
     def stamp(self, epoch: Stamp) -> Stamp:
-        """Return the stamp of this moment in what began at `epoch`."""
+        """Return the stamp of this time in a source that begins at `epoch`."""
         return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
 
     def __str__(self) -> str:
@@ -30,7 +30,7 @@ class At:
 
 
 def checked_moment(at: At, title: str, epoch: Stamp, duration: Duration | None) -> Stamp:
-    """Return the stamp of a moment that lies between the beginning and the end.
+    """Return the stamp of a time, checked to be between start and end.
 
     Args:
         at: The moment.

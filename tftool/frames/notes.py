@@ -1,4 +1,4 @@
-"""Sentences about frames that were read: damage, gaps, joints at rest."""
+"""Notes about frames that were read: damage, gaps, joints without a position."""
 
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
@@ -23,7 +23,7 @@ def recording_notes(recording: "Recording") -> list[str]:
 
 
 def odometry_notes(recording: "Recording") -> Iterator[str]:
-    """Say which messages count as transforms, or could."""
+    """Return notes on messages that count as transforms, or could."""
     from tftool.recordings.odometry import implying
 
     for topic in recording.odometry:
@@ -39,7 +39,7 @@ def odometry_notes(recording: "Recording") -> Iterator[str]:
 
 
 def _described_notes(described: "DescribedFrames | None") -> Iterator[str]:
-    """Say what a robot's description added to the recorded frames."""
+    """Return notes on links added from a robot's description."""
     if described is None:
         return
     added = len(described.still) + len(described.moving)
@@ -57,7 +57,7 @@ def _described_notes(described: "DescribedFrames | None") -> Iterator[str]:
 
 
 def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
-    """Say which positions lie beyond their joints' limits; they are taken all the same.
+    """Return a note on joint positions beyond their limits; they are used nevertheless.
 
     Args:
         robot: Whose joints they are.
@@ -74,7 +74,7 @@ def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
 
 
 def joints_at_rest(robot: "Robot", given: Collection[str], name: str) -> Iterator[str]:
-    """Say how many joints that move were given no position."""
+    """Return a note on the number of movable joints without a position."""
     at_rest = sum(
         joint.moves and joint.name not in given and robot.leader(joint.name, given) not in given
         for joint in robot.joints.values()

@@ -1,4 +1,4 @@
-"""One pair of frames at many moments: which moments, and where the lookup refuses, and why."""
+"""One pair at many times: the times, and where and why lookups fail."""
 
 from dataclasses import dataclass, replace
 from typing import Final, TypeAlias
@@ -23,7 +23,7 @@ MOST_REASONS: Final = 200
 
 @dataclass(frozen=True, slots=True)
 class RefusedRun:
-    """Neighbouring moments at which the lookup refuses.
+    """Consecutive times at which the lookup fails.
 
     Attributes:
         first: The first of them, nanoseconds.
@@ -60,22 +60,22 @@ class Trajectory:
 
     @property
     def source(self) -> str:
-        """Frame whose poses they are."""
+        """Return the frame whose poses they are."""
         return self.path.child_frame_id
 
     @property
     def refused(self) -> int:
-        """At how many moments there is no pose."""
+        """Return the number of times without a pose."""
         return len(self.path) - int(np.count_nonzero(self.path.valid))
 
     def answered(self) -> TransformArray:
-        """The rows that hold a pose."""
+        """Return the rows with a pose."""
         return self.path if self.path.valid.all() else self.path[self.path.valid]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moments:
-    """Moments of the questions.
+    """Choice of the times for lookups.
 
     Attributes:
         start: First moment, nanoseconds; None for the first there is data of.
@@ -94,7 +94,7 @@ class Moments:
 
 
 def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = None) -> Trajectory:
-    """Look a pair up at many moments.
+    """Look a pair up at many times.
 
     Args:
         buffer: Whose frames.
@@ -122,7 +122,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
 
 
 def only_chain(buffer: Buffer) -> tuple[str, str]:
-    """Return the two ends of the only chain of frames: the root and the one leaf.
+    """Return the root and the leaf of frames that form a single chain.
 
     Raises:
         InputError: If there are several.
@@ -140,7 +140,7 @@ def only_chain(buffer: Buffer) -> tuple[str, str]:
 
 
 def trajectory_of(path: TransformArray) -> Trajectory:
-    """Poses that were looked up already, as a trajectory; why rows are missing is not known."""
+    """Return known poses as a trajectory, without reasons for missing rows."""
     turned = replace(path, rotations=continuous(path.rotations, path.valid))
     runs = tuple(
         RefusedRun(int(path.stamps[first]), int(path.stamps[end - 1]), end - first, "")
@@ -150,7 +150,7 @@ def trajectory_of(path: TransformArray) -> Trajectory:
 
 
 def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
-    """The children of all links on the way from one frame to another, as they hang at last.
+    """Return the children of all links between two frames, by their last parents.
 
     Raises:
         TransformException: If a name is unknown, or nothing joins the two.
@@ -165,7 +165,7 @@ def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
 
 
 def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
-    """The link with the shortest time between its samples, and its stamps; None if none moves."""
+    """Return the link with the shortest sample period, and its stamps; None if none moves."""
     found: tuple[float, int, str, Stamps] | None = None
     for frame in links:
         held = buffer.samples(frame)
@@ -179,7 +179,7 @@ def fastest(buffer: Buffer, links: list[str]) -> tuple[str, Stamps] | None:
 
 
 def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
-    """First and last stamp of those links that move; 0 and 0 if none does."""
+    """Return first and last stamp of the moving links; 0 and 0 if none moves."""
     ends = []
     for frame in links:
         held = buffer.samples(frame)
@@ -189,7 +189,7 @@ def moving_span(buffer: Buffer, links: list[str]) -> tuple[Stamp, Stamp]:
 
 
 def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = None) -> batch.Floats:
-    """Return the rotations, each with the sign nearer to the one before; NaN rows are passed over.
+    """Return the rotations with signs chosen for continuity; NaN rows are skipped.
 
     Args:
         rotations: Unit quaternions x y z w, shape (n, 4).
@@ -211,7 +211,7 @@ def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = No
 
 
 def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
-    """The moments from `start` to `end`, one a period; 1 for 0, which would mean the latest.
+    """Return evenly spaced times from `start` to `end`; 1 replaces 0, which would mean the latest.
 
     Raises:
         UsageError: If there are more than `MOST_MOMENTS`.
@@ -255,7 +255,7 @@ def _within(stamps: Stamps, moments: Moments) -> Stamps:
 
 
 def _ancestors(buffer: Buffer, frame: str) -> list[str]:
-    """A frame and all above it, up to a root or round a loop."""
+    """Return a frame and all above it, up to a root or once around a loop."""
     found = {frame: None}
     above = buffer.parent(frame)
     while above is not None and above not in found:
@@ -276,7 +276,7 @@ def _refusals(buffer: Buffer, path: TransformArray) -> tuple[RefusedRun, ...]:
 
 
 def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return the runs of set flags: the first index, and the one behind the last."""
+    """Return runs of set flags: the first index, and the one after the last."""
     edges = np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))
     firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return list(zip(firsts.tolist(), ends.tolist(), strict=True))

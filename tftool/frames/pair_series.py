@@ -1,4 +1,4 @@
-"""Curves of a trajectory over time, by panel, with gaps where there is no data.
+"""Curves of a trajectory over time, grouped in panels, with gaps where data is missing.
 
 Times are seconds since one start, so that a plot's axis counts as `--from` and `--at` do.
 """
@@ -28,7 +28,7 @@ LONG_SILENCE: Final = 10.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotCurve:
-    """One line of a panel.
+    """One curve of a panel.
 
     Attributes:
         label: What it shows: "x", or of several pairs "laser in map".
@@ -45,7 +45,7 @@ class PlotCurve:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PlotPanel:
-    """Curves that share an axis.
+    """Curves on one axis.
 
     Attributes:
         title: What they show: "position".
@@ -58,7 +58,7 @@ class PlotPanel:
     curves: tuple[PlotCurve, ...]
 
     def limits(self) -> tuple[float, float]:
-        """Lowest and highest value, never the same two."""
+        """Return lowest and highest value, widened if they are equal."""
         values = np.concatenate([one.values for one in self.curves] or [np.zeros(1)])
         values = values[np.isfinite(values)]
         low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 0.0)
@@ -70,7 +70,7 @@ class PlotPanel:
 
 @dataclass(frozen=True, slots=True)
 class RefusedSpan:
-    """A span in which one of the pairs has no pose, in seconds, and why."""
+    """A time span, in seconds, in which a pair has no pose, and the reason."""
 
     first: float
     last: float
@@ -111,7 +111,7 @@ QUANTITIES: Final = tuple(name for _, names, _ in _GROUPS.values() for name in n
 
 
 def chosen(words: Sequence[str]) -> tuple[str, ...]:
-    """The quantities that some words name: their own names, or those of their panels.
+    """Return the quantities named by words: their own names, or those of panels.
 
     Raises:
         UsageError: If a word names none.
@@ -132,7 +132,7 @@ def chosen(words: Sequence[str]) -> tuple[str, ...]:
 def panels(
     found: Sequence[Trajectory], start: Stamp, quantities: Sequence[str] = QUANTITIES
 ) -> list[PlotPanel]:
-    """Curves over time: of one pair by kind, of several a panel for each quantity.
+    """Return curves over time: for one pair by kind, for several a panel per quantity.
 
     Args:
         found: The pairs.
@@ -162,13 +162,13 @@ def panels(
 
 
 def shades(found: Sequence[Trajectory], start: Stamp) -> list[RefusedSpan]:
-    """Return the spans in which lookups are refused, in the order of time."""
+    """Return the spans in which lookups fail, in order of time."""
     spans = [_shade(run, start) for one in found for run in one.refusals]
     return sorted(spans, key=lambda span: span.first)
 
 
 def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
-    """A sentence for each of the first spans, and how many more there are."""
+    """Return a sentence for each of the first spans, and the number of further ones."""
     told = []
     for one in spans[:MOST_TOLD]:
         when = f"from {axis_number(one.first)} s to {axis_number(one.last)} s"
@@ -182,7 +182,7 @@ def reasons(spans: Sequence[RefusedSpan]) -> list[str]:
 
 
 def axis_number(value: float) -> str:
-    """As many digits as an axis needs, in less than its cells."""
+    """Format a number for an axis with the digits it needs, within the width of a label."""
     if value == 0.0 or not math.isfinite(value):
         return "0"
     size = abs(value)
@@ -192,7 +192,7 @@ def axis_number(value: float) -> str:
 
 
 def round_ticks(low: float, high: float, most: int) -> list[float]:
-    """Return multiples of 1, 2 or 5 times a power of ten, the outer two of which enclose a span.
+    """Return multiples of 1, 2 or 5 times a power of ten that enclose a span.
 
     Args:
         low: Where the span begins.
@@ -208,7 +208,7 @@ def round_ticks(low: float, high: float, most: int) -> list[float]:
 
 
 def tick_labels(ticks: Sequence[float]) -> list[str]:
-    """Write the ticks of one axis with as many digits as tell them apart."""
+    """Format an axis's ticks with as many digits as distinguish them."""
     step = min((after - before for before, after in pairwise(ticks)), default=1.0)
     if max(map(abs, ticks), default=0.0) >= 1e6 or step < 1e-6:
         return [axis_number(tick) for tick in ticks]
@@ -217,7 +217,7 @@ def tick_labels(ticks: Sequence[float]) -> list[str]:
 
 
 def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]:
-    """The way of each pair seen from above: its label, and x and y with gaps as NaN."""
+    """Return each pair's path from above: label, x and y, with NaN for gaps."""
     curves = []
     for one in found:
         times, columns, broken = _columns(one, 0, _position)
@@ -228,7 +228,7 @@ def path_curves(found: Sequence[Trajectory]) -> list[tuple[str, Floats, Floats]]
 
 
 def thinned(times: Floats, values: Floats, most: int) -> tuple[Floats, Floats]:
-    """Return the curve with fewer points: the lowest and the highest of each stretch.
+    """Return a curve with fewer points: minimum and maximum of each piece.
 
     Args:
         times: Shape (n,).
@@ -260,7 +260,7 @@ def _shade(run: RefusedRun, start: Stamp) -> RefusedSpan:
 def _columns(
     one: Trajectory, start: Stamp, measure: Callable[[TransformArray], Floats]
 ) -> "tuple[Floats, Floats, np.ndarray]":
-    """Seconds, values, and whether the line breaks before each row but the first."""
+    """Return seconds, values, and whether the line breaks before each row but the first."""
     times = (one.path.stamps - start) / NANOSECONDS
     apart = np.diff(times)
     usual = float(np.median(apart)) if len(apart) else 0.0
@@ -268,7 +268,7 @@ def _columns(
 
 
 def _jumps(angles: Floats) -> "np.ndarray":
-    """Return the indices where an angle passes half a turn and comes back from the other side."""
+    """Return the indices where an angle wraps around at half a turn."""
     with np.errstate(invalid="ignore"):
         found: np.ndarray = np.abs(np.diff(angles)) > 180.0
     return found

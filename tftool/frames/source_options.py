@@ -1,4 +1,4 @@
-"""Options for reading FROM when it is a file: positions of joints, odometry, the cache."""
+"""Options for reading FROM when it is a file: joint positions, odometry, cache."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from tftool.base.errors import UsageError
 
 @dataclass(frozen=True, slots=True)
 class RobotOptions:
-    """Options about the robot description that FROM names, or that goes with it.
+    """Options about the robot description in FROM or beside it.
 
     Attributes:
         joints: Positions by joint, radians or metres.
@@ -22,7 +22,7 @@ class RobotOptions:
     urdf: Path | None = None
 
     def refuse(self, what: str) -> None:
-        """Refuse them for a FROM that is no robot description.
+        """Refuse these options if FROM is not a robot description.
 
         Args:
             what: What it is, as the beginning of a sentence.
@@ -39,7 +39,7 @@ class RobotOptions:
 
 @dataclass(frozen=True, slots=True)
 class RecordingOptions:
-    """Options about how a recording is read.
+    """Options for reading a recording.
 
     Attributes:
         no_cache: Whether its columns are read again, and not kept.
@@ -52,7 +52,7 @@ class RecordingOptions:
     tf_topics: tuple[str, ...] = ()
 
     def refuse(self, what: str) -> None:
-        """Refuse what changes the answer for a FROM that is no recording.
+        """Refuse options that would change the answer if FROM is not a recording.
 
         Args:
             what: What it is, as the beginning of a sentence.

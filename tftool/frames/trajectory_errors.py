@@ -1,4 +1,4 @@
-"""Errors of one trajectory against another: absolute and relative, after a fit."""
+"""Errors of one trajectory relative to another: absolute and relative, after alignment."""
 
 import re
 from dataclasses import dataclass, replace
@@ -27,7 +27,7 @@ _STEP: Final = re.compile(r"(\d+(?:\.\d+)?)(m|deg)?")
 
 @dataclass(frozen=True, slots=True)
 class PieceLength:
-    """Length of the pieces whose motion is compared.
+    """Length of the pieces whose motions are compared.
 
     Attributes:
         size: Length in the unit.
@@ -86,7 +86,7 @@ class ErrorColumn:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrajectoryErrors:
-    """Errors of trajectory B against trajectory A.
+    """Errors of trajectory B relative to trajectory A.
 
     Attributes:
         pairs: Target and source in A, and in B.
@@ -168,7 +168,7 @@ def trajectory_errors(
 
 
 def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, TransformArray]:
-    """Match each pose of the shorter trajectory with the nearest one of the longer."""
+    """Match each pose of the shorter trajectory with the nearest in time of the longer."""
     if len(a) > len(b):
         second, first = _nearest(b, a)
         return first, second
@@ -182,7 +182,7 @@ def _nearest(a: TransformArray, b: TransformArray) -> tuple[TransformArray, Tran
 
 
 def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArray, float]:
-    """Align trajectory B with trajectory A; both have the same length.
+    """Align trajectory B with trajectory A; both have equal length.
 
     Returns:
         The aligned B, and the factor by which it was scaled.
@@ -230,7 +230,7 @@ def _moved(path: TransformArray, turn: Floats, shift: Floats, scale: float) -> T
 
 
 def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> TransformArray:
-    """Return the motion from some poses to others, seen from the first."""
+    """Return the relative motion from some poses to others."""
     back = batch.conjugate(path.rotations[begins])
     moved = batch.rotate(back, path.translations[ends] - path.translations[begins])
     turned = batch.multiply(back, path.rotations[ends])
@@ -238,7 +238,7 @@ def _motion(path: TransformArray, begins: "np.ndarray", ends: "np.ndarray") -> T
 
 
 def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.ndarray"]:
-    """Return the indices at which pieces of one step begin and end, one after the other.
+    """Return the indices of the ends of consecutive pieces of one step.
 
     Raises:
         InputError: If the trajectory is shorter than two.
@@ -258,7 +258,7 @@ def _pieces(path: TransformArray, step: PieceLength) -> tuple["np.ndarray", "np.
 
 
 def _marks(moved: list[float], size: float) -> list[int]:
-    """Return the poses at which another step is complete, the first pose included."""
+    """Return the indices at which another step is complete, including the first pose."""
     marks, gone = [0], 0.0
     for place, one in enumerate(moved, 1):
         gone += one

@@ -1,4 +1,4 @@
-"""Transforms as they arrived, with who sent them: what a played or running world leaves behind."""
+"""Log of received transforms with their publishers, of a running or finished world."""
 
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
@@ -14,7 +14,7 @@ MOST = 4_000_000
 
 
 class TransformLog:
-    """Transforms in the order in which they arrived."""
+    """Transforms in order of arrival."""
 
     def __init__(self) -> None:
         self._rows: dict[tuple[str, str, bool], list[tuple[float, ...]]] = {}
@@ -33,7 +33,7 @@ class TransformLog:
         *,
         is_static: bool,
     ) -> None:
-        """Keep a message; beyond `MOST` transforms it is dropped.
+        """Append a message; transforms beyond `MOST` are dropped.
 
         Args:
             now: When it arrived.
@@ -55,7 +55,7 @@ class TransformLog:
             self._count += 1
 
     def transforms(self) -> "Transforms":
-        """All of them in columns, one entry for each edge, with log times and senders."""
+        """Return all transforms in columns, one entry per edge, with log times and publishers."""
         # Most that are played or heard are never judged, and need no numpy.
         import numpy as np
 

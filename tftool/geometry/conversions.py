@@ -1,4 +1,4 @@
-"""Other ways to write a rotation: roll pitch yaw, matrix, axis and angle, w first.
+"""Conversions of rotations: roll pitch yaw, matrix, axis and angle, Euler, w first.
 
 Roll, pitch, yaw are turns about fixed axes: x, then y, then z. They, and axis and angle of a
 quaternion, are plain floats: commands print them, and transforms3d costs 120 ms of a start. All
@@ -28,7 +28,7 @@ NOISE = 1e-13
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Make the rotation about fixed x, then y, then z; radians, sign as computed."""
+    """Return the rotation about fixed x, then y, then z; radians, sign as computed."""
     return Quaternion(*quaternions.from_rpy(roll, pitch, yaw))
 
 
@@ -43,7 +43,7 @@ def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, floa
 
 
 def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """Roll, pitch, yaw in radians that give the rotation back to 1e-12, at the poles too.
+    """Return roll, pitch, yaw that reproduce the rotation to 1e-12, also at the poles.
 
     `rpy_from_quaternion` has tf2's formulas, whose arc sine loses half the digits there. What
     is written to a file that others read back is by this one.
@@ -67,12 +67,12 @@ def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, flo
 
 
 def _wrapped(angle: float) -> float:
-    """Return the equal angle from -π to π."""
+    """Wrap an angle to −π to π."""
     return math.remainder(angle, 2.0 * math.pi) if abs(angle) > math.pi else angle + 0.0
 
 
 def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
-    """The other roll, pitch, yaw of the same rotation: pitch beyond a quarter turn."""
+    """Return the other roll, pitch, yaw of the same rotation: pitch beyond a quarter turn."""
     m = matrix_from_quaternion(quaternion)
     if not abs(m[2][0]) < quaternions.POLE:
         return rpy_from_quaternion(quaternion)
@@ -84,7 +84,7 @@ def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, floa
 
 
 def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
-    """The 3×3 rotation matrix, row by row.
+    """Return the 3×3 rotation matrix, row by row.
 
     Any finite quaternion but zero gives a proper rotation; zero gives NaN.
     """
@@ -92,7 +92,7 @@ def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
 
 
 def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
-    """The rotation of a 3×3 matrix (of a 4×4 one, its upper left), with tf2's sign.
+    """Return the rotation of a 3×3 matrix (of a 4×4 one, its upper left), with tf2's sign.
 
     Raises:
         ValueError: If it is no proper rotation (within 1e-6).
@@ -124,7 +124,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
 
 
 def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]:
-    """The proper rotation nearest to a 3×3 matrix, and how far that is.
+    """Return the proper rotation nearest to a 3×3 matrix, and the distance to it.
 
     Returns:
         The rotation, and the largest difference between two of their numbers; infinite for
@@ -149,7 +149,7 @@ def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]
 
 
 def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, float]:
-    """The axis of length 1 and the angle from 0 to π about it; x where nothing turns."""
+    """Return the unit axis and the angle from 0 to π; x for no rotation."""
     x, y, z, w = quaternions.unit(_quad(quaternion))
     if w < 0.0:
         x, y, z, w = -x, -y, -z, -w
@@ -160,7 +160,7 @@ def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, fl
 
 
 def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternion:
-    """The turn by `angle` radians about an axis of any length.
+    """Return the rotation by `angle` radians about an axis of any length.
 
     Raises:
         ValueError: If the axis is zero or not finite.
@@ -177,19 +177,19 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
 
 
 def wxyz_from_xyzw(quaternion: Iterable[float]) -> tuple[float, float, float, float]:
-    """Return the numbers with w first, as transforms3d and others have them."""
+    """Reorder xyzw to w first, as in transforms3d and others."""
     x, y, z, w = quaternion
     return w, x, y, z
 
 
 def xyzw_from_wxyz(quaternion: Iterable[float]) -> Quaternion:
-    """Return the numbers with w last, as ROS and we have them."""
+    """Reorder wxyz to w last, as in ROS and here."""
     w, x, y, z = quaternion
     return Quaternion(x, y, z, w)
 
 
 def quaternion_from_euler(angles: Sequence[float], axes: str = "sxyz") -> Quaternion:
-    """A rotation from Euler angles of any order.
+    """Return the rotation of Euler angles in any order.
 
     Args:
         angles: Three angles in radians.
@@ -208,7 +208,7 @@ def quaternion_from_euler(angles: Sequence[float], axes: str = "sxyz") -> Quater
 def euler_from_quaternion(
     quaternion: Iterable[float], axes: str = "sxyz"
 ) -> tuple[float, float, float]:
-    """Euler angles, in radians, of any order; see `quaternion_from_euler`.
+    """Return Euler angles in any order, radians; see `quaternion_from_euler`.
 
     Raises:
         ValueError: If `axes` is no such order.
@@ -222,7 +222,7 @@ def euler_from_quaternion(
 def euler_from_matrix(
     matrix: Sequence[Sequence[float]], axes: str = "sxyz"
 ) -> tuple[float, float, float]:
-    """Euler angles of a 3×3 rotation matrix (of a 4×4 one, its upper left).
+    """Return Euler angles of a 3×3 rotation matrix (of a 4×4 one, its upper left).
 
     Where they are not unique, the last is 0.
 

@@ -1,4 +1,4 @@
-"""x, y, heading to a transform and back; angles wrapped."""
+"""Conversions between transforms and x, y, heading."""
 
 import math
 
@@ -7,13 +7,13 @@ from tftool.geometry.rigid import Transform
 
 
 def transform_from_pose(x: float, y: float, heading: float) -> Transform:
-    """The pose of something that stands in the plane, turned by `heading` radians about z."""
+    """Return the transform of a pose in the plane, turned by `heading` radians about z."""
     half = 0.5 * heading
     return rigid.transform((float(x), float(y), 0.0), (0.0, 0.0, math.sin(half), math.cos(half)))
 
 
 def heading(transform: Transform) -> float:
-    """The yaw of a transform, in radians from −π to π.
+    """Return the yaw of a transform, radians from −π to π.
 
     It is the yaw of roll, pitch, yaw: for a pose in the plane, the direction of its x axis.
     """
@@ -22,17 +22,17 @@ def heading(transform: Transform) -> float:
 
 
 def bearing(transform: Transform) -> float:
-    """The direction in which the other frame's origin lies, in radians; 0 at no distance."""
+    """Return the direction of the other frame's origin, radians; 0 at zero distance."""
     return math.atan2(transform.translation.y, transform.translation.x)
 
 
 def distance(transform: Transform) -> float:
-    """Return the distance of the other frame's origin in the plane, in metres."""
+    """Return the distance of the other frame's origin in the plane, metres."""
     return math.hypot(transform.translation.x, transform.translation.y)
 
 
 def wrap(angle: float) -> float:
-    """Return the equal direction in [−π, π)."""
+    """Wrap an angle to [−π, π)."""
     # A step of 2π leaves rounding; the two bounds are met exactly when they are given.
     if -math.pi <= angle < math.pi:
         return angle

@@ -19,7 +19,7 @@ Pair: TypeAlias = tuple[
 
 
 def interpolate(pair: Pair, time: float) -> Pose:
-    """The pose on the way from one to the other of two poses.
+    """Interpolate between two poses.
 
     The translation goes straight, the rotation along the shorter arc at constant speed. At the
     first stamp it is the first pose, to the last bit.
@@ -70,7 +70,7 @@ def interpolate(pair: Pair, time: float) -> Pose:
 
 
 def compose(outer: Pose, inner: Pose) -> Pose:
-    """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
+    """Compose two poses: `a_from_c` from `a_from_b` and `b_from_c`."""
     ox, oy, oz, ax, ay, az, aw = outer
     x, y, z, bx, by, bz, bw = inner
     # As quaternions.rotate and quaternions.multiply.
@@ -89,7 +89,7 @@ def compose(outer: Pose, inner: Pose) -> Pose:
 
 
 def between(first: Pose, second: Pose) -> Pose:
-    """The second pose as seen from the first: `b_from_c` from `a_from_b` and `a_from_c`.
+    """Return the second pose relative to the first: `b_from_c` from `a_from_b` and `a_from_c`.
 
     The difference of the two places is turned, not each of them: where they are equal, the
     answer is zero to the last bit.

@@ -1,4 +1,4 @@
-"""Transforms applied to points, directions, poses, covariances and forces.
+"""Application of transforms to points, vectors, poses, covariances and wrenches.
 
 Everything goes in as plain numbers given in the transform's child and comes out given in
 its parent; nothing that goes in is changed. A rotation of all zeros stands for none, as it
@@ -23,24 +23,24 @@ _NO_ROTATION = 2.2e-16
 
 
 def point(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
-    """A place: turned and moved."""
+    """Transform a point: rotate and translate."""
     return _usable(a_from_b).apply(xyz)
 
 
 def vector(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
-    """A direction: turned, not moved."""
+    """Transform a vector: rotate only."""
     return _usable(a_from_b).rotate(xyz)
 
 
 def pose(a_from_b: Transform, pose: Transform) -> Transform:
-    """A pose: its place as a point, its orientation turned, with w not negative."""
+    """Transform a pose: its position as a point, its orientation rotated, with w not negative."""
     moved = _usable(a_from_b) @ _usable(pose)
     x, y, z, w = moved.rotation
     return transform(moved.translation, (-x, -y, -z, -w)) if w < 0.0 else moved
 
 
 def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
-    """A 6×6 covariance: each of its four 3×3 blocks B becomes R·B·Rᵀ.
+    """Rotate a 6×6 covariance: each of its four 3×3 blocks B becomes R·B·Rᵀ.
 
     Raises:
         ValueError: If there are not 36 numbers.
@@ -66,13 +66,13 @@ def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
 
 
 def wrench(a_from_b: Transform, force: Vector3, torque: Vector3) -> tuple[Vector3, Vector3]:
-    """A force and a torque: both turned, and the torque that the force's arm makes added."""
+    """Transform a force and torque: rotate both, and add the torque of the force's lever arm."""
     force, torque = vector(a_from_b, force), vector(a_from_b, torque)
     return force, torque + a_from_b.translation.cross(force)
 
 
 def points(a_from_b: Transform, xyz: "npt.ArrayLike") -> "npt.NDArray[np.float64]":
-    """Many points at once, in numpy.
+    """Transform many points in numpy.
 
     Args:
         a_from_b: Moves them.

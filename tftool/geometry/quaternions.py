@@ -1,4 +1,4 @@
-"""Arithmetic of rotations in plain floats, xyzw order.
+"""Arithmetic of quaternions in plain floats, xyzw order.
 
 Every function takes and gives plain tuples of floats, so that the scalar path
 makes no object it does not hand out. Products apply the right factor first.
@@ -30,7 +30,7 @@ ROUNDING = 8e-16
 
 
 def multiply(first: Quad, second: Quad) -> Quad:
-    """Chain two rotations: `second` is applied first, then `first`."""
+    """Compose two rotations: `second` is applied first, then `first`."""
     ax, ay, az, aw = first
     bx, by, bz, bw = second
     return (
@@ -42,13 +42,13 @@ def multiply(first: Quad, second: Quad) -> Quad:
 
 
 def conjugate(quaternion: Quad) -> Quad:
-    """Undo a unit quaternion."""
+    """Return the inverse of a unit quaternion."""
     x, y, z, w = quaternion
     return (-x, -y, -z, w)
 
 
 def rotate(quaternion: Quad, vector: Triple) -> Triple:
-    """Turn a vector by a unit quaternion."""
+    """Rotate a vector by a unit quaternion."""
     qx, qy, qz, qw = quaternion
     x, y, z = vector
     cx = 2.0 * (qy * z - qz * y)
@@ -62,7 +62,7 @@ def rotate(quaternion: Quad, vector: Triple) -> Triple:
 
 
 def unit(quaternion: Quad) -> Quad:
-    """Scale a quaternion to length one; NaN throughout if it has no direction.
+    """Normalise a quaternion; NaN throughout if its length is zero.
 
     Zero, not finite, or so small that its square leaves the range of floats:
     no rotation can be told from it.
@@ -85,7 +85,7 @@ def unit(quaternion: Quad) -> Quad:
 
 
 def canonical(quaternion: Quad) -> Quad:
-    """Give the one of a unit quaternion's two signs that tf2 would give.
+    """Return a unit quaternion with the sign that tf2 would give it.
 
     It is the sign that comes out of a rotation matrix: w positive for turns below
     120°, and beyond that the largest imaginary part positive, so that w may be
@@ -96,7 +96,7 @@ def canonical(quaternion: Quad) -> Quad:
 
 
 def leading(x: float, y: float, z: float, w: float) -> float:
-    """The number of a unit quaternion that tf2 makes positive; see `canonical`."""
+    """Return the component of a unit quaternion that tf2 makes positive; see `canonical`."""
     if w * w > 0.25:
         return w
     xx, yy, zz = x * x, y * y, z * z
@@ -106,7 +106,7 @@ def leading(x: float, y: float, z: float, w: float) -> float:
 
 
 def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
-    """Turn from `start` to `end` along the shorter arc, at constant speed.
+    """Interpolate from `start` to `end` along the shorter arc, at constant angular speed.
 
     Args:
         start: Unit quaternion.
@@ -121,7 +121,7 @@ def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
 
 
 def angle_between(first: Quad, second: Quad) -> float:
-    """The turn from one rotation to the other, in radians from 0 to π."""
+    """Return the angle between two rotations, radians from 0 to π."""
     near = math.dist(first, second)
     x, y, z, w = second
     far = math.dist(first, (-x, -y, -z, -w))
@@ -130,7 +130,7 @@ def angle_between(first: Quad, second: Quad) -> float:
 
 
 def matrix(quaternion: Quad) -> Matrix3:
-    """Write a rotation as a matrix.
+    """Return the rotation matrix.
 
     Any finite quaternion but zero gives a proper rotation; zero gives NaN.
     """
@@ -146,7 +146,7 @@ def matrix(quaternion: Quad) -> Matrix3:
 
 
 def from_rpy(roll: float, pitch: float, yaw: float) -> Quad:
-    """Turn about fixed x, then y, then z; radians, sign as computed."""
+    """Return the rotation about fixed x, then y, then z; radians, sign as computed."""
     sr, cr = math.sin(0.5 * roll), math.cos(0.5 * roll)
     sp, cp = math.sin(0.5 * pitch), math.cos(0.5 * pitch)
     sy, cy = math.sin(0.5 * yaw), math.cos(0.5 * yaw)

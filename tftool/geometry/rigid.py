@@ -1,4 +1,4 @@
-"""One rigid transform in plain floats: compose, invert, apply.
+"""One rigid transform in plain floats: composition, inverse, application.
 
 A transform `a_from_b` is the pose of b in a, and moves points given in b into a:
 `a_from_c == a_from_b @ b_from_c`, `point_in_a == a_from_b.apply(point_in_b)`.
@@ -19,7 +19,7 @@ T = TypeVar("T")
 
 
 def refuses_arithmetic(kind: type[T]) -> type[T]:
-    """A class of tuples that no longer puts together by + and repeats by *, but refuses."""
+    """Decorate a tuple class so that + and * raise instead of joining and repeating."""
 
     def refuse(self: object, other: object) -> NoReturn:
         raise TypeError(
@@ -33,7 +33,7 @@ def refuses_arithmetic(kind: type[T]) -> type[T]:
 
 
 class Vector3(NamedTuple):
-    """A point or a vector, in metres unless said otherwise.
+    """A point or vector, in metres unless stated otherwise.
 
     It adds, subtracts and scales as a vector does: `2.0 * (a + b)`.
     """
@@ -94,7 +94,7 @@ def _three(numbers: tuple[object, ...]) -> tuple[float, float, float]:
 
 @refuses_arithmetic
 class Quaternion(NamedTuple):
-    """A rotation; xyzw order as in ROS messages, unit length unless it came from outside."""
+    """A rotation; xyzw order as in ROS messages, of unit length unless read from outside."""
 
     x: float
     y: float
@@ -103,7 +103,7 @@ class Quaternion(NamedTuple):
 
     @classmethod
     def from_rpy(cls, roll: float, pitch: float, yaw: float) -> "Quaternion":
-        """Make the rotation about fixed x, then y, then z; radians."""
+        """Return the rotation about fixed x, then y, then z; radians."""
         return cls(*quaternions.from_rpy(roll, pitch, yaw))
 
     def rpy(self) -> quaternions.Triple:
@@ -111,13 +111,13 @@ class Quaternion(NamedTuple):
         return quaternions.rpy(self)
 
     def __matmul__(self, other: "Quaternion") -> "Quaternion":
-        """Chain: `a_from_b @ b_from_c` is `a_from_c`; of length one."""
+        """Compose: `a_from_b @ b_from_c` is `a_from_c`, of unit length."""
         if not isinstance(other, Quaternion):
             return NotImplemented
         return Quaternion(*quaternions.multiply(quaternions.unit(self), quaternions.unit(other)))
 
     def inverse(self) -> "Quaternion":
-        """Return the rotation the other way round: `b_from_a` of `a_from_b`; of length one."""
+        """Return the inverse rotation, of unit length."""
         return Quaternion(*quaternions.conjugate(quaternions.unit(self)))
 
 
@@ -129,7 +129,7 @@ class _Parts(NamedTuple):
 
 @refuses_arithmetic
 class Transform(_Parts):
-    """A rotation and then a translation; a value: frozen, hashable, equal when its numbers are.
+    """A rotation followed by a translation; immutable, hashable, compared by value.
 
     The quaternion is kept as it is given. Wherever it is used, any finite one but zero stands
     for the rotation in its direction. (A message may bring a zero one: it makes results NaN.)
@@ -146,7 +146,7 @@ class Transform(_Parts):
         translation: Iterable[float] = (0.0, 0.0, 0.0),
         rotation: Iterable[float] = (0.0, 0.0, 0.0, 1.0),
     ) -> "Transform":
-        """Build a transform from three and four numbers.
+        """Make a transform from three and four numbers.
 
         Raises:
             ValueError: If there are not three and four of them, one is no number, or the
@@ -161,7 +161,7 @@ class Transform(_Parts):
 
     @classmethod
     def from_matrix(cls, matrix: Iterable[Iterable[float]]) -> "Transform":
-        """Build a transform from a homogeneous 4×4 matrix, as `matrix` gives it.
+        """Make a transform from a homogeneous 4×4 matrix, as `matrix` returns it.
 
         Args:
             matrix: Row by row, a numpy array or lists: the rotation at the upper left, the
@@ -189,23 +189,23 @@ class Transform(_Parts):
 
     @classmethod
     def identity(cls) -> "Transform":
-        """Return the transform that moves nothing."""
+        """Return the identity."""
         return IDENTITY
 
     def __matmul__(self, other: "Transform") -> "Transform":
-        """Chain: `a_from_b @ b_from_c` is `a_from_c`."""
+        """Compose: `a_from_b @ b_from_c` is `a_from_c`."""
         return compose(self, other)
 
     def inverse(self) -> "Transform":
-        """Return the transform the other way round: `b_from_a` of `a_from_b`."""
+        """Return the inverse: `b_from_a` of `a_from_b`."""
         return invert(self)
 
     def apply(self, point: Iterable[float]) -> Vector3:
-        """Move a point: given in b, it comes out in a."""
+        """Transform a point from b to a."""
         return apply(self, point)
 
     def rotate(self, vector: Iterable[float]) -> Vector3:
-        """Turn a direction, a velocity, an axis: the rotation without the translation."""
+        """Rotate a direction, velocity or axis, without the translation."""
         x, y, z = vector
         return Vector3(*quaternions.rotate(quaternions.unit(self.rotation), (x, y, z)))
 
@@ -230,7 +230,7 @@ def _floats(numbers: Iterable[float], count: int, what: str) -> tuple[float, ...
 
 
 def transform(translation: quaternions.Triple, rotation: quaternions.Quad) -> Transform:
-    """Wrap seven floats, unchecked: for numbers that come from arithmetic."""
+    """Make a transform of seven floats without checks, for computed numbers."""
     new = tuple.__new__
     return new(Transform, (new(Vector3, translation), new(Quaternion, rotation)))
 
@@ -239,7 +239,7 @@ IDENTITY = Transform()
 
 
 def compose(first: Transform, second: Transform) -> Transform:
-    """`a_from_c` from `a_from_b` and `b_from_c`; the quaternions' product keeps its sign."""
+    """Compose: `a_from_c` from `a_from_b` and `b_from_c`; the quaternion product keeps its sign."""
     turn = quaternions.unit(first.rotation)
     x, y, z = quaternions.rotate(turn, second.translation)
     tx, ty, tz = first.translation
@@ -250,14 +250,14 @@ def compose(first: Transform, second: Transform) -> Transform:
 
 
 def invert(a_from_b: Transform) -> Transform:
-    """`b_from_a` from `a_from_b`."""
+    """Invert: `b_from_a` from `a_from_b`."""
     back = quaternions.conjugate(quaternions.unit(a_from_b.rotation))
     x, y, z = quaternions.rotate(back, a_from_b.translation)
     return transform((-x, -y, -z), back)
 
 
 def apply(a_from_b: Transform, point: Iterable[float]) -> Vector3:
-    """Move a point: given in b, it comes out in a."""
+    """Transform a point from b to a."""
     x, y, z = point
     x, y, z = quaternions.rotate(quaternions.unit(a_from_b.rotation), (x, y, z))
     tx, ty, tz = a_from_b.translation
@@ -265,10 +265,10 @@ def apply(a_from_b: Transform, point: Iterable[float]) -> Vector3:
 
 
 def canonical(pose: Transform) -> Transform:
-    """Return the pose with a unit quaternion of the sign tf2 gives (NaN for a zero one)."""
+    """Return the pose with tf2's sign of the quaternion (NaN for a zero one)."""
     return transform(pose.translation, quaternions.canonical(quaternions.unit(pose.rotation)))
 
 
 def distance(pose: Transform) -> float:
-    """Return the distance of the two origins, in metres."""
+    """Return the distance between two origins, metres."""
     return math.hypot(*pose.translation)

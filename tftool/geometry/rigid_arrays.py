@@ -1,4 +1,4 @@
-"""The functions of `rigid` and `quaternions` for many poses: shapes (..., 3) and (..., 4).
+"""The functions of `rigid` and `quaternions` for arrays: shapes (..., 3) and (..., 4).
 
 Quaternions are in xyzw order and leading axes broadcast. Each function gives row by row
 what its namesake for plain floats gives.
@@ -19,7 +19,7 @@ _LEAST_SQUARE = 2.0 / 1.7976931348623157e308
 
 
 def multiply(first: Floats, second: Floats) -> Floats:
-    """Chain rotations: `second` is applied first. Shapes (..., 4)."""
+    """Compose rotations: `second` is applied first. Shapes (..., 4)."""
     ax, ay, az, aw = np.moveaxis(first, -1, 0)
     bx, by, bz, bw = np.moveaxis(second, -1, 0)
     return np.stack(
@@ -34,13 +34,13 @@ def multiply(first: Floats, second: Floats) -> Floats:
 
 
 def conjugate(quaternions: Floats) -> Floats:
-    """Undo unit quaternions, shape (..., 4)."""
+    """Invert unit quaternions, shape (..., 4)."""
     undone: Floats = quaternions * np.array([-1.0, -1.0, -1.0, 1.0])
     return undone
 
 
 def rotate(quaternions: Floats, vectors: Floats) -> Floats:
-    """Turn vectors, shape (..., 3), by unit quaternions, shape (..., 4)."""
+    """Rotate vectors, shape (..., 3), by unit quaternions, shape (..., 4)."""
     qx, qy, qz, qw = np.moveaxis(quaternions, -1, 0)
     x, y, z = np.moveaxis(vectors, -1, 0)
     cx = 2.0 * (qy * z - qz * y)
@@ -57,7 +57,7 @@ def rotate(quaternions: Floats, vectors: Floats) -> Floats:
 
 
 def unit(quaternions: Floats) -> Floats:
-    """Scale quaternions to length one, shape (..., 4); NaN for those without a direction."""
+    """Normalise quaternions, shape (..., 4); NaN for zero length."""
     with np.errstate(all="ignore"):
         x, y, z, w = np.moveaxis(quaternions, -1, 0)
         square = x * x + y * y + z * z + w * w
@@ -77,7 +77,7 @@ def unit(quaternions: Floats) -> Floats:
 
 
 def canonical(quaternions: Floats) -> Floats:
-    """Give unit quaternions, shape (..., 4), the sign tf2 gives; see `quaternions.canonical`."""
+    """Return unit quaternions, shape (..., 4), with tf2's sign; see `quaternions.canonical`."""
     x, y, z, w = np.moveaxis(quaternions, -1, 0)
     xx, yy, zz = x * x, y * y, z * z
     side = np.where(xx < yy, np.where(yy < zz, z, y), np.where(xx < zz, z, x))
@@ -86,7 +86,7 @@ def canonical(quaternions: Floats) -> Floats:
 
 
 def matrices(translations: Floats, rotations: Floats) -> Floats:
-    """Homogeneous matrices, shape (..., 4, 4), of poses with unit quaternions."""
+    """Return homogeneous matrices, shape (..., 4, 4), of poses with unit quaternions."""
     x, y, z, w = np.moveaxis(rotations, -1, 0)
     result = np.zeros((*x.shape, 4, 4))
     result[..., 0, 0] = 1.0 - 2.0 * (y * y + z * z)
@@ -104,7 +104,7 @@ def matrices(translations: Floats, rotations: Floats) -> Floats:
 
 
 def roll_pitch_yaw(quaternions: Floats) -> Floats:
-    """Radians, shape (..., 3), of unit quaternions; see `precise_rpy_from_quaternion`."""
+    """Return radians, shape (..., 3), of unit quaternions; see `precise_rpy_from_quaternion`."""
     x, y, z, w = np.moveaxis(quaternions, -1, 0)
     a, b, c, d = w - y, x + z, y + w, z - x
     near, far = np.hypot(a, b), np.hypot(c, d)
@@ -125,7 +125,7 @@ def roll_pitch_yaw(quaternions: Floats) -> Floats:
 
 
 def _wrapped(angles: Floats) -> Floats:
-    """Return the equal angles from -π to π."""
+    """Wrap angles to −π to π."""
     turned: Floats = np.where(
         np.abs(angles) > np.pi, angles - 2.0 * np.pi * np.round(angles / (2.0 * np.pi)), angles
     )
@@ -133,7 +133,7 @@ def _wrapped(angles: Floats) -> Floats:
 
 
 def angles_between(first: Floats, second: Floats) -> Floats:
-    """Radians, from 0 to π, between rotations given as unit quaternions, shapes (..., 4)."""
+    """Return the angles between unit quaternions, radians from 0 to π; shapes (..., 4)."""
     dot = np.sum(first * second, axis=-1, keepdims=True)
     second = np.where(dot < 0.0, -second, second)
     # arccos of the dot product would lose half the digits of a small angle.
@@ -142,7 +142,7 @@ def angles_between(first: Floats, second: Floats) -> Floats:
 
 
 def rotation_vectors(quaternions: Floats) -> Floats:
-    """Axis times angle, radians from 0 to π, shape (..., 3), of unit quaternions."""
+    """Return axis times angle, radians from 0 to π, shape (..., 3), of unit quaternions."""
     signed = np.where(quaternions[..., 3:] < 0.0, -quaternions, quaternions)
     vector = signed[..., :3]
     sine = _length(vector)

@@ -1,4 +1,4 @@
-"""Rotating and chaining many poses in vectors: numbers in rows, a pose in each column.
+"""Rotation and composition of many poses: components in rows, a pose per column.
 
 The fast half of `batch`, for arrays that are used again and again: nothing is allocated.
 Vectors lie as rows x, y, z, x, y, so that a cross product is three operations on three
@@ -29,7 +29,7 @@ _NEGLIGIBLE = 2e-17
 
 
 class Arcs(NamedTuple):
-    """The shorter arcs from quaternions A to others, at constant speed.
+    """Shorter arcs from quaternions A to others, at constant angular speed.
 
     At the share f of the way the rotation is that of the quaternion A + s·C, with
     s = f·tan(fθ)/(fθ), which is √(1 + s²θ²) long: `tan_ratio` gives tan(fθ)/(fθ).
@@ -46,7 +46,7 @@ class Arcs(NamedTuple):
 
 
 def arcs(starts: Floats, ends: Floats) -> Arcs:
-    """Work out the arcs between unit quaternions, shapes (n, 4), in any order of their parts.
+    """Prepare the arcs between unit quaternions, shapes (n, 4), in any component order.
 
     Source:
         Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985, divided by the
@@ -74,7 +74,7 @@ def _dot(first: Floats, second: Floats) -> Floats:
 
 
 def _terms(square: float) -> int:
-    """Return the terms of the series needed up to an angle whose square this is."""
+    """Return the number of series terms needed up to an angle with this square."""
     power = 1.0
     for count, coefficient in enumerate(_SERIES):
         if coefficient * power < _NEGLIGIBLE:
@@ -135,7 +135,7 @@ class QuaternionRows:
         np.copyto(self.repeat, self.first)
 
     def conjugate(self) -> None:
-        """Turn the other way."""
+        """Invert the rotation."""
         vector = self.rows[1:]
         np.negative(vector, vector)
 
@@ -147,7 +147,7 @@ def rotate(
     cross: VectorRows,
     spare: Floats,
 ) -> None:
-    """Turn vectors in place; x and y are not repeated.
+    """Rotate vectors in place; the repeated x and y are not updated.
 
     Args:
         quaternions: By what.
@@ -173,7 +173,7 @@ def rotate(
 def chain(
     first: QuaternionRows, second: QuaternionRows, out: QuaternionRows, spare: Floats
 ) -> None:
-    """Multiply quaternions: `second` is applied first; `spare` is three rows to overwrite."""
+    """Multiply quaternions: `second` is applied first; `spare` is three work rows."""
     xyz, w = out.xyz, out.w
     # In the order of `poses.compose`: where nothing is turned on the way, to its last bit.
     multiply(second.xyz, first.w, xyz)

@@ -30,7 +30,7 @@ _one_float32 = struct.Struct("<f")
 
 
 def as_float32(value: float) -> float:
-    """The number as a 32-bit field brings it to the other side."""
+    """Return the number after rounding to a 32-bit field."""
     if not math.isfinite(value):
         return value
     return float(_one_float32.unpack(_one_float32.pack(value))[0])
@@ -62,7 +62,7 @@ class MessageField:
 
 
 class Message:
-    """Base of all messages; the fields come from the definitions."""
+    """Base of all messages; subclasses get their fields from definitions."""
 
     __slots__ = ()
 
@@ -71,7 +71,7 @@ class Message:
     interface__: ClassVar[str] = ""
 
     def __init__(self, **kwargs: Any) -> None:
-        """Give every field its default, then those named their values.
+        """Set every field to its default, then the named ones to their values.
 
         Raises:
             AssertionError: If a name is no field, or a value does not fit its field.
@@ -89,7 +89,7 @@ class Message:
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Every field's type by its name, as ROS 2 writes them."""
+        """Return every field's type by name, as ROS 2 writes them."""
         return {field.name: field.described for field in cls.fields__}
 
     def __repr__(self) -> str:
@@ -127,7 +127,7 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 def build(kind: Any, *values: Any, **named: Any) -> Any:
-    """Return a message of a class, unchecked: its first fields by their order, others by name.
+    """Make a message without checks: the first fields by position, others by name.
 
     Ten times as fast as the constructor, which checks every value.
     """
@@ -143,7 +143,7 @@ def build(kind: Any, *values: Any, **named: Any) -> Any:
 
 
 def duplicate(message: Any) -> Any:
-    """A deep copy, with 32-bit fields rounded: what arrives at the other end."""
+    """Return a deep copy with 32-bit fields rounded, as the receiver gets it."""
     kind = type(message)
     same = object.__new__(kind)
     for field in kind.fields__:
@@ -170,7 +170,7 @@ def interface_name(kind: Any) -> str:
 
 
 def recast(message: Any, kind: type[Message]) -> Any:
-    """Copy a message into a class of the same fields: that of another release, for example."""
+    """Copy a message to a class with the same fields, for example of another release."""
     copy = duplicate(message)
     if type(copy) is kind:
         return copy
@@ -181,7 +181,7 @@ def recast(message: Any, kind: type[Message]) -> Any:
 
 
 def is_part(asked: Any, part: str, kind: Any) -> bool:
-    """Whether a message is the request, or the goal, of a service's or action's class.
+    """Whether a message is the request or goal of a service's or action's class.
 
     Args:
         asked: The message.
@@ -194,7 +194,7 @@ def is_part(asked: Any, part: str, kind: Any) -> bool:
 
 
 def plain_name(ros_type: str) -> str:
-    """Return a type's name, the same for turtlesim's types of every release."""
+    """Return a type's name, which is the same for turtlesim's types of every release."""
     # Newer ROS 2 releases moved turtlesim's interfaces to a package of their own.
     return ros_type.replace("turtlesim_msgs/", "turtlesim/")
 
@@ -207,7 +207,7 @@ MOST_NESTED: Final = 64
 
 
 class Interfaces(Schema):
-    """Every interface's class by its name, made when it is first asked for.
+    """Classes of all interfaces by name, made on first use.
 
     The process has one set, `INTERFACES`; a recording has its own, as its definitions may be
     those of another release, or of ROS 1.
@@ -218,7 +218,7 @@ class Interfaces(Schema):
         self._made: dict[str, type[Any]] = {}
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
-        """Answer to a package's own definitions, by (kind, name)."""
+        """Add a package's own definitions, by (kind, name)."""
         # Classes compare by identity: as long as nothing changes they stay what they are.
         if self.knows(package, texts):
             return
@@ -227,7 +227,7 @@ class Interfaces(Schema):
             del self._made[full]
 
     def find(self, package: str, kind: str, name: str) -> type[Any]:
-        """The class of an interface.
+        """Return the class of an interface.
 
         Raises:
             InputError: If there is none of that name.
@@ -241,7 +241,7 @@ class Interfaces(Schema):
         return made
 
     def message(self, name: str) -> type[Message]:
-        """The class of a message by "package/msg/Name" or "package/Name".
+        """Return the class of a message by "package/msg/Name" or "package/Name".
 
         Raises:
             InputError: If there is none of that name, or it contains itself.
@@ -249,7 +249,7 @@ class Interfaces(Schema):
         return self.part(full_name(name))
 
     def recorded(self, name: str, text: str = "") -> type[Message]:
-        """The class of a message in a recording.
+        """Return the class of a message in a recording.
 
         Where the recording holds two definitions of one type, each message is read by the
         one that came with it.
@@ -268,7 +268,7 @@ class Interfaces(Schema):
         return self.part(full)
 
     def part(self, full: str) -> type[Message]:
-        """The class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.
+        """Return the class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.
 
         Raises:
             InputError: If there is none of that name, or it contains itself.
@@ -297,7 +297,9 @@ class Interfaces(Schema):
         return _holder(full, made)
 
     def _derived(self, action: str) -> type[Any]:
-        """Return the parts of a ROS 2 action: three services and two topics, by rclpy's names."""
+        """Return what ROS 2 derives from an action: three services and two topics, by rclpy's
+        names.
+        """
         made = self._made.get(f"{action}_Impl")
         if made is None:
             services = {
@@ -362,7 +364,7 @@ class Interfaces(Schema):
 
 
 class _Later:
-    """A class within another one, made when it is first asked for."""
+    """A nested class, made on first use."""
 
     def __init__(self, make: Callable[[], type[Any]]) -> None:
         self._make = make
@@ -418,7 +420,7 @@ def _nothing(kind: str) -> Any:
 
 
 def _literal(place: str, kind: str, text: str) -> Any:
-    """The value of a constant or a default, and its place for the message if it is wrong.
+    """Return a constant or default as a value; errors name its place in the message.
 
     Raises:
         InputError: If it is no such value.

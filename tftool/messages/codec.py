@@ -1,4 +1,4 @@
-"""Messages as bytes and back, by their definitions.
+"""Serialisation of messages by their definitions.
 
 A type is planned once for each layout, as a row of steps: a run of numbers, a text, an
 array, a list of messages. Each step writes itself from a message, and reads the values of
@@ -35,14 +35,14 @@ _SMALLEST_TEXT: Final = 4
 
 
 class Codec:
-    """One message type's bytes in one layout.
+    """Serialiser of one message type in one layout.
 
     Any object that has the fields as attributes can be written; reading gives a message
     of the class.
     """
 
     def __init__(self, kind: type[Message], layout: Layout = CDR) -> None:
-        """Plan how a class's fields lie.
+        """Plan the layout of a class's fields.
 
         Args:
             kind: The class of the messages.
@@ -58,7 +58,7 @@ class Codec:
         self._plan = _Planner(self.name, layout).plan(kind)
 
     def encode(self, message: Any) -> bytes:
-        """The bytes of one message.
+        """Return the bytes of one message.
 
         Raises:
             MalformedMessage: If a value does not fit its field.
@@ -71,7 +71,7 @@ class Codec:
             raise MalformedMessage(self.name, f"a value does not fit its field: {error}") from error
 
     def decode(self, payload: Payload) -> Any:
-        """The message of some bytes; nothing of it refers to them afterwards.
+        """Return the message in some bytes, without references to them.
 
         Raises:
             MalformedMessage: If they are not one.
@@ -89,7 +89,7 @@ _codecs: dict[Any, Codec] = {}
 
 
 def codec(kind: type[Message]) -> Codec:
-    """The CDR codec of a message's class, made once."""
+    """Return the CDR codec of a message class, made once."""
     found = _codecs.get(kind)
     if found is None:
         found = _codecs[kind] = Codec(kind)
@@ -97,7 +97,7 @@ def codec(kind: type[Message]) -> Codec:
 
 
 class _Run:
-    """Numbers of fixed size next to each other, those of parts of the message included."""
+    """Consecutive numbers of fixed size, including those of nested messages."""
 
     def __init__(self, leaves: list[tuple[str, str]], layout: Layout) -> None:
         """Lay out (path, letter) pairs; padding has no path."""
@@ -132,7 +132,7 @@ class _Run:
 
 
 class _Text:
-    """A text: its length and its bytes."""
+    """A text: length and bytes."""
 
     smallest = _SMALLEST_TEXT
 
@@ -149,7 +149,7 @@ class _Text:
 
 
 class _Array:
-    """Numbers, bytes or truth values: a fixed array, or a sequence with its length in front."""
+    """Numbers, bytes or booleans: a fixed array, or a sequence with its length."""
 
     def __init__(self, path: str, field: MessageField, layout: Layout) -> None:
         self._get = attrgetter(path)
@@ -179,7 +179,7 @@ class _Array:
             writer.pass_on(raw)
 
     def _raw(self, value: Any) -> memoryview:
-        """The little-endian bytes of a field's numbers, those of the value itself if possible."""
+        """Return the little-endian bytes of a field's numbers, without a copy if possible."""
         if self._kind == "byte":
             return memoryview(b"".join(value))
         if self._kind == "bool":
@@ -205,14 +205,14 @@ class _Array:
             values.append(found if self._count is None else packed(self._kind, count, found))
 
     def _turned(self, numbers: "array.array[Any]", order: str) -> "array.array[Any]":
-        """Numbers of this machine in another byte order, or the other way round."""
+        """Swap the bytes of numbers between this machine's order and the other."""
         if order != _NATIVE and self._item > 1:
             numbers.byteswap()
         return numbers
 
 
 class _List:
-    """Texts or messages: as many as the type says, or a sequence with its length in front."""
+    """Texts or messages: a fixed number, or a sequence with its length."""
 
     def __init__(
         self, path: str, field: MessageField, plan: "_Plan | None", layout: Layout
@@ -251,7 +251,7 @@ _Step = _Run | _Text | _Array | _List
 
 
 class _Planner:
-    """Plans a type and the types it holds lists of, each once."""
+    """Planner of a type's layout and of the types in its lists, each once."""
 
     def __init__(self, name: str, layout: Layout) -> None:
         self._name = name
@@ -305,7 +305,7 @@ class _Planner:
         return steps
 
     def _letter(self, owner: type[Message], field: MessageField) -> str | None:
-        """Return the letter of `struct` for a number of a field; None for texts and messages."""
+        """Return `struct`'s letter for a numeric field; None for texts and messages."""
         if field.kind == "wstring":
             raise MalformedMessage(
                 self._name,
@@ -326,7 +326,7 @@ class _Planner:
 
 
 def _numbers_held(value: Any) -> memoryview | None:
-    """The memory of an array's numbers in place; None for other values."""
+    """Return the memory of an array's numbers, without a copy; None for other values."""
     try:
         view = memoryview(value)
     except TypeError:
@@ -335,14 +335,14 @@ def _numbers_held(value: Any) -> memoryview | None:
 
 
 def _letter_of(view: memoryview) -> str:
-    """The letter of a view's numbers, the same for numpy's arrays and Python's own."""
+    """Return the letter of a view's numbers, the same for numpy and Python arrays."""
     # Both have 8-byte integers as "l" where C's long is that wide; fields have them as "q".
     letter = view.format
     return _WIDE.get(letter, letter) if view.itemsize == 8 else letter
 
 
 def _getter(paths: list[str]) -> Callable[[Any], tuple[Any, ...]]:
-    """Return a function that gives the values of some attributes, as a tuple."""
+    """Return a function that returns some attributes as a tuple."""
     if len(paths) > 1:
         return attrgetter(*paths)
     getters = [attrgetter(path) for path in paths]
@@ -357,7 +357,7 @@ def _check_count(field: MessageField, count: int) -> None:
 
 
 class _Shape:
-    """Constructor of a message from the values of its fields, in order."""
+    """Constructor of a message from its fields' values, in order."""
 
     def __init__(self, kind: type[Message]) -> None:
         self._kind = kind
@@ -370,7 +370,7 @@ class _Shape:
             self._slots.append((f"_{field.name}", part))
 
     def build(self, values: Iterator[Any]) -> Any:
-        """The message, past the checks of assignment: its values were made to fit."""
+        """Make the message without assignment checks: its values fit by construction."""
         message = object.__new__(self._kind)
         for slot, part in self._slots:
             setattr(message, slot, next(values) if part is None else part.build(values))
@@ -378,7 +378,7 @@ class _Shape:
 
 
 class _Plan:
-    """Layout of one type of message in its bytes."""
+    """Byte layout of one message type."""
 
     def __init__(self, kind: type[Message], steps: list[_Step]) -> None:
         self._steps = steps

@@ -1,4 +1,4 @@
-"""The fields of the ROS 2 interfaces we answer to, as facts.
+"""Definitions of the ROS 2 interfaces supported here.
 
 One block an interface: its full name, then its fields as a .msg, .srv or .action
 file lists them, `;` for a line break. The parts of a service or an action are set
@@ -219,7 +219,7 @@ _SAME = {"turtlesim_msgs": "turtlesim"}
 
 @cache
 def table() -> dict[str, dict[tuple[str, str], str]]:
-    """Every definition: package, then (kind, name), then its lines."""
+    """Return every definition: by package, then (kind, name), as lines."""
     packages: dict[str, dict[tuple[str, str], str]] = {}
     for line in _TEXT.splitlines():
         name, found, fields = line.partition("=")

@@ -1,4 +1,4 @@
-"""Checks of values assigned to a field: types and ranges, as in ROS 2's own classes."""
+"""Checks of values assigned to fields: types and ranges, as in ROS 2's own classes."""
 
 import array
 import math
@@ -16,7 +16,7 @@ Check = Callable[[Any], Any]
 
 
 def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
-    """The check of a single value of a field.
+    """Return the check of a field's single value.
 
     Args:
         name: The field's name.
@@ -37,7 +37,7 @@ def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
 def array_check(
     name: str, kind: str | type[Any], size: int, bound: int | None, element: Check
 ) -> Check:
-    """The check of a whole array or sequence.
+    """Return the check of a whole array or sequence.
 
     Args:
         name: The field's name.
@@ -74,14 +74,14 @@ def array_check(
 
 
 def typecode(kind: str | type[Any]) -> str | None:
-    """The letter of numbers that are kept as arrays; None for lists."""
+    """Return the letter of numbers stored as arrays; None for lists."""
     if not isinstance(kind, str):
         return None
     return INTEGERS[kind] if kind in INTEGERS else FLOATS.get(kind)
 
 
 def packed(kind: str | type[Any], size: int, values: Sequence[Any]) -> Any:
-    """Several values as a field keeps them."""
+    """Return several values in a field's storage type."""
     code = typecode(kind)
     if code is None:
         return values

@@ -1,4 +1,4 @@
-"""The hash by which ROS 2 tells one version of a type from another (REP 2016, RIHS01).
+"""ROS 2's hash of a type's version (REP 2016, RIHS01).
 
 The SHA-256 of a type's description, and of all types it is made of, as JSON in a form
 that is fixed to the letter. Names and types of fields count; defaults, constants and
@@ -39,7 +39,7 @@ PLACEHOLDER: Final = FieldDefinition("structure_needs_at_least_one_member", "uin
 
 
 def type_hash(schema: Schema, full: str) -> str:
-    """The hash of a message, a service, or anything else that is a structure.
+    """Return the hash of a message, a service, or another structure.
 
     Args:
         schema: Where its definition is.

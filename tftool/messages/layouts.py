@@ -1,4 +1,4 @@
-"""Layouts of a message's fields in its bytes: ROS 2's plain CDR, and ROS 1's layout.
+"""Byte layouts of messages: ROS 2's plain CDR, and ROS 1's.
 
 CDR has a header of four bytes that tells the byte order; from behind it every number is
 aligned to its size, and a text ends with a zero byte that its length counts. We write
@@ -39,7 +39,7 @@ _LENGTH = _LENGTHS[LITTLE]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Layout:
-    """The rules that one way of writing messages follows.
+    """Rules of one way to serialise messages.
 
     Attributes:
         name: What it is called in messages to people.
@@ -66,7 +66,7 @@ class Layout:
     hidden: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
     def order(self, kind: str, payload: Payload) -> str:
-        """The byte order of a message, as `struct` writes it.
+        """Byte order of a message, as `struct` writes it.
 
         Raises:
             MalformedMessage: If it is too short, too long or written another way.
@@ -85,7 +85,7 @@ class Layout:
         return order
 
     def padding(self, position: int, size: int) -> int:
-        """Bytes to leave out at a position, counted from behind the header, before a number."""
+        """Return the number of padding bytes before a number, by its offset after the header."""
         return -position % min(size, self.alignment)
 
 
@@ -120,7 +120,7 @@ ROS1: Final = Layout(
 
 
 def check_rest(kind: str, rest: int) -> None:
-    """Refuse a message that goes on behind its end.
+    """Refuse a message with bytes after its end.
 
     Raises:
         MalformedMessage: If it does.
@@ -131,7 +131,7 @@ def check_rest(kind: str, rest: int) -> None:
 
 
 def text_bytes(text: str) -> bytes:
-    """A text as CDR writes it, without its length: UTF-8 and a closing zero.
+    """Return a text as CDR encodes it, without its length: UTF-8 and a final zero.
 
     Raises:
         ValueError: If it holds a zero character, which would end it.
@@ -143,7 +143,7 @@ def text_bytes(text: str) -> bytes:
 
 
 def read_text(raw: bytes) -> str:
-    """The text of a CDR string's bytes, its closing zero included.
+    """Return the text of a CDR string's bytes, final zero included.
 
     Raises:
         MalformedMessage: If it is none.
@@ -164,7 +164,7 @@ def _decoded(raw: bytes) -> str:
 
 
 class Writer(bytearray):
-    """Collects the bytes of one message behind its header.
+    """Writer of one message's bytes after its header.
 
     Its bytearray holds the bytes written since the last large array; those are
     copied once, when all is joined.
@@ -179,7 +179,7 @@ class Writer(bytearray):
     parts: tuple[bytes | memoryview, ...] = ()
 
     def length(self, length: int, layout: Layout) -> None:
-        """Append a length where it belongs."""
+        """Append a length."""
         self += bytes(-(self.before + len(self)) % layout.word) + _LENGTH.pack(length)
 
     def text(self, text: str, layout: Layout) -> None:
@@ -192,18 +192,18 @@ class Writer(bytearray):
         self += bytes(-(self.before + len(self)) % layout.word) + _LENGTH.pack(len(raw)) + raw
 
     def pass_on(self, raw: memoryview) -> None:
-        """Append the bytes of a large array; they must not change until `finish`."""
+        """Append a large array's bytes without a copy; they must not change until `finish`."""
         self.parts = (*self.parts, bytes(self), raw)
         self.before += len(self) + raw.nbytes
         self.clear()
 
     def finish(self, layout: Layout) -> bytes:
-        """All of it, behind the layout's header."""
+        """Return all bytes, with the layout's header."""
         return b"".join((layout.header, *self.parts, self)) if self.parts else layout.header + self
 
 
 class Reader:
-    """Walks the bytes of one message."""
+    """Reader of one message's bytes."""
 
     __slots__ = ("_items", "_size", "_start", "kind", "layout", "order", "payload", "position")
 
@@ -217,7 +217,7 @@ class Reader:
         self._items = 0
 
     def take(self, length: int, align: int = 1) -> int:
-        """Step over some bytes; where they begin."""
+        """Skip some bytes; return where they begin."""
         start = self.position
         if align > 1:
             start += -(start - self._start) % align
@@ -231,7 +231,7 @@ class Reader:
         return MalformedMessage(self.kind, f"{length} bytes are announced and {rest} have arrived")
 
     def length(self) -> int:
-        """The length that comes next."""
+        """Read a length."""
         start = self.position
         start += -(start - self._start) % self.layout.word
         if start + 4 > self._size:
@@ -256,7 +256,7 @@ class Reader:
         return count
 
     def admit(self, items: int) -> None:
-        """Allow for so many texts or messages of a list, on top of those before them."""
+        """Add to the number of allowed list items."""
         self._items += items
         if self._items > MOST_ITEMS:
             raise MalformedMessage(
@@ -264,7 +264,7 @@ class Reader:
             )
 
     def text(self, bound: int | None) -> str:
-        """The text that comes next."""
+        """Read a text."""
         length = self.length()
         start = self.position
         if length > self._size - start:
@@ -277,7 +277,7 @@ class Reader:
         return text
 
     def numbers(self, count: int, size: int) -> Payload:
-        """The bytes of so many numbers of some size; many are not copied."""
+        """Read the bytes of some numbers of one size; large blocks are not copied."""
         length = count * size
         # Nothing is aligned where nothing follows.
         start = self.take(length, min(size, self.layout.alignment) if count else 1)

@@ -1,4 +1,4 @@
-"""Parameters' values as rcl_interfaces has them, and as Python has them."""
+"""Conversion of parameter values between rcl_interfaces and Python."""
 
 import array
 from collections.abc import Iterable, Sequence
@@ -25,7 +25,7 @@ SCALARS: Final[dict[type[Any], int]] = {bool: 1, int: 2, float: 3, str: 4}
 
 
 def value_of(message: Any) -> Any:
-    """The Python value of an rcl_interfaces ParameterValue; None when it is not set.
+    """Return the Python value of an rcl_interfaces ParameterValue; None if not set.
 
     Raises:
         ValueError: If its type is none that ROS 2 knows.
@@ -38,7 +38,7 @@ def value_of(message: Any) -> Any:
 
 
 def value_message(value: Any, number: int) -> Any:
-    """The rcl_interfaces ParameterValue of a value of a type; of None it is without one."""
+    """Return the rcl_interfaces ParameterValue of a typed value; of None one that is not set."""
     message: Any = INTERFACES.message("rcl_interfaces/ParameterValue")(type=number)
     field = FIELDS[number]
     if field is not None and value is not None:
@@ -47,7 +47,7 @@ def value_message(value: Any, number: int) -> Any:
 
 
 def list_result(names: Iterable[str], prefixes: Sequence[str], depth: int) -> Any:
-    """The ListParametersResult of those names that lie below some prefixes.
+    """Return the ListParametersResult of the names below some prefixes.
 
     Args:
         names: The parameters there are.

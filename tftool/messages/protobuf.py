@@ -1,4 +1,4 @@
-"""foxglove.FrameTransforms in protobuf: the bytes, and the description that goes with them.
+"""foxglove.FrameTransforms in protobuf: messages, and their description.
 
 Source: foxglove.dev's schemas of FrameTransforms, FrameTransform, Vector3 and Quaternion, and
 protobuf's own wire format and descriptor.proto.
@@ -22,7 +22,7 @@ _ONE, _MANY = 1, 3
 
 
 def frame_transforms(samples: Iterable[TransformStamped]) -> bytes:
-    """One message of type foxglove.FrameTransforms."""
+    """Return the bytes of a foxglove.FrameTransforms message."""
     return b"".join(_field(1, _frame_transform(one)) for one in samples)
 
 
@@ -42,7 +42,7 @@ def _frame_transform(sample: TransformStamped) -> bytes:
 
 @cache
 def frame_transforms_definition() -> bytes:
-    """The FileDescriptorSet of foxglove.FrameTransforms: what it needs stands before it."""
+    """Return the FileDescriptorSet of foxglove.FrameTransforms, its dependencies first."""
     time = ".google.protobuf."
     own = ".foxglove."
     doubles = [(name, _DOUBLE, "", _ONE) for name in "xyzw"]
@@ -91,7 +91,7 @@ def _file(
     message: str,
     fields: Sequence[tuple[str, int, str, int]],
 ) -> bytes:
-    """A FileDescriptorProto with one message."""
+    """Return a FileDescriptorProto with one message."""
     body = _field(1, message.encode())
     for number, (field, kind, type_name, label) in enumerate(fields, 1):
         described = _field(1, field.encode()) + _number(3, number) + _number(4, label)

@@ -1,4 +1,4 @@
-"""Definitions read: what an interface is made of, and the structures derived from it.
+"""Parsed definitions: fields of each interface, and structures derived from it.
 
 A service travels as a request and a response, an action as three services' worth of
 messages; ROS 2 derives those, and an event for every service, from the definition.
@@ -99,7 +99,7 @@ class Structure:
 
 
 def full_name(name: str) -> str:
-    """An interface's name with its folder: "std_msgs/String" is "std_msgs/msg/String".
+    """Return an interface's full name: "std_msgs/msg/String" for "std_msgs/String".
 
     Raises:
         InputError: If it cannot be the name of an interface.
@@ -113,7 +113,7 @@ def full_name(name: str) -> str:
 
 
 class Schema:
-    """Every interface's structures by their names, read when they are first asked for.
+    """Structures of every interface by name, parsed on first use.
 
     Definitions of a workspace's own packages can be added, and those of a recording.
     """
@@ -123,13 +123,13 @@ class Schema:
         self._read: dict[str, Structure] = {}
 
     def add(self, package: str, texts: Mapping[tuple[str, str], str]) -> None:
-        """Answer to a package's own definitions, by (kind, name)."""
+        """Add a package's own definitions, by (kind, name)."""
         self._texts[package] = dict(texts)
         for full in [full for full in self._read if full.startswith(f"{package}/")]:
             del self._read[full]
 
     def define(self, full: str, text: str) -> bool:
-        """Take over the definitions that a recording has for one of its types.
+        """Use the definitions that a recording has for one of its types.
 
         Args:
             full: The type's full name.
@@ -160,25 +160,25 @@ class Schema:
         return True
 
     def _is_other(self, full: str, text: str) -> bool:
-        """Whether a service or action was read before from another definition."""
+        """Whether a service or action was parsed before from another definition."""
         package, kind, name = full.split("/")
         known = self._texts.get(package, {}).get((kind, name), text)
         return known != text and any(one.startswith(f"{full}_") for one in self._read)
 
     def knows(self, package: str, texts: Mapping[tuple[str, str], str]) -> bool:
-        """Whether a package has these very definitions."""
+        """Whether a package already has exactly these definitions."""
         return self._texts.get(package) == texts
 
     def packages(self) -> Sequence[str]:
-        """Every package that has interfaces."""
+        """Return the packages with interfaces."""
         return list(self._texts)
 
     def names(self, package: str, kind: str) -> list[str]:
-        """The interfaces of a package, of kind msg, srv or action."""
+        """Return a package's interfaces of kind msg, srv or action."""
         return [name for found, name in self._texts.get(package, {}) if found == kind]
 
     def text(self, package: str, kind: str, name: str) -> str:
-        """The text of a definition, as in its file.
+        """Return the text of a definition, as in its file.
 
         Raises:
             InputError: If there is no such interface.
@@ -189,7 +189,7 @@ class Schema:
         return text
 
     def parts(self, package: str, kind: str, name: str) -> dict[str, str]:
-        """The parts of a service's or an action's definition, by "Request", "Goal" and so on.
+        """Return the parts of a service's or action's definition by "Request", "Goal" and so on.
 
         Raises:
             InputError: If there is no such interface, or it has other parts.
@@ -205,7 +205,7 @@ class Schema:
         return dict(zip(parts, texts, strict=True))
 
     def structure(self, full: str) -> Structure:
-        """A structure by its full name.
+        """Return a structure by its full name.
 
         Raises:
             InputError: If there is none of that name, or its definition is wrong.
@@ -216,7 +216,7 @@ class Schema:
         return found
 
     def has(self, full: str) -> bool:
-        """Whether there is a message, service or action of that name (package/kind/Name)."""
+        """Whether there is an interface of that name (package/kind/Name)."""
         package, _, rest = full.partition("/")
         kind, _, name = rest.partition("/")
         return (kind, name) in self._texts.get(package, {})
@@ -249,7 +249,7 @@ class Schema:
 
 
 def _of_action(folder: str, base: str, part: str) -> str | None:
-    """Return the lines of a type ROS 2 derives from an action; None for the action's own."""
+    """Return the lines of a type that ROS 2 derives from an action; None for the action itself."""
     action = base.rpartition("_")[0]
     if part == "FeedbackMessage":
         return f"{_GOAL_ID}{folder}{base}_Feedback feedback"
@@ -263,7 +263,7 @@ def _of_action(folder: str, base: str, part: str) -> str | None:
 
 
 def _sections(full: str, text: str) -> dict[str, str]:
-    """The definitions in a recording's text, by their full names."""
+    """Split a recorded definition into its sections by full name."""
     first, *others = _SEPARATOR.split(text)
     # A service's event is recorded with the definition of the service.
     name = _DERIVED.sub("", full) if "/msg/" not in full and "---" in first else full
@@ -279,7 +279,7 @@ def _sections(full: str, text: str) -> dict[str, str]:
 
 
 def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Structure:
-    """Read one definition, by ROS 1's rules too where it was `recorded` with other types."""
+    """Parse one definition; `recorded` ones with ROS 1 types by ROS 1's rules."""
     fields: list[FieldDefinition] = []
     constants: list[tuple[str, str, str]] = []
     for raw in text.splitlines():
@@ -299,7 +299,7 @@ def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Str
 
 
 def _without_comment(line: str) -> str:
-    """A line up to its comment; a '#' between quotes begins none."""
+    """Return a line without its comment; a '#' in quotes is kept."""
     quote = ""
     for at, char in enumerate(line):
         if quote:

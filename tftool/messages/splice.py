@@ -1,4 +1,4 @@
-"""Single transforms of a recorded tf2_msgs/TFMessage changed, the rest of its bytes kept."""
+"""Editing of single transforms in a recorded tf2_msgs/TFMessage; other bytes are kept."""
 
 import struct
 from collections.abc import Sequence
@@ -33,7 +33,7 @@ class TransformRow(NamedTuple):
 
 
 class TransformRows:
-    """A TFMessage taken apart.
+    """A parsed TFMessage with the byte range of each transform.
 
     Attributes:
         payload: Its bytes.
@@ -43,7 +43,7 @@ class TransformRows:
     __slots__ = ("_layout", "_walked", "payload", "rows")
 
     def __init__(self, layout: Layout, payload: bytes) -> None:
-        """Take it apart.
+        """Parse the message.
 
         Raises:
             MalformedMessage: If the bytes are none.
@@ -61,7 +61,7 @@ class TransformRows:
         return TransformRow(stamp, place.parent, place.child, numbers, sequence)
 
     def rewritten(self, rows: Sequence[TransformRow]) -> bytes:
-        """The message with other transforms in it.
+        """Return the message with other transforms.
 
         Where only stamps and numbers differ, everything else is kept bit by bit.
 
@@ -86,7 +86,7 @@ class TransformRows:
 
 
 def encode_rows(layout: Layout, rows: Sequence[TransformRow]) -> bytes:
-    """The bytes of a TFMessage of some transforms.
+    """Return the bytes of a TFMessage of some transforms.
 
     Raises:
         MalformedMessage: If a stamp does not fit into ROS's seconds.

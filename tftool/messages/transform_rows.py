@@ -1,4 +1,4 @@
-"""Many recorded tf2_msgs/TFMessages at once: equal layouts as rows of one table, in numpy.
+"""Bulk decoding of recorded tf2_msgs/TFMessages: equal layouts as table rows in numpy.
 
 A publisher sends the same frames again and again: its messages differ in stamps and numbers
 alone, all of them at the same places. One message is walked in Python; of others of its
@@ -40,7 +40,7 @@ _WORD: Final = {order: struct.Struct(f"{order}I") for order in "<>"}
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Place of one transform in a message.
+    """Byte positions of one transform in a message.
 
     Attributes:
         parent: Name as it was sent.
@@ -57,7 +57,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Walked:
-    """One message walked through.
+    """Transforms found in one message.
 
     Attributes:
         order: Its byte order, as `struct` writes it.
@@ -125,7 +125,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
 
 
 def sample(payload: bytes, order: str, place: Place) -> tuple[Stamp, tuple[float, ...]]:
-    """Stamp and seven numbers of one transform of a message."""
+    """Return stamp and seven numbers of one transform of a message."""
     word = _WORD[order]
     (sec,) = word.unpack_from(payload, place.stamp)
     (nanosec,) = word.unpack_from(payload, place.stamp + 4)
@@ -146,7 +146,7 @@ def _byte_order(payload: bytes) -> str:
 
 
 def row_span(layout: Layout, length: int) -> tuple[int, int]:
-    """Return the span of the row of a message of that length, in whole words.
+    """Return the row length for a message of that length, in whole words.
 
     Returns:
         Where the row begins, from the first byte of the message on, and its length. Rows begin
@@ -160,7 +160,7 @@ def row_span(layout: Layout, length: int) -> tuple[int, int]:
 
 
 def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
-    """Copy rows of equal length out of a buffer.
+    """Copy rows of equal length from a buffer.
 
     Args:
         buffer: Where the rows lie.
@@ -178,7 +178,7 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
 
 
 def _items(rows: npt.NDArray[Any], begin: int, size: int) -> npt.NDArray[np.void]:
-    """Return a slice of bytes of every row as single items: numpy copies each in one go."""
+    """Return a byte slice of every row as one item each, which numpy copies in one step."""
     return np.ndarray(
         (len(rows),), f"V{size}", buffer=rows.data, offset=begin, strides=rows.strides[:1]
     )
@@ -194,7 +194,7 @@ class Template:
     __slots__ = ("_begin", "_masks", "_values", "_words", "places")
 
     def __init__(self, layout: Layout, payload: bytes, walked: Walked) -> None:
-        """Make one of a message in little endian."""
+        """Make the template of a little-endian message."""
         self.places = walked.places
         begin, width = row_span(layout, len(payload))
         self._begin = begin
@@ -210,7 +210,7 @@ class Template:
         self._values = row.view(np.uint64)[self._words]
 
     def value(self, word: int, mask: int) -> int:
-        """Return the value of a word of its rows, as far as all of them share it.
+        """Return a word's value, as far as all its rows share it.
 
         Returns:
             The word under the mask; -1 where what it covers may differ.
@@ -221,11 +221,11 @@ class Template:
         return int(self._values[place]) & mask if int(self._masks[place]) & mask == mask else -1
 
     def constants(self) -> list[tuple[int, int]]:
-        """Each word that is the same in all its rows, at least in part, and which part."""
+        """Return the words that are equal in all rows, at least in part, with a mask."""
         return list(zip(self._words.tolist(), self._masks.tolist(), strict=True))
 
     def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
-        """Return the rows that have its frames, shape (n,); None where all do."""
+        """Return the rows with the template's frames, shape (n,); None if all have them."""
         apart = rows.take(self._words, axis=1)
         apart ^= self._values
         apart &= self._masks
@@ -235,7 +235,7 @@ class Template:
         return found
 
     def cut(self, rows: Words, place: Place, records: Records) -> None:
-        """Write one transform out of each row into records, shape (n, 8)."""
+        """Copy one transform of each row into records, shape (n, 8)."""
         if not len(rows):
             return
         _items(records, 8, 56)[:] = _items(rows, place.numbers - self._begin, 56)

@@ -1,4 +1,4 @@
-"""tf2_msgs/TFMessage as bytes and back: by hand, as most bytes of a session are these.
+"""Fast serialiser of tf2_msgs/TFMessage, which makes up most of a session's traffic.
 
 The same bytes as the definition gives, at a fraction of the cost; large messages can be
 read as arrays, without an object for each transform.
@@ -36,7 +36,7 @@ _heads: dict[tuple[str, str, int], bytes] = {}
 
 
 def encode_transforms(transforms: Sequence[TransformStamped]) -> bytes:
-    """The bytes of a tf2_msgs/TFMessage.
+    """Return the bytes of a tf2_msgs/TFMessage.
 
     Raises:
         MalformedMessage: If a stamp does not fit into ROS's 32-bit seconds, or a name
@@ -64,7 +64,7 @@ def encode_transforms(transforms: Sequence[TransformStamped]) -> bytes:
 
 
 def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
-    """The transforms of a tf2_msgs/TFMessage.
+    """Return the transforms of a tf2_msgs/TFMessage.
 
     Raises:
         MalformedMessage: If the bytes are not one.
@@ -115,7 +115,7 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
 
 
 class TransformColumns:
-    """Many transforms as columns, one row a transform, in the order they came.
+    """Many transforms as columns, one row per transform, in order of arrival.
 
     Attributes:
         stamps: Nanoseconds, int64, shape (n,).
@@ -146,7 +146,7 @@ class TransformColumns:
 
 
 def decode_columns(payload: bytes) -> TransformColumns:
-    """The transforms of a large tf2_msgs/TFMessage as arrays, without an object for each.
+    """Return the transforms of a large tf2_msgs/TFMessage as arrays.
 
     Raises:
         MalformedMessage: If the bytes are not one.
@@ -185,7 +185,7 @@ def decode_columns(payload: bytes) -> TransformColumns:
 
 
 def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[str]) -> int:
-    """Append the text that starts at a word, and return the word behind it."""
+    """Append the text at a word offset; return the offset after it."""
     length = words[word]
     begin = word * 4 + 4
     if length > len(payload) - begin:
@@ -197,7 +197,7 @@ def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[
 
 
 def _head(key: tuple[str, str, int]) -> bytes:
-    """Both names with their lengths, padded up to the first double."""
+    """Return both names with lengths, padded up to the first double."""
     parent, child, phase = key
     head = _text(parent)
     head += bytes(-len(head) % 4) + _text(child)

@@ -1,4 +1,4 @@
-"""The ROS classes that turtle nodes publish, serve and call, and short ways to make them.
+"""ROS classes that turtle nodes publish, serve and call, and functions to make them.
 
 Nodes of ours take and give the messages that users' nodes and other processes know. Poses come
 62 times a second from each turtle, so messages are made by `build`, which checks nothing:
@@ -32,7 +32,7 @@ _Time: Final[Any] = INTERFACES.message("builtin_interfaces/msg/Time")
 
 
 def twist(linear_x: float = 0.0, angular_z: float = 0.0, linear_y: float = 0.0) -> Any:
-    """Return the Twist of a velocity in the plane: m/s ahead, rad/s, m/s to the left."""
+    """Return the Twist of a planar velocity: m/s forward, rad/s, m/s to the left."""
     # Written out, as `pose` is: seven times as fast as `build`, and made at every tick.
     linear, angular, message = _new(_Vector3), _new(_Vector3), _new(Twist)
     linear._x, linear._y, linear._z = linear_x, linear_y, 0.0
@@ -48,7 +48,7 @@ def pose(
     linear_velocity: float = 0.0,
     angular_velocity: float = 0.0,
 ) -> Any:
-    """Return turtlesim's Pose: metres, radians, m/s, rad/s; it carries no stamp."""
+    """Return turtlesim's Pose: metres, radians, m/s, rad/s; it has no stamp."""
     message = _new(Pose)
     message._x, message._y, message._theta = x, y, theta
     message._linear_velocity, message._angular_velocity = linear_velocity, angular_velocity
@@ -56,12 +56,12 @@ def pose(
 
 
 def planar_velocity(message: Any) -> Twist2D:
-    """Return the three numbers of a Twist that turtlesim reads."""
+    """Return the three numbers of a Twist that turtlesim uses."""
     linear = message.linear
     return Twist2D(linear.x, message.angular.z, linear.y)
 
 
 def point_stamped(stamp: Stamp, frame_id: str, x: float, y: float, z: float) -> Any:
-    """Return the PointStamped of a point, in metres in its frame, at a moment."""
+    """Return the PointStamped of a point, in metres in its frame, at a time."""
     header = build(_Header, build(_Time, *divmod(stamp, NANOSECONDS)), frame_id)
     return build(PointStamped, header, build(_Point, x, y, z))

@@ -1,4 +1,4 @@
-"""Places, keys and heads of cached columns, without their arrays.
+"""Paths, keys and headers of cached columns, without their arrays.
 
 Which frames a recording has is known from here in milliseconds, without numpy.
 """
@@ -29,7 +29,7 @@ _MOST_HEAD: Final = 64 << 20
 
 
 def default_folder() -> Path | None:
-    """The folder for it: in `XDG_CACHE_HOME`, else where this system has such files.
+    """Return the cache folder: in `XDG_CACHE_HOME`, else this system's usual place.
 
     None where there is no such place: HOME is not set, and the system knows of no user's home.
     """
@@ -49,7 +49,7 @@ def default_folder() -> Path | None:
 
 
 def key_of(found: Found, *, any_size: bool = False) -> str:
-    """Return the cache key of a recording's columns; "" where caching is not worth it.
+    """Return a recording's cache key; "" if caching is not worthwhile.
 
     Args:
         found: The recording.
@@ -89,7 +89,7 @@ def _files(found: Found) -> Iterator[Path]:
 
 
 def head_size(start: bytes) -> int:
-    """Return the bytes before the columns of an entry, by its first bytes.
+    """Return the number of header bytes of an entry, from its first bytes.
 
     Raises:
         ValueError: If it does not begin as an entry does.
@@ -101,7 +101,7 @@ def head_size(start: bytes) -> int:
 
 
 def parsed_head(data: bytes, key: str) -> dict[str, Any]:
-    """Head of an entry.
+    """Parse the header of an entry.
 
     Args:
         data: Its bytes before the columns.
@@ -123,7 +123,7 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
 
 
 def frames_kept(found: Found) -> list[str] | None:
-    """The frames of a recording whose columns are kept, sorted; None where they are not."""
+    """Return a recording's cached frame names, sorted; None if it is not cached."""
     folder = default_folder()
     if folder is None:
         return None

@@ -1,4 +1,4 @@
-"""One recorded stream of messages, and what takes messages of streams."""
+"""One recorded stream of messages, and the interface of writers."""
 
 import re
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ _TEXTS: Final = (*_MESSAGE_TEXTS, "ros2idl", "jsonschema")
 
 @dataclass(frozen=True, slots=True)
 class Offers:
-    """Quality of service that publishers of a topic offered, as far as it was recorded.
+    """Quality of service that a topic's publishers offered, as far as recorded.
 
     Attributes:
         durability: "transient_local" if any offers it, "volatile", or empty if unknown.
@@ -36,7 +36,7 @@ class Offers:
 
 @lru_cache(maxsize=1024)
 def offers_of(text: str) -> Offers:
-    """Parse a text of QoS profiles: in numbers up to rosbag2's version 8, then in words."""
+    """Parse QoS profiles: numbers up to rosbag2's version 8, then words."""
     found: dict[str, list[str]] = {"durability": [], "reliability": []}
     for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
         plain = word.strip("\"'")
@@ -55,7 +55,7 @@ def offers_of(text: str) -> Offers:
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """One stream of messages: a channel of MCAP, a row of `topics`, a connection of ROS 1.
+    """A stream of messages: a channel of MCAP, a row of `topics`, a connection of ROS 1.
 
     Texts are as recorded: bytes that are not UTF-8 are kept as surrogates (`readable` shows them).
 
@@ -77,35 +77,35 @@ class Channel:
     metadata: tuple[tuple[str, str], ...] = ()
 
     def extra(self, key: str) -> str:
-        """Return the metadata under a key; "" for nothing."""
+        """Return the metadata for a key; "" if there is none."""
         return dict(self.metadata).get(key, "")
 
     @property
     def text(self) -> str:
-        """The definition, if it is a text; "" otherwise."""
+        """Return the definition if it is text; else ""."""
         if self.schema_encoding not in _TEXTS:
             return ""
         return self.definition.decode("utf-8", "backslashreplace")
 
     @property
     def message_text(self) -> str:
-        """The definition, if it lists fields as ROS's .msg files do; "" otherwise."""
+        """Return the definition if it lists fields as .msg files do; else ""."""
         return self.text if self.schema_encoding in _MESSAGE_TEXTS else ""
 
     @property
     def node(self) -> str:
-        """The node that publishes; "" where that is not recorded."""
+        """Return the publishing node; "" if not recorded."""
         return self.extra("callerid")
 
     @property
     def offers(self) -> Offers:
-        """The quality of service that was offered to subscribers."""
+        """Return the offered quality of service."""
         if self.extra("latching") == "1":
             return Offers(TRANSIENT_LOCAL, "", 1)
         return offers_of(self.extra("offered_qos_profiles"))
 
     def readable(self) -> "Channel":
-        """Return it with texts that can be shown."""
+        """Return the stream with control characters escaped."""
         texts = (
             self.topic,
             self.type,
@@ -129,14 +129,14 @@ def _readable(text: str) -> str:
 
 
 class ContainerWriter(Protocol):
-    """One file that takes messages; it begins when it is made, and ends with `finish`."""
+    """Writer of one file; it starts when made, and is closed by `finish`."""
 
     @property
     def size(self) -> int:
-        """Bytes written so far, those that wait to be included."""
+        """Bytes written so far, including buffered ones."""
 
     def channel(self, channel: Channel) -> int:
-        """Make a stream known; the number by which `write` takes its messages."""
+        """Register a stream; return its number for `write`."""
 
     def write(
         self,
@@ -149,7 +149,7 @@ class ContainerWriter(Protocol):
         """Append one message."""
 
     def finish(self) -> None:
-        """Write what closes the file, and close it."""
+        """Write the end of the file, and close it."""
 
     def abandon(self) -> None:
-        """Close the file as it is."""
+        """Close the file without its end."""

@@ -1,4 +1,4 @@
-"""Files whose messages are packed in chunks, read by their index or from front to back."""
+"""Files whose messages are packed in chunks, read by index or sequentially."""
 
 import itertools
 import struct
@@ -37,7 +37,7 @@ def reason_of(error: Exception) -> str:
 
 
 class WalkedMessages:
-    """Messages that were found by walking through records, as columns."""
+    """Messages found by a walk through records, as columns."""
 
     __slots__ = ("channels", "lengths", "log_times", "starts")
 
@@ -51,25 +51,25 @@ class WalkedMessages:
         return len(self.starts)
 
     def append(self, channel: int, log_time: int, start: int, length: int) -> None:
-        """Append one: its channel, when it was received, and its payload's place and length."""
+        """Append a message: channel, log time, and its payload's offset and length."""
         self.channels.append(channel)
         self.log_times.append(min(log_time, LAST_STAMP))
         self.starts.append(start)
         self.lengths.append(length)
 
     def extend(self, others: "WalkedMessages") -> None:
-        """Append others."""
+        """Append messages."""
         for name in self.__slots__:
             getattr(self, name).extend(getattr(others, name))
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last log time; 0 where there is none."""
+        """Return first and last log time; 0 if there is none."""
         return min(self.log_times, default=0), max(self.log_times, default=0)
 
 
 class MessageHead(NamedTuple):
-    """Head of a message in some records.
+    """Header of a message record.
 
     Attributes:
         channel: Its channel's number.
@@ -90,7 +90,7 @@ class MessageHead(NamedTuple):
 
 @dataclass(slots=True, eq=False)
 class Chunk:
-    """One chunk of a file, and the knowledge of its messages; see `Block`.
+    """One chunk of a file with its index; see `Block`.
 
     Attributes:
         reader: Whose it is.
@@ -132,30 +132,30 @@ class Chunk:
 
     @property
     def is_packed(self) -> bool:
-        """Whether it is compressed."""
+        """Whether the chunk is compressed."""
         return self.method not in ("", "none")
 
     @property
     def owners(self) -> Collection[int]:
-        """The channels that have messages in it, by its indexes."""
+        """Return the channels with messages in the chunk, by its indexes."""
         return self.indexes.keys() or (self.counts or {}).keys()
 
     def raw(self) -> Piece:
-        """Its record and those of its message indexes."""
+        """Return the bytes of its record and of its message indexes."""
         return Piece(self.reader.fileno(), self.position, self.behind - self.position)
 
     def messages(self) -> list[Taken]:
-        """Its messages, those up to the damage where there is any."""
+        """Return its messages; of a damaged chunk those before the damage."""
         if self._found is None:
             self._found = self.reader.taken(self)
         return self._found
 
     def table(self) -> MessageTable | None:
-        """Its messages as columns; None where it must be taken apart message by message."""
+        """Return its messages as columns; None if each must be parsed separately."""
         return self.reader.table(self) if self.whole and self.counts and self.sound() else None
 
     def sound(self) -> bool:
-        """Whether its content is as written, as far as it carries proof of that.
+        """Whether its content is as written, as far as a checksum can show.
 
         Found out once, by whatever thread asks first; others may ask when it has answered.
         """
@@ -171,7 +171,7 @@ class Chunk:
 
 
 class ChunkedReader(File):
-    """One file of chunks; its containers say how records are read. See `ContainerReader`.
+    """File of chunks; subclasses know how records are read. See `ContainerReader`.
 
     Attributes:
         damage: Its damage, as sentences, each once; not more than tell enough.
@@ -184,7 +184,7 @@ class ChunkedReader(File):
     magic = b""
 
     def __init__(self, path: Path, style: dict[str, Any]) -> None:
-        """Open it.
+        """Open the file.
 
         Raises:
             InputError: If it is another container.
@@ -213,12 +213,12 @@ class ChunkedReader(File):
     # Damage
 
     def note(self, damage: str) -> None:
-        """Note damage."""
+        """Record damage."""
         if damage not in self.damage and len(self.damage) < _MOST_NOTED:
             self.damage.append(damage)
 
     def note_chunk(self, chunk: Chunk, reason: str) -> None:
-        """Note the first damage of a chunk, as the rest follows from it."""
+        """Record the first damage of a chunk; later damage follows from it."""
         chunk.whole = False
         if chunk not in self._damaged:
             self._damaged.add(chunk)
@@ -227,7 +227,7 @@ class ChunkedReader(File):
     # Channels
 
     def _learn(self, number: int, channel: Channel) -> None:
-        """Take a channel that a record describes; the first one of a number counts."""
+        """Register a channel of a record; the first one with a number wins."""
         self.channels[number] = channel
         if len(self.streams) < MOST_STREAMS:
             self._numbers[number] = len(self.streams)
@@ -245,7 +245,7 @@ class ChunkedReader(File):
                 self.counts[self._numbers[channel]] += count
 
     def _scan(self, chunks: Iterator[Chunk]) -> None:
-        """List the content of a file without an index, up to its end or its damage.
+        """List the contents of a file without an index, to its end or its damage.
 
         A chunk is walked if its indexes do not tell all: its own records may describe channels.
 
@@ -260,7 +260,7 @@ class ChunkedReader(File):
                 self._count(chunk.counts)
 
     def _note_end(self, position: int) -> None:
-        """Note where a file breaks off that was read from front to back.
+        """Record where a sequentially read file is cut off.
 
         Raises:
             InputError: If nothing was found up to there.
@@ -282,7 +282,7 @@ class ChunkedReader(File):
     # A chunk's messages
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """The messages among some records.
+        """Return the messages in some records.
 
         Args:
             data: The records.
@@ -294,7 +294,7 @@ class ChunkedReader(File):
         raise NotImplementedError
 
     def unpacked(self, chunk: Chunk, ahead: Ahead | None = None) -> "bytes | memoryview":
-        """A chunk's bytes, unpacked; as many as there are of one that is cut or damaged.
+        """Decompress a chunk; of a cut or damaged one return as many bytes as possible.
 
         Args:
             chunk: The chunk.
@@ -318,7 +318,7 @@ class ChunkedReader(File):
             return unpack_beginning(chunk.method, data, chunk.size)
 
     def examined(self, chunk: Chunk) -> bytes | None:
-        """A chunk's bytes, unpacked and compared with its CRC; None if it is cut or damaged."""
+        """Decompress a chunk and check its CRC; return None if it is cut or damaged."""
         if chunk.cut or chunk in self._damaged:
             return None
         try:
@@ -331,7 +331,7 @@ class ChunkedReader(File):
         return data
 
     def check_crc(self, chunk: Chunk, crc: int) -> None:
-        """Compare the CRC of a chunk's data with the one that it carries."""
+        """Compare a chunk's CRC with that of its data."""
         if crc != chunk.crc:
             self.note(
                 f"The CRC of the chunk at byte {chunk.position} is wrong: its messages are "
@@ -340,7 +340,7 @@ class ChunkedReader(File):
             chunk.whole = False
 
     def taken(self, chunk: Chunk) -> list[Taken]:
-        """A chunk's messages with their bytes; what its records tell of channels is learned."""
+        """Return a chunk's messages with their bytes, and register the channels in its records."""
         found: list[Taken] = []
         data = self.examined(chunk)
         if data is None:
@@ -365,7 +365,7 @@ class ChunkedReader(File):
         return found
 
     def table(self, chunk: Chunk) -> MessageTable | None:
-        """The messages of a sound chunk as columns; None where its indexes do not tell all."""
+        """Return a sound chunk's messages as columns; None if its indexes are incomplete."""
         data = np.frombuffer(self.unpacked(chunk), dtype=np.uint8)
         try:
             parts = list(self._parts(chunk, data))
@@ -390,7 +390,7 @@ class ChunkedReader(File):
             return None
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Return the facts in the indexes of a chunk about its messages.
+        """Return the message facts in a chunk's indexes.
 
         Returns:
             For each channel its number, and of each message where the record and the payload
@@ -402,7 +402,7 @@ class ChunkedReader(File):
         raise NotImplementedError
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Log times, publish times and sequences of messages, by where their payloads begin."""
+        """Return log times, publish times and sequences of messages, by payload offset."""
         raise NotImplementedError
 
     def known(self, messages: list[Taken]) -> list[Taken]:
@@ -413,7 +413,7 @@ class ChunkedReader(File):
         return found
 
     def _walk(self, chunk: Chunk, *, learns: bool) -> None:
-        """Walk through a chunk's records and note where its messages are.
+        """Walk through a chunk's records and collect its messages.
 
         Args:
             chunk: The chunk.
@@ -437,17 +437,17 @@ class ChunkedReader(File):
     # Batches
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Return the messages of some streams, as the file counts them."""
+        """Return the number of messages of some streams, as the file counts them."""
         return sum(self.counts[number] for number in wanted)
 
     def _chosen(self, wanted: Collection[int]) -> dict[int, int]:
-        """The places in `streams` of wanted channels, by their numbers in the file."""
+        """Return the indices in `streams` of wanted channels, by their numbers in the file."""
         return {channel: number for channel, number in self._numbers.items() if number in wanted}
 
     def _chunk_batches(
         self, chosen: dict[int, int], batch_of: "Callable[[Chunk, Ahead], Batch | None]"
     ) -> Iterator[tuple[Chunk, Batch | None]]:
-        """Every chunk, with its messages of chosen channels if there are any."""
+        """Yield every chunk with its messages of chosen channels, if any."""
         read = [
             chunk.walked is not None or any(owner in chosen for owner in chunk.owners)
             for chunk in self._chunks
@@ -471,7 +471,7 @@ class ChunkedReader(File):
                 yield chunk, batch if batch is not None and len(batch) else None
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the part of a chunk that is unpacked ahead; None if it is read otherwise."""
+        """Return the part of a chunk to decompress ahead; None if it is read otherwise."""
         if chunk.cut or not chunk.is_packed:
             return None
         return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size
@@ -479,7 +479,7 @@ class ChunkedReader(File):
     def _rest_of(
         self, chunk: Chunk, chosen: dict[int, int], ahead: Ahead | None = None
     ) -> Batch | None:
-        """Return the messages that walking finds in a chunk, whatever its index says."""
+        """Return the messages found by walking through a chunk, whatever its index says."""
         if chunk.walked is None:
             if not chunk.place:
                 return None
@@ -499,7 +499,7 @@ class ChunkedReader(File):
 
 
 def numbers_of(channels: "array[int]", chosen: Mapping[int, int]) -> Indexes:
-    """The streams of messages, by their channels; -1 for those of channels not chosen."""
+    """Return the stream of each channel; -1 for channels not chosen."""
     owners = np.frombuffer(channels, dtype=np.uint32)
     if not chosen:
         return np.full(len(owners), -1, dtype=np.int32)

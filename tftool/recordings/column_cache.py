@@ -1,4 +1,4 @@
-"""Columns that were read once, kept in the user's cache folder for the next question.
+"""Cache of decoded columns in the user's cache folder.
 
 An entry is known by its recording's files: where they are, how long and how old they are, and
 the bytes at both ends of each. An entry that is not whole, or not as written, counts as if it were
@@ -30,10 +30,10 @@ LARGEST: Final = MOST_BYTES // 2
 
 
 class ColumnCache:
-    """A folder of columns, shared by every process of the user."""
+    """Folder of cached columns, shared by all of the user's processes."""
 
     def __init__(self, folder: Path, *, most_bytes: int = MOST_BYTES) -> None:
-        """Use a folder, which is made when the first entry is.
+        """Use a folder, which is created with the first entry.
 
         Args:
             folder: Where the entries are.
@@ -43,7 +43,7 @@ class ColumnCache:
         self._most_bytes = most_bytes
 
     def load(self, key: str) -> Transforms | None:
-        """Return the entry under a key; None where there is none, or it is damaged."""
+        """Return the entry for a key; None if it is missing or damaged."""
         if not key:
             return None
         path = self.folder / f"{key}{SUFFIX}"
@@ -63,7 +63,7 @@ class ColumnCache:
         return found
 
     def store(self, key: str, transforms: Transforms) -> bool:
-        """Keep columns under a key; whether that was possible.
+        """Store columns under a key; return whether that was possible.
 
         A full disk, or a folder that may not be written to, is no failure of the question.
         """
@@ -87,7 +87,7 @@ class ColumnCache:
         return True
 
     def _prune(self) -> None:
-        """Remove entries not used for longest, and those left half written."""
+        """Remove the least recently used entries, and incomplete ones."""
         entries = []
         newest = 0.0
         for path in self.folder.iterdir():
@@ -110,7 +110,7 @@ class ColumnCache:
 
 
 def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
-    """The bytes of an entry: a head in JSON, and all columns behind it, the wide ones first."""
+    """Return an entry's bytes: a JSON header, then all columns, the widest first."""
     edges = transforms.edges
     columns: list[np.ndarray[Any, Any]] = [
         transforms.log_times,
@@ -147,7 +147,7 @@ def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
 
 
 def _unpacked(data: bytearray, key: str) -> Transforms:
-    """The columns of an entry.
+    """Parse the columns of an entry.
 
     Raises:
         ValueError: If they differ from the written ones.
@@ -176,10 +176,10 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
 
 
 class KeptColumns:
-    """The place of one recording's columns in a cache."""
+    """Cached columns of one recording."""
 
     def __init__(self, cache: ColumnCache, found: Found) -> None:
-        """Note what the recording's files are now.
+        """Record the current state of the recording's files.
 
         Args:
             cache: Where they are kept.
@@ -190,11 +190,11 @@ class KeptColumns:
         self._key = self._key_now()
 
     def load(self) -> Transforms | None:
-        """The columns, if they are kept."""
+        """Return the columns, if cached."""
         return self._cache.load(self._key)
 
     def store(self, transforms: Transforms) -> None:
-        """Keep them, unless the files have changed since."""
+        """Store the columns, unless the files have changed meanwhile."""
         if self._key and self._key_now() == self._key:
             self._cache.store(self._key, transforms)
 

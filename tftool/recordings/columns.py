@@ -1,4 +1,4 @@
-"""Recorded messages in, transforms out: columns per edge that grow as a file is read."""
+"""Decoding of recorded messages into columns of transforms per edge, which grow while reading."""
 
 from array import array
 from collections import Counter
@@ -29,7 +29,7 @@ _RECORD: Final = 64  # bytes of a transform's
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Batch:
-    """Messages of a recording in a piece of its bytes.
+    """Messages of a recording within one piece of its bytes.
 
     Attributes:
         buffer: The bytes.
@@ -49,12 +49,12 @@ class Batch:
         return len(self.starts)
 
     def payload(self, number: int) -> bytes:
-        """The bytes of one message."""
+        """Return the bytes of one message."""
         start = int(self.starts[number])
         return self.buffer[start : start + int(self.lengths[number])].tobytes()
 
     def chosen(self, which: "Stamps | slice") -> "Batch":
-        """Return the messages at some places."""
+        """Return the messages at some indices."""
         return Batch(
             self.buffer,
             self.starts[which],
@@ -65,7 +65,7 @@ class Batch:
 
 
 def in_order(batches: Sequence[Batch]) -> Batch:
-    """Batches of one buffer as one, in the order in which the messages lie there."""
+    """Merge batches of one buffer into one, in the order of the messages' offsets."""
     if len(batches) == 1:
         return batches[0]
     starts, lengths, log_times, senders = (
@@ -77,7 +77,7 @@ def in_order(batches: Sequence[Batch]) -> Batch:
 
 
 class _Column:
-    """An array that grows in place: room that is not written yet costs no memory.
+    """An array that grows in place: memory not yet written costs nothing.
 
     Attributes:
         count: Rows that are in it.
@@ -90,7 +90,7 @@ class _Column:
         self.count = 0
 
     def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
-        """Append rows to be written.
+        """Append rows to be written, and return them.
 
         Args:
             count: How many.
@@ -106,12 +106,12 @@ class _Column:
         return self._rows[first:needed]
 
     def all(self) -> npt.NDArray[Any]:
-        """Return the rows."""
+        """Return all rows."""
         return self._rows[: self.count]
 
 
 def _wanted(needed: int, share: float, freely: int) -> int:
-    """Return the rows to make room for.
+    """Return the number of rows to make room for.
 
     Args:
         needed: How many there must be room for.
@@ -126,7 +126,7 @@ def _wanted(needed: int, share: float, freely: int) -> int:
 
 
 def _room(size: int) -> Bytes:
-    """So many bytes, to be written."""
+    """Allocate bytes to be written."""
     # A small page costs as much as a hundred transforms.
     pages = large_pages(size + PAGE, size + PAGE) if size >= PAGE else None
     if pages is None:
@@ -142,7 +142,7 @@ _COUNT, _LAST, _ORDERED, _KEPT, _SLASHED, _MOVED = range(6)
 
 
 class Growing:
-    """One edge while it is read.
+    """Columns of one edge while reading.
 
     Attributes:
         parent: As in `Edge`.
@@ -170,7 +170,7 @@ class Growing:
         self.first = _NEVER
 
     def make_room(self, count: int, share: float = 1.0, freely: int = 0) -> int:
-        """Grow the columns by `count` rows.
+        """Enlarge the columns by `count` rows.
 
         Args:
             count: How many rows are added.
@@ -201,7 +201,7 @@ class Growing:
     def room(
         self, first: tuple[int, int], last: int, count: int, share: float = 1.0
     ) -> tuple[Records, Indexes]:
-        """Return the rows to write transforms to, and the numbers of their messages.
+        """Return rows for transforms, and the numbers of their messages.
 
         Args:
             first: The first of those messages, which are in order, and the place in it.
@@ -221,11 +221,11 @@ class Growing:
         return self.records[begin:end], self.messages[begin:end]
 
     def add_slashed(self, count: int) -> None:
-        """Count transforms whose leading slash was left out."""
+        """Count transforms whose leading slash was removed."""
         self.state[_SLASHED] += count
 
     def finished(self) -> Edge:
-        """As a value, in the order of the messages."""
+        """Return the edge as a value, in the order of the messages."""
         count, _, ordered, kept, slashed, _ = self.state
         records, messages = self.records[:count], self.messages[:count]
         if not ordered:
@@ -236,10 +236,10 @@ class Growing:
 
 
 class Table:
-    """All edges of a source while it is read, and the messages they came in."""
+    """Columns of all edges while reading, and the messages they came in."""
 
     def __init__(self, expected: int = 0) -> None:
-        """Begin with none.
+        """Start empty.
 
         Args:
             expected: About how many messages are to come.
@@ -254,7 +254,7 @@ class Table:
         """Count of refused messages by the reason."""
 
     def note(self, log_times: Stamps, senders: Indexes) -> int:
-        """Number messages; the number of the first."""
+        """Number messages; return the number of the first."""
         first = self._log_times.count
         share = self.share(first + len(log_times))
         self._log_times.room(len(log_times), share)[:] = log_times
@@ -262,11 +262,11 @@ class Table:
         return first
 
     def share(self, messages: int) -> float:
-        """The share of the recording, from 0 to 1, that `messages` messages are."""
+        """Return the fraction of the recording that `messages` messages make up."""
         return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
-        """The edge to which `count` transforms are appended; None beyond `MOST_EDGES` edges."""
+        """Return the edge to append `count` transforms to; None beyond `MOST_EDGES` edges."""
         plain = parent.removeprefix("/"), child.removeprefix("/")
         key = (*plain, static)
         edge = self._edges.get(key)
@@ -281,15 +281,15 @@ class Table:
 
     @property
     def spare(self) -> int:
-        """Return how many more edges there may be."""
+        """Return how many more edges are allowed."""
         return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:
-        """Have room for one more transform of an edge, which comes in that message."""
+        """Reserve a row for one more transform of an edge in that message."""
         self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
 
     def leave_out(self, count: int) -> None:
-        """Count transforms for which there is no edge."""
+        """Count transforms without an edge."""
         self._left_out += count
 
     def append(
@@ -301,7 +301,7 @@ class Table:
         stamp: Stamp,
         seven: tuple[float, ...],
     ) -> None:
-        """Append one transform of a message, whose place in it is said with its number."""
+        """Append one transform of a message, with its position in the message."""
         edge = self.edge(parent, child, static, 1)
         if edge is None:
             return
@@ -311,7 +311,7 @@ class Table:
         records.view(np.float64)[0, 1:] = seven
 
     def finished(self, publishers: tuple[Publisher, ...]) -> Transforms:
-        """Everything as columns."""
+        """Return everything as columns."""
         damage = [
             f"{count} {'message was' if count == 1 else 'messages were'} left out: {reason}"
             for reason, count in sorted(self.refused.items(), key=lambda one: (-one[1], one[0]))
@@ -333,7 +333,7 @@ class Table:
 
 
 def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
-    """The number that begins at each of some bytes, wherever they lie.
+    """Return the number that begins at each offset, aligned or not.
 
     Args:
         buffer: The bytes.

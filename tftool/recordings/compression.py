@@ -1,4 +1,4 @@
-"""Pieces of a recording packed; `recordings/decompression.py` unpacks them."""
+"""Compression of a recording's pieces; see `recordings/decompression.py`."""
 
 import bz2
 from collections.abc import Callable
@@ -34,7 +34,7 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
 
 
 def best_compression() -> str:
-    """Return the compression of a new MCAP file: zstd where it is installed."""
+    """Return the compression of a new MCAP file: zstd where installed."""
     try:
         zstandard()
     except UsageError:

@@ -1,4 +1,4 @@
-"""Interface of containers: streams of messages, in pieces of their bytes."""
+"""Interface of containers: streams of messages, in pieces of bytes."""
 
 import os
 from collections.abc import Collection, Iterator, Mapping
@@ -26,7 +26,7 @@ LARGEST_TOLD: Final = 1 << 26
 
 
 def check_told(count: int) -> None:
-    """Refuse a record that describes a stream and is too long for that.
+    """Refuse a record that describes a stream and exceeds the size limit.
 
     Raises:
         InputError: If it is.
@@ -38,7 +38,7 @@ def check_told(count: int) -> None:
 
 
 class Taken(NamedTuple):
-    """One message, with all that its container keeps of it.
+    """One message with everything its container stores about it.
 
     Attributes:
         channel: The number of its channel in its file.
@@ -57,7 +57,7 @@ class Taken(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MessageTable:
-    """Messages of a chunk as columns, in their order.
+    """Messages of a chunk as columns, in order.
 
     Attributes:
         data: The bytes that their payloads are in.
@@ -82,18 +82,18 @@ class MessageTable:
 
     @property
     def owners(self) -> list[int]:
-        """The channels that have messages in it, in the order of their first ones."""
+        """Channels with messages in the block, in order of first appearance."""
         channels, firsts = np.unique(self.channels, return_index=True)
         found: list[int] = channels[np.argsort(firsts)].tolist()
         return found
 
     def payload(self, number: int) -> bytes:
-        """The bytes of one message."""
+        """Return the bytes of one message."""
         start = int(self.starts[number])
         return self.data[start : start + int(self.lengths[number])].tobytes()
 
     def message(self, number: int) -> Taken:
-        """One message."""
+        """Return one message."""
         return Taken(
             int(self.channels[number]),
             int(self.log_times[number]),
@@ -103,13 +103,13 @@ class MessageTable:
         )
 
     def chosen(self, which: Stamps) -> "MessageTable":
-        """Return the messages at some places."""
+        """Return the messages at some indices."""
         columns = (self.channels, self.log_times, self.publish_times, self.sequences)
         rest = (self.starts, self.lengths)
         return MessageTable(self.data, *(one[which] for one in (*columns, *rest)))
 
     def behind(self, heads: npt.NDArray[Any]) -> tuple[Bytes, Stamps]:
-        """Copy their payloads, each behind a head of its own.
+        """Copy payloads, each after its own header.
 
         Args:
             heads: One item for each message.
@@ -134,41 +134,41 @@ class MessageTable:
 
 
 def _items(data: Bytes, size: int) -> npt.NDArray[np.void]:
-    """Every run of so many bytes, wherever it begins, as one item."""
+    """Return each run of so many bytes, at every offset, as one item."""
     return np.ndarray((len(data) - size + 1,), f"V{size}", buffer=data.data, strides=(1,))
 
 
 class Block(Protocol):
-    """Messages that are together in a file: a chunk, rows, messages outside of chunks."""
+    """Consecutive messages of a file: a chunk, rows, or messages outside chunks."""
 
     @property
     def start(self) -> Stamp:
-        """Log time of the first one."""
+        """Log time of the first message."""
 
     @property
     def end(self) -> Stamp:
-        """Log time of the last one."""
+        """Log time of the last message."""
 
     @property
     def counts(self) -> Mapping[int, int] | None:
-        """Count the messages of each channel; None if only taking it apart would tell."""
+        """Return the number of messages per channel; None if that needs a full parse."""
 
     @property
     def whole(self) -> bool:
-        """Whether it may be copied as it is."""
+        """Whether the block may be copied as it is."""
 
     def sound(self) -> bool:
-        """Whether its content is as written, as far as it carries proof of that."""
+        """Whether its content is as written, as far as a checksum can show."""
 
     def table(self) -> MessageTable | None:
-        """Its messages as columns; None where it must be taken apart message by message."""
+        """Return its messages as columns; None if each must be parsed separately."""
 
     def messages(self) -> list[Taken]:
-        """Its messages, in their order; those up to the damage, where there is any."""
+        """Return its messages in order; of a damaged block those before the damage."""
 
 
 class CopiedAttachment(NamedTuple):
-    """An attachment of an MCAP file, which is copied to another one.
+    """An MCAP file's attachment to copy to another file.
 
     Attributes:
         piece: Its record.
@@ -185,7 +185,7 @@ class CopiedAttachment(NamedTuple):
 
 @dataclass(slots=True)
 class Extras:
-    """Content of a file beside messages.
+    """Contents of a file besides messages.
 
     Attributes:
         attachments: MCAP's attachments, which stay in their file.
@@ -215,19 +215,19 @@ class Container(Protocol):
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages of each stream."""
+        """Return the number of messages per stream."""
 
     def expected(self, wanted: Collection[int]) -> int:
-        """About how many messages some streams have; 0 where that is not known."""
+        """Return the approximate number of messages of some streams; 0 if unknown."""
 
     @property
     def damage(self) -> list[str]:
-        """Return its damage, as sentences; reading may add to them."""
+        """Return the damage as sentences; reading may find more."""
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """The messages of some streams, in the order of the recording.
+        """Yield the messages of some streams in the recording's order.
 
         A batch's buffer holds until the next one is asked for: its memory is used again.
 
@@ -242,7 +242,7 @@ class Container(Protocol):
 
 
 class ContainerReader(Container, Protocol):
-    """One file of a recording, which can be read from front to back as well.
+    """One file of a recording, also readable sequentially.
 
     Attributes:
         container: "mcap", "db3" or "bag".
@@ -258,11 +258,11 @@ class ContainerReader(Container, Protocol):
     style: dict[str, Any]
 
     def blocks(self) -> Iterator[Block]:
-        """All of its messages in pieces, in the order of the file."""
+        """Yield all messages in blocks, in the order of the file."""
 
 
 class File:
-    """A file read at places, never beyond the end it had when it was opened.
+    """A file read at given offsets, never beyond its size when it was opened.
 
     Attributes:
         path: Where it is.
@@ -271,7 +271,7 @@ class File:
     """
 
     def __init__(self, path: Path) -> None:
-        """Open it.
+        """Open the file.
 
         Raises:
             OSError: If it cannot be.
@@ -282,7 +282,7 @@ class File:
         self.read = 0
 
     def at(self, place: int, count: int) -> bytes:
-        """Read `count` bytes from a place on.
+        """Read `count` bytes from an offset.
 
         Raises:
             InputError: If the file does not have them, or they are too many to hold.
@@ -305,7 +305,7 @@ class File:
         return found
 
     def into(self, place: int, room: memoryview) -> None:
-        """The bytes from a place on, as many as there is room for, to be written there.
+        """Read bytes from an offset into a buffer, and fill it.
 
         Raises:
             InputError: If the file does not have them.
@@ -321,13 +321,13 @@ class File:
             room[:] = self.at(place, len(room))
 
     def fileno(self) -> int:
-        """The number by which the operating system knows it."""
+        """Return the file descriptor."""
         return self._file.fileno()
 
     def up_to(self, place: int, count: int) -> bytes:
-        """Read at most `count` bytes from a place on; fewer at the end of the file."""
+        """Read at most `count` bytes from an offset; fewer at the end of the file."""
         return self.at(place, max(0, min(count, self.size - place, LARGEST)))
 
     def close(self) -> None:
-        """Close it."""
+        """Close the file."""
         self._file.close()

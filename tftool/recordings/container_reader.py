@@ -1,4 +1,4 @@
-"""A container as a source: which streams hold transforms, and what every container shares."""
+"""A container as a `Source`: choice of streams with transforms, and what containers share."""
 
 import re
 import struct
@@ -60,16 +60,16 @@ _WITH_HEADER = frozenset(f"sensor_msgs/{name}" for name in _SENSORS.split()) | {
 
 
 def short_type(name: str) -> str:
-    """A type's name as ROS 2 writes it short: without the "msg" in its middle."""
+    """Return a type's name in ROS 2's short form, without the "msg" in the middle."""
     package, middle, last = name.partition("/msg/")
     return f"{package}/{last}" if middle else name
 
 
 class Recorded:
-    """A recording, opened; see `Source`."""
+    """An open recording; see `Source`."""
 
     def __init__(self, name: str, container: Container) -> None:
-        """Look at what a container holds.
+        """Examine a container's contents.
 
         Args:
             name: Name as it was given.
@@ -86,27 +86,27 @@ class Recorded:
 
     @property
     def kind(self) -> str:
-        """The container in words."""
+        """Container's name for sentences."""
         return self._container.kind
 
     @property
     def size(self) -> int:
-        """Bytes of all its files."""
+        """Size of all its files in bytes."""
         return self._container.size
 
     @property
     def start(self) -> Stamp:
-        """Log time of the first message; 0 where there is none."""
+        """Log time of the first message; 0 if there is none."""
         return self._container.start
 
     @property
     def end(self) -> Stamp:
-        """Log time of the last message; 0 where there is none."""
+        """Log time of the last message; 0 if there is none."""
         return self._container.end
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return the damage of the files, as sentences."""
+        """Return the damage of the files as sentences."""
         return (*self._container.damage, *self._notes)
 
     def _note(self, damage: str) -> None:
@@ -115,12 +115,12 @@ class Recorded:
 
     @property
     def names(self) -> frozenset[str]:
-        """Names of its topics."""
+        """Return the names of its topics."""
         return frozenset(stream.topic for stream in self._container.streams)
 
     @property
     def topics(self) -> tuple[RecordedTopic, ...]:
-        """Every topic, by name; each name once."""
+        """Return every topic, by name, each once."""
         first: dict[str, Channel] = {}
         counts: dict[str, int] = {}
         static: dict[str, bool] = {}
@@ -143,13 +143,13 @@ class Recorded:
 
     @property
     def publishers(self) -> tuple[Publisher, ...]:
-        """Every stream of messages, by topic and node."""
+        """Return every stream of messages, by topic and node."""
         return tuple(sorted(set(self._senders), key=lambda one: (one.topic, one.node)))
 
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> Transforms:
-        """Every transform; of topics that are named, else of all whose type carries them."""
+        """Return all transforms: of named topics, else of all whose type contains them."""
         chosen = [n for n, one in enumerate(self._container.streams) if self._gives(one, topics)]
         table = Table(self._container.expected(chosen))
         cutters: dict[tuple[Layout, bool], Cutter] = {}
@@ -192,7 +192,7 @@ class Recorded:
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> dict[str, Headers]:
-        """Headers by topic; of topics that are named, else of all whose type begins with one."""
+        """Return headers by topic: of named topics, else of all whose type begins with one."""
         found: dict[str, _Heads] = {}
         of_stream: dict[int, _Heads] = {}
         for number, stream in enumerate(self._container.streams):
@@ -209,7 +209,7 @@ class Recorded:
         return {topic: heads.finished() for topic, heads in sorted(found.items())}
 
     def clock(self) -> tuple[Stamps, Stamps]:
-        """Return the readings of `/clock` and their reception, nanoseconds, each of shape (n,)."""
+        """Return the readings of `/clock` and their log times, nanoseconds, each of shape (n,)."""
         read, received = array("q"), array("q")
         numbers = {
             number: stream
@@ -227,7 +227,7 @@ class Recorded:
         return np.frombuffer(read, dtype=np.int64), np.frombuffer(received, dtype=np.int64)
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
-        """The messages of some topics, in the order of the recording."""
+        """Yield the messages of some topics in the recording's order."""
         numbers = {n for n, one in enumerate(self._container.streams) if one.topic in topics}
         for batch in self._batches(numbers):
             for number in range(len(batch)):
@@ -240,7 +240,7 @@ class Recorded:
     def _batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """The messages of some streams, unpacked where rosbag2 compressed each by itself."""
+        """Yield the messages of some streams, decompressed where rosbag2 compressed each one."""
         for batch in self._container.batches(wanted, progress, head):
             start = int(batch.starts[0])
             if batch.buffer[start : start + 4].tobytes() == ZSTD_MAGIC:
@@ -254,7 +254,7 @@ class Recorded:
 
 
 class _Heads:
-    """One topic's headers while they are read."""
+    """Headers of one topic while reading."""
 
     def __init__(self, stream: Channel) -> None:
         self._topic = stream.topic
@@ -267,7 +267,7 @@ class _Heads:
         self._known: dict[bytes, int] = {}
 
     def append(self, head: bytes, log_time: int) -> None:
-        """Take one from the first bytes of its message; a message that is too short is none."""
+        """Append a header from a message's first bytes; ignore a message that is too short."""
         begin = 4  # behind CDR's header, or ROS 1's sequence number
         order = ">" if self._is_cdr and head[:2] == b"\x00\x00" else "<"
         if len(head) < begin + 12:
@@ -289,7 +289,7 @@ class _Heads:
         self._frames.append(place)
 
     def finished(self) -> Headers:
-        """As columns."""
+        """Return the headers as columns."""
         return Headers(
             self._topic,
             self._type,
@@ -301,7 +301,7 @@ class _Heads:
 
 
 def _unpacked(batch: Batch) -> Iterator[Batch]:
-    """Yield the messages, each unpacked by itself, in pieces; empty where that fails."""
+    """Yield messages decompressed one by one, in pieces; empty where that fails."""
     pieces: list[bytes] = []
     first = held = 0
     for number in range(len(batch)):
@@ -320,7 +320,7 @@ def _unpacked(batch: Batch) -> Iterator[Batch]:
 def _by_cutter(
     batch: Batch, of_stream: dict[int, AnyCutter]
 ) -> "Iterator[tuple[AnyCutter, slice | Stamps]]":
-    """Return the messages of a batch that each cutter takes."""
+    """Group a batch's messages by the cutter that decodes them."""
     first = int(batch.senders[0])
     if (batch.senders == first).all():
         yield of_stream[first], slice(None)
@@ -346,7 +346,7 @@ def _has_transforms(stream: Channel) -> bool:
 
 
 def is_static(stream: Channel) -> bool:
-    """Whether transforms of a stream hold at all times: by name, not by a stamp of 0."""
+    """Whether a stream's transforms are static: by its name, not by a stamp of 0."""
     last = stream.topic.rpartition("/")[2]
     if last == "tf_static":
         return True
@@ -355,7 +355,7 @@ def is_static(stream: Channel) -> bool:
 
 
 def begins_with_header(stream: Channel) -> bool:
-    """Whether messages of a stream begin with a header that we can read."""
+    """Whether a stream's messages begin with a header that can be read."""
     if stream.encoding not in LAYOUTS:
         return False
     kind = short_type(stream.type)

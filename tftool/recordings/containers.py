@@ -1,4 +1,4 @@
-"""One table of the containers that recordings come in: how each is known, read and written."""
+"""Table of the containers of recordings: how each is recognised, read and written."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ PACKED_SUFFIX: Final = ".zstd"
 
 @dataclass(frozen=True, slots=True)
 class ContainerFormat:
-    """One container.
+    """One container format.
 
     Attributes:
         name: Name in code: "mcap", "db3", "bag".
@@ -46,7 +46,7 @@ class ContainerFormat:
     options: tuple[str, ...]
 
     def open(self, path: Path, *, by_index: bool = True) -> "ContainerReader":
-        """Open a file of it.
+        """Open a file for reading.
 
         Args:
             path: Where it is.
@@ -60,7 +60,7 @@ class ContainerFormat:
         return found
 
     def create(self, path: Path, **options: Any) -> "ContainerWriter":
-        """Begin a file of it, with those of some options that it has.
+        """Create a file, with those options that the container has.
 
         Raises:
             UsageError: If it has no such compression, or that is not installed.
@@ -116,7 +116,7 @@ SUFFIXES: Final = (*(one.suffix for one in CONTAINERS), PACKED_SUFFIX)
 
 
 def container_of(path: Path) -> str:
-    """Return the container that a name asks for; "" for a folder.
+    """Return the container for a file name; "" for a folder.
 
     Raises:
         UsageError: If it asks for one that is not written.
@@ -134,12 +134,12 @@ def container_of(path: Path) -> str:
 
 
 def container_named(name: str) -> ContainerFormat:
-    """Return the container of a name in code."""
+    """Return the container by its name in code."""
     return next(one for one in CONTAINERS if one.name == name)
 
 
 def container_stored(storage: str) -> ContainerFormat:
-    """Return the container that is a storage of rosbag2.
+    """Return the container that is rosbag2's storage of that name.
 
     Raises:
         UsageError: If there is none.

@@ -1,4 +1,4 @@
-"""Values and columns that every source of recorded frames gives.
+"""Interface of sources of recorded frames: their values and columns.
 
 A source is read, not waited for: it ends, and all of it is there. Moments are whole
 nanoseconds; *stamps* are what the publisher wrote into a header, *log times* when the
@@ -71,13 +71,13 @@ class Publisher:
 
     @property
     def authority(self) -> str:
-        """Return its name in the buffer and its views: the node, else the topic."""
+        """Return its name in buffers and views: the node, else the topic."""
         return self.node or self.topic
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Edge:
-    """Every transform of one parent, child and kind, in the order of the recording.
+    """All transforms of one parent, child and kind, in the recording's order.
 
     Attributes:
         parent: Name as recorded, without the one leading slash it may have.
@@ -108,12 +108,12 @@ class Edge:
 
     @property
     def stamps(self) -> Stamps:
-        """Nanoseconds, shape (n,); a view."""
+        """Stamps in nanoseconds, shape (n,); a view."""
         return self.records[:, 0]
 
     @property
     def translations(self) -> Floats:
-        """Metres, shape (n, 3); a view."""
+        """Translations in metres, shape (n, 3); a view."""
         return self.records.view(np.float64)[:, 1:4]
 
     @property
@@ -124,7 +124,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transforms:
-    """All transforms of a source, in columns per edge, and the messages they came in.
+    """All transforms of a source in columns per edge, and the messages they came in.
 
     Attributes:
         edges: One for each parent, child and kind, in the order they first came up.
@@ -145,7 +145,7 @@ class Transforms:
         return sum(len(edge) for edge in self.edges)
 
     def log_times_of(self, edge: Edge) -> Stamps:
-        """Return the reception of each transform of an edge, nanoseconds, shape (n,)."""
+        """Return the log time of each transform of an edge, nanoseconds, shape (n,)."""
         return self.log_times[edge.messages]
 
     def senders_of(self, edge: Edge) -> Indexes:
@@ -154,7 +154,7 @@ class Transforms:
 
 
 def median(column: Stamps) -> float:
-    """As numpy's of whole numbers, at a third of its cost where they are few; of one at least."""
+    """Return numpy's median of at least one whole number, three times as fast for few."""
     half = len(column) // 2
     if len(column) % 2:
         return float(np.partition(column, half)[half])
@@ -164,7 +164,7 @@ def median(column: Stamps) -> float:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Headers:
-    """The headers of a topic's messages, in the order of the recording.
+    """Headers of a topic's messages, in the recording's order.
 
     Attributes:
         topic: Name of the topic.
@@ -187,13 +187,13 @@ class Headers:
 
     @property
     def frame_ids(self) -> npt.NDArray[np.object_]:
-        """The frame name of each message, shape (n,)."""
+        """Return the frame name of each message, shape (n,)."""
         return np.array(self.names, dtype=object)[self.frames]
 
 
 @dataclass(frozen=True, slots=True)
 class RawMessage:
-    """One message as it was recorded.
+    """One message as recorded.
 
     Attributes:
         log_time: When it was received, nanoseconds.
@@ -207,14 +207,14 @@ class RawMessage:
 
 
 class Progress(Protocol):
-    """Is told how far reading has come."""
+    """Callback for the progress of reading."""
 
     def __call__(self, done: int, total: int) -> None:
         """Report that `done` of `total` bytes are read."""
 
 
 class Source(Protocol):
-    """A recording, opened: its contents are known, its messages are read when asked for.
+    """An open recording: its contents are known, and its messages are read on demand.
 
     Whatever reads raises `InputError` if nothing can be read; damage behind which
     something was read is told in `damage`, and never raises.
@@ -222,44 +222,44 @@ class Source(Protocol):
 
     @property
     def name(self) -> str:
-        """Name as it was given."""
+        """Name as given by the user."""
 
     @property
     def kind(self) -> str:
-        """The container in words: "MCAP", "rosbag2 (sqlite3)", "ROS 1 bag"."""
+        """Container's name for sentences: "MCAP", "rosbag2 (sqlite3)", "ROS 1 bag"."""
 
     @property
     def size(self) -> int:
-        """Bytes of all its files."""
+        """Size of all its files in bytes."""
 
     @property
     def start(self) -> Stamp:
-        """Log time of the first message; 0 where there is none."""
+        """Log time of the first message; 0 if there is none."""
 
     @property
     def end(self) -> Stamp:
-        """Log time of the last message; 0 where there is none."""
+        """Log time of the last message; 0 if there is none."""
 
     @property
     def names(self) -> frozenset[str]:
-        """Names of its topics; to count their messages may take a while, and this does not."""
+        """Return the names of its topics, without counting messages, which may be slow."""
 
     @property
     def topics(self) -> tuple[RecordedTopic, ...]:
-        """Every topic, by name; each name once."""
+        """Return every topic, by name, each once."""
 
     @property
     def publishers(self) -> tuple[Publisher, ...]:
-        """Every stream of messages, by topic and node."""
+        """Return every stream of messages, by topic and node."""
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return the damage of the files and the remedies taken, as sentences."""
+        """Return damage and repairs as sentences."""
 
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> Transforms:
-        """Every transform; of topics that are named, else of all whose type carries them.
+        """Return all transforms: of named topics, else of all whose type contains them.
 
         Odometry and PoseStamped are read as transforms where their topics are named.
         """
@@ -267,13 +267,13 @@ class Source(Protocol):
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> dict[str, Headers]:
-        """Headers by topic; of topics that are named, else of all whose type begins with one."""
+        """Return headers by topic: of named topics, else of all whose type begins with one."""
 
     def clock(self) -> tuple[Stamps, Stamps]:
-        """Return the readings of `/clock` and their reception, nanoseconds, each of shape (n,)."""
+        """Return the readings of `/clock` and their log times, nanoseconds, each of shape (n,)."""
 
     def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
-        """The messages of some topics, in the order of the recording."""
+        """Yield the messages of some topics in the recording's order."""
 
     def close(self) -> None:
         """Close its files."""

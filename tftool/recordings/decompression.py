@@ -1,4 +1,4 @@
-"""Pieces of a recording unpacked, within bounds: sizes are checked before memory is allocated."""
+"""Decompression of a recording's pieces, with sizes checked before memory is allocated."""
 
 import bz2
 import contextlib
@@ -35,7 +35,7 @@ Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
 
 
 def unpack(method: str, packed: bytes, size: int) -> bytes:
-    """Unpack a piece whose size is known.
+    """Decompress a piece of known size.
 
     Args:
         method: "", "none", "zstd", "lz4" or "bz2", as the container writes it.
@@ -63,14 +63,14 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
 
 
 class _Room:
-    """Memory that pieces are unpacked into, one after the other: new memory costs more."""
+    """Memory reused for decompressed pieces, as new memory is slower."""
 
     def __init__(self) -> None:
         self._bytes = bytearray()
         self._zstd: Any = None
 
     def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
-        """As the function of that name; what it gives is here as a rule, until the next one."""
+        """Decompress a piece like the function `unpack`; valid until the next call."""
         # Reading happens in the thread as well: it waits for the disk without Python's lock.
         packed = read()
         if method == "zstd":
@@ -84,7 +84,7 @@ class _Room:
         return unpack(method, packed, size)
 
     def _read(self, packed: bytes, size: int) -> bool:
-        """Read a frame of zstd to its end; whether it is as long as it should be."""
+        """Decompress a zstd frame to its end; return whether its length is as declared."""
         module = zstandard()
         if module.frame_content_size(packed) != size:
             return False
@@ -97,7 +97,7 @@ class _Room:
 
 
 class _Coming:
-    """A piece on its way.
+    """A piece being decompressed.
 
     Attributes:
         room: Where to.
@@ -110,7 +110,7 @@ class _Coming:
         self.future: Future[bytes | memoryview] = pool.submit(room.unpack, *piece)
 
     def unpack_here(self) -> None:
-        """Unpack it in this thread, if no other has begun to."""
+        """Decompress the piece in this thread, if no other has started it."""
         # A future that cannot be cancelled is being unpacked by a thread.
         if not self.future.cancel():
             return
@@ -122,7 +122,7 @@ class _Coming:
 
 
 class Ahead:
-    """Reads and unpacks pieces in threads while those before them are looked at; works in a `with`.
+    """Threads that read and decompress pieces ahead of the reader; a context manager.
 
     Both release Python's lock: on two processors it costs no time of its own. Nothing else is
     done in a thread. Who asks for a piece that is not there yet unpacks one behind it meanwhile:
@@ -130,7 +130,7 @@ class Ahead:
     """
 
     def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:
-        """Take what there is to unpack.
+        """Take the list of pieces to decompress.
 
         Args:
             keys: Names of the pieces, each another one, in the order in which they will be asked
@@ -155,7 +155,7 @@ class Ahead:
             self._pool.shutdown(wait=True, cancel_futures=True)
 
     def take(self, key: object) -> "Future[bytes | memoryview] | None":
-        """Return the future of an unpacked piece; None where it is not on its way.
+        """Return the future of a decompressed piece; None if it was not started.
 
         A piece taken before must not be looked at any more: its memory is used again.
         """
@@ -176,7 +176,7 @@ class Ahead:
         return found.future
 
     def _come_to(self, key: object) -> _Coming | None:
-        """The piece of a key; those before it were passed over, and make room for others."""
+        """Return the piece of a key; skip earlier ones and start others in their place."""
         self._start()
         while self._coming:
             passed = next(iter(self._coming))
@@ -190,7 +190,7 @@ class Ahead:
         return None
 
     def _start(self) -> None:
-        """Have as many on their way as there are threads, and some more for who asks."""
+        """Start as many pieces as there are threads, and some more."""
         while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
             key = next(self._keys, None)
             if key is None:
@@ -206,14 +206,14 @@ class Ahead:
 
 
 def _processors() -> int:
-    """Return the processors that this process may use."""
+    """Return the number of processors available to this process."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
-    """Unpack as much as there is of a piece that is cut or damaged; may be nothing."""
+    """Decompress as much as possible of a cut or damaged piece; may return nothing."""
     size = min(size, LARGEST, most_of(len(packed)))
     if method in ("", "none"):
         return packed[:size]
@@ -240,7 +240,7 @@ def _beginning_of_zstd(packed: bytes, size: int) -> bytes:
 
 
 def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytearray, int]:
-    """Unpack a piece in steps up to a place, and byte by byte behind it.
+    """Decompress in large steps up to an offset, and byte by byte after it.
 
     Returns:
         What came out, and where the step began in which it broke; the end if it did not.
@@ -264,12 +264,12 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
 
 
 def most_of(packed: int) -> int:
-    """Return the most bytes a packed piece may become: honest files stay far below."""
+    """Return the size limit of a decompressed piece, far above real ones."""
     return MOST_GAIN * packed + _SLACK
 
 
 def check_size(packed: int, size: int) -> None:
-    """Refuse a size that nothing honest declares.
+    """Refuse a declared size beyond any real one.
 
     Raises:
         InputError: If it is one.
@@ -282,7 +282,7 @@ def check_size(packed: int, size: int) -> None:
 
 
 def zstandard() -> "ModuleType":
-    """Import the module of zstd: only recordings compressed so wait for it."""
+    """Import zstd on first use."""
     try:
         import zstandard
     except ImportError:
@@ -292,7 +292,7 @@ def zstandard() -> "ModuleType":
 
 @cache
 def lz4_frame() -> Any:
-    """Import the module of lz4's frames: only recordings compressed so wait for it."""
+    """Import lz4's frames on first use."""
     try:
         import lz4.frame
     except ImportError:

@@ -1,4 +1,4 @@
-"""Frames that a robot's description adds to a recording, because tf lacks them."""
+"""Frames added to a recording from its robot description where tf lacks them."""
 
 import re
 from collections import Counter
@@ -26,7 +26,7 @@ _MOST_DESCRIPTIONS: Final = 8
 
 @dataclass(frozen=True, slots=True)
 class DescribedFrames:
-    """Frames a description gave and tf did not.
+    """Frames taken from a description because tf lacks them.
 
     Attributes:
         still: Frames that hold at all times.
@@ -42,7 +42,7 @@ class DescribedFrames:
 
 
 def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
-    """The topics of a recording that carry a robot's description."""
+    """Return the topics with a robot description."""
     return [
         topic
         for topic in topics
@@ -54,7 +54,7 @@ def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
 
 
 def read_description(source: Source, topic: RecordedTopic) -> Robot | None:
-    """The description on a topic: the first without mistakes, if there are several.
+    """Return the first valid description on a topic.
 
     Returns:
         The robot; None where there are placeholders alone, as a simulator's driver sends for robots
@@ -84,7 +84,7 @@ def read_description(source: Source, topic: RecordedTopic) -> Robot | None:
 
 
 def prefix_of(robot: Robot, frames: Collection[str]) -> str:
-    """Prefix of the names of links in those of frames: robot_state_publisher's prefix."""
+    """Return the prefix of frame names before link names, set on robot_state_publisher."""
     known = frozenset(frames)
     if not known or any(link in known for link in robot.links):
         return ""
@@ -98,7 +98,7 @@ def prefix_of(robot: Robot, frames: Collection[str]) -> str:
 
 
 def missing_motion(robot: Robot, frames: Collection[str], prefix: str) -> list[str]:
-    """The joints that move whose frames tf does not have."""
+    """Return the movable joints whose frames tf lacks."""
     return [
         joint.name
         for joint in robot.joints.values()
@@ -113,7 +113,7 @@ def add_described(
     frames: Collection[str],
     prefix: str = "",
 ) -> DescribedFrames:
-    """Put the frames of a description into a buffer that does not have them.
+    """Insert the frames of a description that a buffer lacks.
 
     Args:
         buffer: What tf gave.

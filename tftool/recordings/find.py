@@ -1,4 +1,4 @@
-"""Kinds of sources that a word on the command line names: decided by content, never by suffix.
+"""Kind of a source named on the command line: decided by content, never by suffix.
 
 Only names, sizes and the first bytes are looked at; what reads the source finds out more.
 """
@@ -54,7 +54,7 @@ _OTHERS = {
 
 
 class Kind(Enum):
-    """Return the kind of a source in words."""
+    """Return the kind of a source for sentences."""
 
     SCENARIO = "scenario"
     DESCRIPTION = "robot description"
@@ -69,7 +69,7 @@ class Kind(Enum):
 
     @property
     def is_recording(self) -> bool:
-        """Whether `open_recording` reads it."""
+        """Whether `open_recording` can read it."""
         return self not in (Kind.SCENARIO, Kind.DESCRIPTION, Kind.STATICS)
 
 
@@ -91,7 +91,7 @@ def container_in(path: Path, kind: Kind) -> ContainerFormat:
 
 @dataclass(frozen=True, slots=True)
 class Found:
-    """Source that a word names.
+    """A source named by a word.
 
     Attributes:
         name: The word.
@@ -107,7 +107,7 @@ class Found:
     passed_over: tuple[Path, ...] = ()
 
     def told(self) -> list[str]:
-        """Return notes, as sentences: files that are passed over, a convention."""
+        """Return notes as sentences: skipped files, the convention of pose files."""
         if self.kind is Kind.POSES:
             from tftool.recordings.poses.pose_formats import convention_of
 
@@ -128,7 +128,7 @@ def _said(path: Path) -> str:
 
 
 def names_a_path(word: str) -> bool:
-    """Whether a word names something in the file system: a file, a folder, a glob that fits."""
+    """Whether a word names something in the file system: a file, a folder, or a matching glob."""
     try:
         return os.path.lexists(word) or bool(_globbed(word) or path_behind_prefix(word)[0])
     except ValueError:
@@ -136,7 +136,7 @@ def names_a_path(word: str) -> bool:
 
 
 def _meant(path: Path) -> str:
-    """Return such a path one folder further down, as in the src of a workspace; or nothing."""
+    """Return the path one folder deeper, as in a workspace's src, if it exists."""
     if path.is_absolute() or ".." in path.parts:
         return ""
     with contextlib.suppress(OSError):
@@ -148,7 +148,7 @@ def _meant(path: Path) -> str:
 
 
 def find(word: str) -> Found:
-    """Return the source that a path or a glob names.
+    """Return the source named by a path or glob.
 
     Raises:
         InputError: If there is nothing, or nothing we read; it names the content instead.
@@ -196,7 +196,7 @@ def find(word: str) -> Found:
 
 
 def _kind_with_options(word: str, path: Path) -> Kind:
-    """Return what one file is; options for pose files are refused for anything else.
+    """Return the kind of one file; refuse options for pose files for other kinds.
 
     Raises:
         UsageError: If it has such options and is no pose file.
@@ -305,7 +305,7 @@ def _are_poses(path: Path, head: bytes) -> bool:
 
 
 def _is_text(head: bytes) -> bool:
-    """Whether a file that begins so is UTF-8; a sign may be cut where the head ends."""
+    """Whether the beginning of a file is UTF-8; its last character may be incomplete."""
     try:
         head.decode()
     except UnicodeDecodeError as error:
@@ -326,7 +326,7 @@ def _is_metadata(path: Path) -> bool:
 
 
 def _folder(word: str, path: Path) -> Found:
-    """Return the content of a folder: one recording of rosbag2, or several recordings."""
+    """Return the contents of a folder: one rosbag2 recording, or several recordings."""
     if (path / METADATA).exists():
         return Found(word, Kind.ROSBAG2, (path,))
     entries = sorted(path.iterdir())
@@ -359,7 +359,7 @@ def _several(word: str, matches: list[str]) -> Found:
 def _recordings(
     entries: list[Path],
 ) -> tuple[tuple[Path, ...], set[Kind], tuple[Path, ...]]:
-    """Sort files and folders into recordings, or possible ones, their kinds, and other files.
+    """Sort files and folders into recordings, possible recordings, and other files.
 
     Raises:
         PermissionError: If none is known to be one, and some may not be read.
@@ -397,7 +397,7 @@ def _recordings(
 
 
 def refusal(path: Path, error: OSError) -> InputError:
-    """Return the sentence for one file of several that the system does not open.
+    """Return the sentence for one of several files that cannot be opened.
 
     Raises:
         OSError: The error itself, if it is none of this file: too many are open.
@@ -410,7 +410,7 @@ def refusal(path: Path, error: OSError) -> InputError:
 
 
 def _stem(path: Path) -> str:
-    """The name that all parts of a split recording share: `run_0.mcap`, `run_1.mcap`."""
+    """Return the name shared by the parts of a split recording: `run_0.mcap`, `run_1.mcap`."""
     return path.name.partition(".")[0].rstrip("0123456789")
 
 

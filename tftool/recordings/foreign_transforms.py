@@ -1,4 +1,4 @@
-"""Transforms in other shapes than a TFMessage, one message at a time.
+"""Transforms in other messages than TFMessage, decoded one message at a time.
 
 Sources: foxglove.dev's schemas of FrameTransform and FrameTransforms; common_interfaces.
 """
@@ -16,7 +16,7 @@ from tftool.messages.layouts import CDR, ROS1
 
 
 class Shaped(NamedTuple):
-    """One transform: its stamp, names, and x y z, x y z w."""
+    """One transform: stamp, names, and x y z, x y z w."""
 
     stamp: Stamp
     parent: str
@@ -31,7 +31,7 @@ _DOUBLE = struct.Struct("<d")
 
 
 def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decoder | None":
-    """Return the conversion of a type's messages to transforms; None where there is none.
+    """Return the decoder from a type's messages to transforms; None if there is none.
 
     Args:
         kind: The type, short.
@@ -58,7 +58,7 @@ def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decode
 
 
 def is_foreign(kind: str, encoding: str) -> bool:
-    """Whether a type carries transforms in another shape than a TFMessage."""
+    """Whether a type contains transforms in another form than TFMessage."""
     package, _, name = kind.replace("/", ".").rpartition(".")
     if package in ("foxglove", "foxglove_msgs") and name in _FOXGLOVE:
         return encoding in ("protobuf", "json")
@@ -182,7 +182,7 @@ def _checked(stamp: int) -> Stamp:
 
 
 def _fields(payload: bytes) -> Iterator[tuple[int, Any]]:
-    """Number and value of each protobuf field: varints as numbers, all else as bytes."""
+    """Yield each protobuf field's number and value: varints as numbers, others as bytes."""
     position, size = 0, len(payload)
     while position < size:
         key, position = _varint(payload, position)

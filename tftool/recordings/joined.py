@@ -1,4 +1,4 @@
-"""Several files read as one recording: the parts of a split one, a folder, a glob."""
+"""Several files read as one recording: parts of a split one, a folder, a glob."""
 
 from collections.abc import Collection, Iterator, Sequence
 
@@ -11,10 +11,10 @@ from tftool.recordings.contract import Progress
 
 
 class Joined:
-    """Containers one after the other; see `Container`."""
+    """Containers in sequence; see `Container`."""
 
     def __init__(self, parts: Sequence[tuple[str, Container]], damage: Sequence[str] = ()) -> None:
-        """Join them.
+        """Join containers.
 
         Args:
             parts: Each with its name.
@@ -40,7 +40,7 @@ class Joined:
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages of each stream."""
+        """Return the number of messages per stream."""
         found = [0] * len(self.streams)
         for (_, part), numbers in zip(self._parts, self._maps, strict=True):
             for number, count in zip(numbers.tolist(), part.counts, strict=True):
@@ -50,20 +50,20 @@ class Joined:
 
     @property
     def damage(self) -> list[str]:
-        """Return the damage, each with the name of its file."""
+        """Return the damage with the names of the files."""
         return [
             *self._damage,
             *(f"{name}: {damage}" for name, part in self._parts for damage in part.damage),
         ]
 
     def expected(self, wanted: Collection[int]) -> int:
-        """Not known before every part is read."""
+        """Return 0: unknown before every part is read."""
         return 0
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """The messages of some streams, file after file; see `Container`."""
+        """Yield the messages of some streams, file after file; see `Container`."""
         before = 0
         for (_, part), numbers in zip(self._parts, self._maps, strict=True):
             chosen = {n for n, number in enumerate(numbers.tolist()) if number in wanted}
@@ -84,7 +84,7 @@ class Joined:
 
 
 def _moved(progress: Progress | None, before: int, size: int) -> Progress | None:
-    """The progress of a part, as one of the whole."""
+    """Convert a part's progress to that of the whole."""
     if progress is None:
         return None
 

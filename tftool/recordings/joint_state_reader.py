@@ -1,4 +1,4 @@
-"""Joint positions over time: read from recorded messages as columns, whatever their number."""
+"""Reading of joint positions from recorded messages in bulk."""
 
 import struct
 from collections.abc import Iterable, Sequence
@@ -23,7 +23,7 @@ Words: TypeAlias = npt.NDArray[np.uint32]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RecordedJoints:
-    """The joint states of a recording.
+    """Joint states of a recording.
 
     Attributes:
         states: One for each list of names that messages had, in the order they came up.
@@ -35,7 +35,7 @@ class RecordedJoints:
 
 
 def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> tuple[str, ...]:
-    """The topics robot_state_publisher would listen to.
+    """Return the topics that robot_state_publisher would subscribe to.
 
     Args:
         topics: Those of a recording.
@@ -56,7 +56,7 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
 
 
 def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
-    """Read the messages of some topics of type JointState.
+    """Read the JointState messages of some topics.
 
     As in robot_state_publisher a message whose names and positions differ in number is
     ignored.
@@ -101,7 +101,7 @@ def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
 
 @dataclass(frozen=True, slots=True)
 class _Template:
-    """Offsets in a message, and the bytes by which equal layouts are known.
+    """Offsets in a message, and the bytes that identify messages of the same layout.
 
     Attributes:
         order: "<" or ">".
@@ -124,12 +124,12 @@ class _Template:
     problem: str = ""
 
     def fits(self, payload: bytes) -> bool:
-        """Whether another message has everything at the same places."""
+        """Whether another message has the same offsets."""
         return len(payload) >= self.end and payload.startswith(self.head, self.after)
 
 
 class _Layout:
-    """Layout of a JointState in bytes: after some bytes, with or without alignment."""
+    """Byte layout of a JointState: after a prefix, with or without alignment."""
 
     origin = 0
     stamp = 0
@@ -139,7 +139,7 @@ class _Layout:
         return "<"
 
     def template(self, payload: bytes) -> _Template:
-        """Read one message up to its positions.
+        """Parse one message up to its positions.
 
         Raises:
             struct.error: If it is cut off.
@@ -188,25 +188,25 @@ class _Layout:
 
 
 class _Cdr(_Layout):
-    """ROS 2: four bytes that say the order, then aligned from there."""
+    """ROS 2's layout: four bytes with the byte order, then aligned data."""
 
     origin = 4
     stamp = 4
     aligned = True
 
     def order(self, payload: bytes) -> str:
-        """Return the byte order by the second byte."""
+        """Return the byte order, given in the second byte."""
         return "<" if payload[1:2] in (b"\1", b"\3") else ">"
 
 
 class _Ros1(_Layout):
-    """ROS 1: a sequence number first, nothing aligned."""
+    """ROS 1's layout: a sequence number first, and no alignment."""
 
     stamp = 4
 
 
 class _NameGroup:
-    """Messages that name the same joints."""
+    """Messages with the same joint names."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self.names = names
@@ -215,14 +215,14 @@ class _NameGroup:
         self._runs: list[tuple[str, int]] = []
 
     def add(self, template: _Template, payload: bytes) -> None:
-        """Take a message's stamp and positions."""
+        """Append a message's stamp and positions."""
         self._stamps.append(payload[template.stamp : template.stamp + 8])
         self._positions.append(payload[template.begin : template.end])
         if not self._runs or self._runs[-1][0] != template.order:
             self._runs.append((template.order, len(self._stamps) - 1))
 
     def columns(self) -> JointStates:
-        """All of them."""
+        """Return all of them."""
         ends = [start for _, start in self._runs[1:]] + [len(self._stamps)]
         stamps: list[Stamps] = []
         positions: list[Floats] = []

@@ -1,4 +1,4 @@
-"""Messages of ROS 1 as ROS 2 writes them, and the other way round, by their definitions."""
+"""Conversion of messages between ROS 1's and ROS 2's encoding, by their definitions."""
 
 import re
 from collections.abc import Callable
@@ -28,7 +28,7 @@ _TO_ROS2: Final = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 
 
 class Conversion(NamedTuple):
-    """Conversion of a stream to another profile.
+    """Conversion of a stream to the other profile.
 
     Attributes:
         channel: The stream as it is written then.
@@ -40,7 +40,7 @@ class Conversion(NamedTuple):
 
 
 def as_ros2(channel: Channel) -> Conversion:
-    """A stream of ROS 1 as ROS 2 records it.
+    """Return the conversion of a ROS 1 stream to ROS 2.
 
     Raises:
         InputError: If its type is not known, or its messages are written another way.
@@ -72,7 +72,7 @@ def as_ros2(channel: Channel) -> Conversion:
 
 
 def as_ros1(channel: Channel) -> Conversion:
-    """A stream of ROS 2 as ROS 1 records it.
+    """Return the conversion of a ROS 2 stream to ROS 1.
 
     Raises:
         InputError: If its type is not known, ROS 1 has nothing like it, or its messages are
@@ -100,7 +100,7 @@ def as_ros1(channel: Channel) -> Conversion:
 
 
 def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
-    """A stream's type, and the definitions by which its messages are read."""
+    """Return a stream's type, and the definitions by which its messages are read."""
     if channel.encoding != encoding:
         raise InputError(
             f"its messages are written as '{channel.encoding}', which is not converted here"

@@ -1,4 +1,4 @@
-"""Recorded messages cut into columns: natively where that was built, else in numpy."""
+"""Decoding of recorded messages into columns: natively if built, else in numpy."""
 
 from collections.abc import Sequence
 from typing import Final, TypeAlias
@@ -32,7 +32,7 @@ MOST_WAITING: Final = 1 << 26
 
 
 class Cutter:
-    """Cuts messages with transforms of one layout and kind into a table.
+    """Decoder of transforms of one layout and kind into a table.
 
     What the kinds of it have in common: messages wait until there are some, and those that are
     odd in any way are walked one by one.
@@ -47,7 +47,7 @@ class Cutter:
         self._count = self._held = 0
 
     def add(self, batch: Batch, numbers: Indexes) -> None:
-        """Cut messages, or keep them until there are some more.
+        """Decode messages, or buffer them until there are more.
 
         Args:
             batch: The messages.
@@ -66,7 +66,7 @@ class Cutter:
                 self.flush()
 
     def flush(self) -> None:
-        """Cut everything waiting."""
+        """Decode everything buffered."""
         if not self._waiting:
             return
         waiting, self._waiting = self._waiting, []
@@ -86,7 +86,7 @@ class Cutter:
         self._cut_first(joined, np.concatenate([numbers for _, numbers in waiting]))
 
     def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
-        """Cut messages; where there may be more edges than are kept, those that come first are."""
+        """Decode messages; if there may be too many edges, the first ones are kept."""
         # Even if each byte were part of the smallest transform, all would find room.
         if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
             self._cut(batch, numbers)
@@ -101,11 +101,11 @@ class Cutter:
             begin, done = end, int(most[end - 1])
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
-        """Cut messages in whatever order is quickest."""
+        """Decode messages in the fastest order."""
         raise NotImplementedError
 
     def _walk(self, batch: Batch, numbers: Indexes) -> None:
-        """Read messages one by one, whatever is odd about them."""
+        """Decode messages one by one, including unusual ones."""
         for number in range(len(batch)):
             payload = batch.payload(number)
             try:
@@ -122,7 +122,7 @@ class Cutter:
 
 
 class TemplateCutter(Cutter):
-    """Cuts them in numpy: equal layouts as rows of one table."""
+    """Decoder in numpy: messages of equal layout are rows of one table."""
 
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)
@@ -145,7 +145,7 @@ class TemplateCutter(Cutter):
             self._cut_equal(batch.chosen(which), numbers[which], length)
 
     def _cut_equal(self, batch: Batch, numbers: Indexes, length: int) -> None:
-        """Cut messages that are equally long."""
+        """Decode messages of equal length."""
         # Rows of whole words around the message, so that numpy compares 8 bytes at a time.
         begin, width = row_span(self._layout, length)
         if width < SMALLEST:
@@ -190,7 +190,7 @@ class TemplateCutter(Cutter):
             tried += 1
 
     def _cut_told(self, batch: Batch, numbers: Indexes, length: int) -> tuple[Batch, Indexes]:
-        """Cut messages of layouts that one word tells apart: each row is copied only once.
+        """Decode messages whose layouts differ in one word; each row is copied only once.
 
         Returns:
             The rest, of layouts that are not known yet, in a batch and its numbers.
@@ -222,7 +222,7 @@ class TemplateCutter(Cutter):
         return batch.chosen(rest), numbers[rest]
 
     def _learn(self, payload: bytes, length: int) -> bool:
-        """Make a template of a message; whether it could be one."""
+        """Make a template of a message; return whether that is possible."""
         try:
             walked = walk(self._layout, payload)
         except MalformedMessage:
@@ -248,7 +248,7 @@ class TemplateCutter(Cutter):
 
 
 class ScanCutter(Cutter):
-    """Cuts them natively."""
+    """Native decoder."""
 
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)
@@ -272,7 +272,7 @@ class ScanCutter(Cutter):
             self._walk(batch.chosen(which), numbers[which])
 
     def _aim(self, pair: int, message: int, rank: int) -> None:
-        """Say where a pair's transforms go, and make room.
+        """Return where a pair's transforms are written, with space reserved.
 
         Args:
             pair: Its number.
@@ -304,7 +304,7 @@ class ScanCutter(Cutter):
         self._pairs.aim(number, edge.records, edge.messages, edge.state)
 
     def _named(self, pair: int) -> tuple[str, str]:
-        """Both names of a pair as `walk` gives them."""
+        """Return both names of a pair in the form of `walk`."""
         raw = self._pairs.names(pair)
         if self._layout is CDR:
             # CDR counts the closing zero among a string's bytes.
@@ -318,13 +318,13 @@ AnyCutter: TypeAlias = "Cutter | Decoding"
 
 
 def cutter(table: Table, layout: Layout, static: bool) -> Cutter:
-    """Return the fastest cutter here for messages of one layout and kind."""
+    """Return the fastest available decoder for messages of one layout and kind."""
     kind = TemplateCutter if SCAN is None else ScanCutter
     return kind(table, layout, static)
 
 
 class Decoding:
-    """Takes messages with transforms in other shapes, one by one, into a table."""
+    """Decoder of transforms in other message types, one by one, into a table."""
 
     def __init__(self, table: Table, decode: Decoder, static: bool) -> None:
         self._table = table
@@ -343,11 +343,11 @@ class Decoding:
                 self._table.refused[str(error)] += 1
 
     def flush(self) -> None:
-        """Nothing waits."""
+        """Do nothing: no message is buffered."""
 
 
 def telling_word(templates: Sequence[Template]) -> tuple[int, int]:
-    """A word that differs between all of some templates, and which part of it; 0 for none."""
+    """Return a word that differs between all templates, and a mask of its bits; 0 for none."""
     for word, mask in templates[0].constants():
         values = [template.value(word, mask) for template in templates]
         if -1 not in values and len(set(values)) == len(values):
@@ -356,7 +356,7 @@ def telling_word(templates: Sequence[Template]) -> tuple[int, int]:
 
 
 def _compacted(batch: Batch) -> Batch:
-    """The same messages in a buffer of their own, with room before each for a row."""
+    """Copy messages to a new buffer, with space before each for a row."""
     pieces = []
     starts = np.empty(len(batch), dtype=np.int64)
     position = 0

@@ -1,4 +1,4 @@
-"""Odometry and poses as the transforms that they imply, where they are wished for."""
+"""Transforms implied by odometry and poses, on request."""
 
 from collections.abc import Collection, Iterable
 from typing import Final
@@ -24,7 +24,7 @@ def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
 
 
 def joined(said: Transforms, implied: Transforms) -> Transforms:
-    """Transforms that were sent as such, and those implied of frames that they lack.
+    """Merge published transforms with implied ones of frames that tf lacks.
 
     Args:
         said: Of the topics that carry transforms.

@@ -1,4 +1,4 @@
-"""A recording to ask: its frames over its whole length, in one buffer."""
+"""A recording for lookups: its frames over its whole length, in one buffer."""
 
 import os
 from collections import Counter
@@ -61,7 +61,7 @@ MOST_FRAMES: Final = 1 << 18
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Samples:
-    """Every recorded transform of one child, in the order of its stamps.
+    """All recorded transforms of one child, in order of stamps.
 
     Attributes:
         stamps: Nanoseconds, shape (n,).
@@ -87,7 +87,7 @@ class Samples:
 
 
 class Recording:
-    """A recording, opened; `open_recording` makes one. Works in a `with`.
+    """An open recording, made by `open_recording`; a context manager.
 
     What it holds is known at once; transforms are read when they are first asked for.
     """
@@ -137,7 +137,7 @@ class Recording:
         )
 
     def close(self) -> None:
-        """Close its files; data already read stays."""
+        """Close its files; data already read stays available."""
         self._closed = True
         self.source.close()
 
@@ -158,12 +158,12 @@ class Recording:
 
     @property
     def name(self) -> str:
-        """Name as it was given."""
+        """Name as given by the user."""
         return self.source.name
 
     @property
     def topics(self) -> tuple[RecordedTopic, ...]:
-        """Every topic: name, type, number of messages; by name."""
+        """Return every topic: name, type, number of messages; by name."""
         return self.source.topics
 
     @property
@@ -173,7 +173,7 @@ class Recording:
 
     @property
     def damage(self) -> tuple[str, ...]:
-        """Return what could not be read, as sentences; reading on may find more."""
+        """Return what could not be read, as sentences; further reading may find more."""
         return (*self.source.damage, *self._read_damage())
 
     def _read_damage(self) -> tuple[str, ...]:
@@ -181,7 +181,7 @@ class Recording:
 
     @cached_property
     def transforms(self) -> Transforms:
-        """Every transform, in columns per edge."""
+        """All transforms, in columns per edge."""
         if self._tf_topics:
             chosen, names = transforms_on(self._readable, self._tf_topics, self._progress)
             if names.colliding:
@@ -201,7 +201,7 @@ class Recording:
 
     @cached_property
     def odometry(self) -> tuple[RecordedTopic, ...]:
-        """Topics that carry no transforms, and whose messages are taken for some as well."""
+        """Topics without transforms whose messages are used as transforms."""
         return implying(self.topics) if self._with_odometry else ()
 
     @property
@@ -211,7 +211,7 @@ class Recording:
 
     @cached_property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last stamp of moving links, nanoseconds; log times where nothing does.
+        """First and last stamp of moving links, nanoseconds; log times if nothing moves.
 
         Of a recording with two clocks, those of the clock that most transforms have.
         """
@@ -247,7 +247,7 @@ class Recording:
 
     @cached_property
     def buffer(self) -> Buffer:
-        """All of it, without a limit to its memory: look up at any stamp.
+        """Buffer of all transforms without a limit: lookups work at any stamp.
 
         A static's last value holds at all times. Transforms that tf2 would refuse, or with
         stamp 0 though they move, are left out; see `oddities`. Frames that tf lacks come from
@@ -291,7 +291,7 @@ class Recording:
 
     @cached_property
     def robot(self) -> Robot | None:
-        """The robot, by its description: the one that was given, else the one recorded.
+        """Robot by its description: the given one, else the recorded one.
 
         Mistakes in a recorded one are among `oddities`.
 
@@ -315,25 +315,25 @@ class Recording:
 
     @cached_property
     def joint_states(self) -> RecordedJoints:
-        """The joint states that belong to the robot, as columns."""
+        """Joint states of the robot, as columns."""
         inside = description_topics(self.topics)
         namespace = inside[0].name.rpartition("/")[0] if inside and self._robot is None else ""
         return read_joint_states(self._readable, joint_state_topics(self.topics, namespace))
 
     @property
     def described(self) -> DescribedFrames | None:
-        """Return the frames the robot's description added to tf's; None without one."""
+        """Return the frames that the robot's description adds to tf's; None without one."""
         _ = self.buffer
         return self._described
 
     @property
     def oddities(self) -> dict[str, int]:
-        """Return what the buffer left out or had to choose, as sentences with counts."""
+        """Return what the buffer left out or chose, as sentences with counts."""
         _ = self.buffer
         return dict(self._oddities)
 
     def headers(self, topic: str) -> Headers:
-        """The headers of a topic's messages: stamps, log times and frame names as columns.
+        """Return the headers of a topic's messages: stamps, log times and frame names as columns.
 
         Raises:
             InputError: If there is no such topic, or its messages have no header.
@@ -345,7 +345,7 @@ class Recording:
         return found[topic]
 
     def samples(self, frame: str) -> Samples:
-        """Every recorded transform of one child frame, as it was recorded.
+        """Return all recorded transforms of one child frame, unchanged.
 
         Raises:
             InputError: If it is the child of none.
@@ -370,7 +370,7 @@ class Recording:
         )
 
     def raw_messages(self, topic: str) -> Iterator[RawMessage]:
-        """A topic's messages as they were recorded, one by one.
+        """Yield a topic's messages as recorded, one by one.
 
         Raises:
             InputError: If there is no such topic.
@@ -386,7 +386,7 @@ class Recording:
             self._require_open()
 
     def messages(self, topic: str) -> Iterator[tuple[Stamp, Any]]:
-        """A topic's messages, decoded one by one by the definition in the recording.
+        """Yield a topic's messages, decoded by the definition in the recording.
 
         Returns:
             For each the moment it was received, nanoseconds, and the message: a class with
@@ -425,7 +425,7 @@ class Recording:
 
 
 def _by_clock(stamps: Stamps) -> list[Stamps]:
-    """Stamps above 0, those of a simulation's clock apart from others; as a rule all of one."""
+    """Split stamps above 0 by clock, a simulation's and others; usually there is one."""
     if len(stamps) and stamps.min() >= SIMULATED_BELOW:
         return [stamps]
     stamps = stamps[stamps > 0]
@@ -459,7 +459,7 @@ def _set_moving(
 def _set_static(
     buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
 ) -> None:
-    """Set the last of a child's statics, whichever parent it names."""
+    """Insert the last of a child's static transforms, whatever its parent."""
     edge = max(edges, key=_last)
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()
@@ -490,7 +490,7 @@ def _last(edge: Edge) -> int:
 
 
 def _silent(level: str, text: str) -> None:
-    """Log nothing: refused samples are counted here instead."""
+    """Log nothing: rejected samples are counted here."""
 
 
 def open_recording(
@@ -546,7 +546,7 @@ def open_recording(
 
 
 def _facts(found: Found) -> list[tuple[int, int]]:
-    """Return size and time of change of every file that is read; -1 where one is gone."""
+    """Return size and modification time of every file read; -1 for a missing one."""
     facts = []
     for path in found.paths:
         for file in sorted(path.iterdir()) if path.is_dir() else [path]:

@@ -1,4 +1,4 @@
-"""Figures of a recording: edges with rates and clock offsets, trees, oddities."""
+"""Statistics of a recording: edges with rates and clock offsets, trees, oddities."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from tftool.recordings.recording import Recording
 
 @dataclass(frozen=True, slots=True)
 class Offset:
-    """Delays from the stamp of a transform to its reception, nanoseconds."""
+    """Delays from stamp to reception, nanoseconds."""
 
     least: Duration
     median: Duration
@@ -21,7 +21,7 @@ class Offset:
 
 @dataclass(frozen=True, slots=True)
 class EdgeFacts:
-    """One edge in numbers.
+    """Statistics of one edge.
 
     Attributes:
         parent: Name.
@@ -50,14 +50,14 @@ class EdgeFacts:
 
 @dataclass(frozen=True, slots=True)
 class TreeFacts:
-    """One tree: its root, and how many frames it has, by each frame's last parent."""
+    """One tree: its root, and its number of frames, by each frame's last parent."""
 
     root: str
     frames: int
 
 
 def edge_facts(transforms: Transforms) -> list[EdgeFacts]:
-    """Every edge in numbers, in the order in which they came up."""
+    """Return the statistics of every edge, in order of appearance."""
     return [_facts(transforms, edge) for edge in transforms.edges if len(edge)]
 
 
@@ -93,7 +93,7 @@ def _facts(transforms: Transforms, edge: Edge) -> EdgeFacts:
 
 
 def trees(transforms: Transforms) -> list[TreeFacts]:
-    """Every tree, the largest first."""
+    """Return every tree, the largest first."""
     parents: dict[str, tuple[int, str]] = {}
     names: dict[str, None] = {}
     for edge in transforms.edges:
@@ -124,7 +124,7 @@ def trees(transforms: Transforms) -> list[TreeFacts]:
 def oddities(
     recording: Recording, edges: Sequence[EdgeFacts], forest: Sequence[TreeFacts]
 ) -> list[str]:
-    """Return oddities of a recording's transforms, as sentences; damage is apart.
+    """Return oddities of a recording's transforms as sentences, without damage.
 
     Args:
         recording: Which.

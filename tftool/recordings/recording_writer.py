@@ -1,4 +1,4 @@
-"""A recording to write: transforms and messages into a file that `open_recording` reads."""
+"""Writing a recording: transforms and messages into a file that `open_recording` reads."""
 
 import os
 import sys
@@ -19,7 +19,7 @@ from tftool.recordings.target import Target, failed
 
 
 class RecordingWriter:
-    """A recording that is being written; `write_recording` makes one. Works in a `with`.
+    """A recording being written, made by `write_recording`; a context manager.
 
     At the end of the `with` it comes to its name, whole; an exception that leaves the `with`
     removes the written data, and the name keeps its old file.
@@ -72,7 +72,7 @@ class RecordingWriter:
         log_time: Stamp | None = None,
         topic: str = "/tf_static",
     ) -> None:
-        """Append one message of transforms that hold at all times; see `transforms`."""
+        """Append one message of static transforms; see `transforms`."""
         self._write_transforms(samples, log_time, topic, static=True)
 
     def _write_transforms(
@@ -85,7 +85,7 @@ class RecordingWriter:
         self.raw(channel, log_time, encode_transforms(chosen))
 
     def message(self, topic: str, message: Message, log_time: Stamp) -> None:
-        """Append one message of a class that we know the definition of.
+        """Append one message of a class with a known definition.
 
         Raises:
             InputError: If the definition is not ours, or a value does not fit its field.
@@ -101,7 +101,7 @@ class RecordingWriter:
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message as it is.
+        """Append one message as bytes.
 
         Args:
             channel: The stream it belongs to.
@@ -117,7 +117,7 @@ class RecordingWriter:
         self.container.write(number, log_time, payload, publish_time, sequence)
 
     def new_message(self, kind: str) -> Any:
-        """An empty message of a type: `new_message("std_msgs/String")`.
+        """Return an empty message of a type: `new_message("std_msgs/String")`.
 
         Raises:
             InputError: If the type is not known.
@@ -125,7 +125,7 @@ class RecordingWriter:
         return INTERFACES.message(kind)()
 
     def close(self) -> None:
-        """Write the rest, and bring the recording to its name.
+        """Write the rest, and give the recording its name.
 
         Raises:
             InputError: If that fails; the written data is gone then.
@@ -141,7 +141,7 @@ class RecordingWriter:
         self._target.commit()
 
     def discard(self) -> None:
-        """Remove the written data; the name keeps its old file."""
+        """Remove the written data; an existing file of that name stays."""
         self.container.abandon()
         self._target.discard()
 
@@ -154,7 +154,7 @@ def write_recording(
     profile: str = "ros2",
     force: bool = False,
 ) -> RecordingWriter:
-    """Begin a recording: MCAP, rosbag2 or a ROS 1 bag, as its name asks for.
+    """Create a recording: MCAP, rosbag2 or a ROS 1 bag, by its name.
 
         with tftool.write_recording("run.mcap") as recording:
             recording.static_transforms([laser_in_base])
@@ -199,7 +199,7 @@ def write_recording(
 
 
 def library_name() -> str:
-    """Return our name in files."""
+    """Return the library name written into files."""
     # The package stands above every room: it is asked, not imported.
     version: str = sys.modules["tftool"].__version__
     return f"tftool {version}"

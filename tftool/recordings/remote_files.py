@@ -13,13 +13,13 @@ _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*(?:::.*)?://")
 
 
 def is_url(word: str) -> bool:
-    """Whether a word names something elsewhere: `s3://bucket/run.mcap`, `https://…`."""
+    """Whether a word is a URL: `s3://bucket/run.mcap`, `https://…`."""
     return _URL.match(word) is not None and not os.path.lexists(word)
 
 
 @contextmanager
 def fetched(place: str) -> Iterator[str]:
-    """A recording as a path: a URL is copied into a folder that is gone afterwards.
+    """Return a local path to a recording; a URL is copied to a temporary folder.
 
     Args:
         place: A path, which is given back, or a URL.
@@ -45,7 +45,7 @@ def fetched(place: str) -> Iterator[str]:
 
 
 def listed(place: str) -> list[str]:
-    """The URLs that one with `*`, `?` or `[…]` in it names; one without names itself.
+    """Expand a URL with `*`, `?` or `[…]` in its name; return others unchanged.
 
     Raises:
         InputError: If it names nothing, or cannot be listed.
@@ -77,7 +77,7 @@ def _opened(place: str) -> tuple[Any, str]:
 
 @contextmanager
 def _failures_told(place: str) -> Iterator[None]:
-    """Every service has errors of its own; ours says which place it was about."""
+    """Convert a service's own errors to ours, with the URL."""
     try:
         yield
     except FileNotFoundError as error:

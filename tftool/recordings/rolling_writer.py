@@ -1,4 +1,4 @@
-"""A recording that grows while a session runs: a kill loses a second, at most.
+"""A recording that grows while a session runs; if the process is killed, at most a second is lost.
 
 Until a file is closed it has `.active` behind its name, as ROS 1's recorder has it; what is in it
 then can be read, and `tftool edit` repairs it.
@@ -32,7 +32,7 @@ MOST_HELD: Final = 1 << 30
 
 
 class Kept(NamedTuple):
-    """One message that waits in a ring."""
+    """One message in a ring buffer."""
 
     channel: Channel
     log_time: Stamp
@@ -42,7 +42,7 @@ class Kept(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class RecordLimits:
-    """Limits at which a recording begins a new file, or drops its oldest part.
+    """Limits for starting a new file or dropping the oldest part.
 
     Attributes:
         size: Bytes of a file before the next one begins; 0 for one file.
@@ -61,7 +61,7 @@ class RecordLimits:
 
 
 class RollingRecording:
-    """An MCAP file, or a folder of them, that takes messages as they arrive.
+    """An MCAP file, or a folder of them, for messages as they arrive.
 
     Attributes:
         path: Its name in the end.
@@ -79,7 +79,7 @@ class RollingRecording:
         compression: str = "zstd",
         force: bool = False,
     ) -> None:
-        """Begin it; with a ring nothing is written before `close`.
+        """Start the recording; with a ring buffer nothing is written before `close`.
 
         Args:
             path: A name that ends in ".mcap", or one without a suffix for a folder.
@@ -149,7 +149,7 @@ class RollingRecording:
 
     @property
     def size(self) -> int:
-        """Bytes written so far, or held in the ring."""
+        """Bytes written so far, or held in the ring buffer."""
         return self._written + self._held_bytes + (self._writer.size if self._writer else 0)
 
     def _place(self, number: int) -> Path:
@@ -160,7 +160,7 @@ class RollingRecording:
     # Messages
 
     def take(self, channel: Channel, log_time: Stamp, payload: bytes, transforms: int = 0) -> None:
-        """Take one message.
+        """Add one message.
 
         Args:
             channel: The stream it belongs to.
@@ -186,7 +186,7 @@ class RollingRecording:
             self._keep_static(channel, payload)
 
     def _forget(self, now: Stamp) -> None:
-        """Drop messages older than the ring is long."""
+        """Drop messages older than the length of the ring buffer."""
         held, oldest = self._held, now - self._limits.ring
         while held and (held[0].log_time < oldest or self._held_bytes > MOST_HELD):
             self._held_bytes -= len(held.popleft().payload)
@@ -223,7 +223,7 @@ class RollingRecording:
             raise self._rescued(error) from error
 
     def _number(self, writer: McapWriter, channel: Channel) -> int:
-        """The number of a stream in the file that is open."""
+        """Return a stream's number in the open file."""
         number = writer.channel(channel)
         self._numbers[id(channel)] = number, channel
         return number
@@ -237,7 +237,7 @@ class RollingRecording:
         return bool(too_large or too_long)
 
     def _next(self, now: Stamp) -> McapWriter:
-        """Begin the next file, with all statics at its head."""
+        """Start the next file, with all static transforms first."""
         if self._writer is not None:
             self._close_file()
         writer = self._open()
@@ -268,7 +268,7 @@ class RollingRecording:
         return self._writer
 
     def tick(self, now: Stamp) -> None:
-        """Write messages that waited for a second; call it a few times a second.
+        """Write messages that have waited for a second; call a few times a second.
 
         Raises:
             InputError: If it cannot be written; data written before stays readable.
@@ -282,7 +282,7 @@ class RollingRecording:
         self._flushed = now
 
     def held(self) -> list[Kept]:
-        """Yield the messages of the ring, the oldest first; the statics in front."""
+        """Yield the ring buffer's messages, oldest first, after the static transforms."""
         statics = [
             Kept(
                 channel,
@@ -330,7 +330,7 @@ class RollingRecording:
             raise self._rescued(error) from error
 
     def discard(self) -> None:
-        """Close it, and take everything of it away."""
+        """Close the recording, and remove all its files."""
         self._closed = True
         if self._writer is not None:
             self._writer.abandon()
@@ -349,7 +349,7 @@ class RollingRecording:
         self._named(writer)
 
     def _named(self, writer: McapWriter) -> None:
-        """Give a file that is closed its name."""
+        """Give a closed file its name."""
         place = self._place(len(self.files))
         active = place.with_name(place.name + ACTIVE)
         synced(active)
@@ -364,7 +364,7 @@ class RollingRecording:
         self._facts.append(FileFacts(place.name, start, end, sum(writer.counts.values())))
 
     def _rescued(self, error: OSError) -> InputError:
-        """Save the written part, and say why there is no more."""
+        """Keep the part written so far, and say why it is incomplete."""
         self._closed = True
         writer, self._writer = self._writer, None
         where = self.path

@@ -1,4 +1,4 @@
-"""Streams of messages of ROS 2's types, as rosbag2 records them."""
+"""Channels of ROS 2 message types, as rosbag2 records them."""
 
 from typing import Final
 
@@ -10,7 +10,7 @@ TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
 
 
 def ros2_channel(topic: str, kind: str, *, static: bool = False) -> Channel:
-    """A stream of messages of a type we know, as ROS 2 records it.
+    """Return the channel of a known type, as ROS 2 records it.
 
     Args:
         topic: Its name.

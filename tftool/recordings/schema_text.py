@@ -1,4 +1,4 @@
-"""A type's definition as recordings hold it, with those of all types it is made of."""
+"""Type definitions as recordings store them, including nested types."""
 
 import hashlib
 import re
@@ -19,7 +19,7 @@ _HEADER: Final = "std_msgs/msg/Header"
 
 
 def ros2_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
-    """A type's definition as ROS 2 records it ("ros2msg"); its parts follow, each under its name.
+    """Return ROS 2's recorded definition ("ros2msg"): the type, then nested types by name.
 
     Raises:
         InputError: If the type is not known.
@@ -54,7 +54,7 @@ def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
 
 
 def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
-    """A type's definition as ROS 1 records it, made from the known fields.
+    """Return ROS 1's recorded definition, made from the known fields.
 
     Raises:
         InputError: If the type is not known, or ROS 1 has nothing like it.
@@ -70,7 +70,7 @@ def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
 
 def ros1_md5(name: str, interfaces: Interfaces = INTERFACES) -> str:
-    """The sum by which ROS 1 tells versions of a type apart.
+    """Return ROS 1's MD5 sum of a type's version.
 
     Source: wiki.ros.org/ROS/Technical%20Overview, and `roslib.gentools.compute_md5_text`.
     """
@@ -92,7 +92,7 @@ def ros1_md5(name: str, interfaces: Interfaces = INTERFACES) -> str:
 
 @cache
 def known_hash(name: str) -> str:
-    """The hash of a type that we know the definition of; "" of another."""
+    """Return the hash of a type with a known definition; else ""."""
     try:
         return type_hash(INTERFACES, full_name(name))
     except InputError:
@@ -100,7 +100,7 @@ def known_hash(name: str) -> str:
 
 
 def short(full: str) -> str:
-    """A type's name as ROS 1 writes it."""
+    """Return a type's name in ROS 1's form."""
     return full.replace("/msg/", "/")
 
 
@@ -120,7 +120,7 @@ def _ros2_text(interfaces: Interfaces, full: str) -> str:
 
 
 def _parts(interfaces: Interfaces, full: str) -> list[str]:
-    """The types that one is made of, each once, in the order they come up."""
+    """Return a type's nested types, each once, in order of appearance."""
     found: dict[str, None] = {}
     waiting = [full]
     while waiting:

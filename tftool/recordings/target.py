@@ -1,4 +1,4 @@
-"""Target of a recording: beside its place, under another name, until it is whole.
+"""Target of a recording: written beside its final place, and renamed when complete.
 
 A file or folder comes to its final name by one rename, when all of it is on the disk. Until
 then the name is what it was before: nothing, or the recording that stood there.
@@ -21,7 +21,7 @@ PART: Final = ".part"
 
 
 def refuse_stdout(path: Path) -> None:
-    """Refuse `-`, which people write for stdout, as the name of a file.
+    """Refuse `-` as a file name: stdout is not supported.
 
     Raises:
         UsageError: If it is that.
@@ -31,7 +31,7 @@ def refuse_stdout(path: Path) -> None:
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
-    """Refuse to write where something is, a broken symbolic link included.
+    """Refuse to overwrite anything, including a broken symbolic link.
 
     Raises:
         UsageError: If something has that name and `force` is not given, or it is `-`.
@@ -42,7 +42,7 @@ def refuse_existing(path: Path, *, force: bool) -> None:
 
 
 class Target:
-    """A file or folder that is written whole or not at all. Works in a `with`.
+    """A file or folder written completely or not at all; a context manager.
 
     Attributes:
         path: Its name in the end.
@@ -50,7 +50,7 @@ class Target:
     """
 
     def __init__(self, path: Path, *, folder: bool = False, force: bool = False) -> None:
-        """Make the part, after a look at existing files.
+        """Create the temporary file or folder, after checking existing ones.
 
         Args:
             path: Its name in the end.
@@ -93,7 +93,7 @@ class Target:
             self.discard()
 
     def commit(self) -> None:
-        """Bring it to its name, when all of it is on the disk.
+        """Give it its name, once everything is on the disk.
 
         Raises:
             InputError: If that fails; the part is gone then.
@@ -127,7 +127,7 @@ class Target:
         remove(old)
 
     def discard(self) -> None:
-        """Remove the part; the name stays what it was."""
+        """Remove the temporary file; an existing file of that name stays."""
         with suppress(OSError):
             self._clear()
 
@@ -136,7 +136,7 @@ class Target:
 
 
 def commit_together(targets: Sequence[Target]) -> None:
-    """Bring files that belong together to their names: all of them, or none.
+    """Give related files their names together, or none of them.
 
     The last is the one by which the others are found. It comes to its name last, and what it
     replaces goes first: whenever a process ends, it is never beside files that are not its own.
@@ -176,7 +176,7 @@ def commit_together(targets: Sequence[Target]) -> None:
 
 
 def remove(path: Path) -> None:
-    """Remove a file or a folder, if it is there."""
+    """Remove a file or folder, if it exists."""
     if path.is_dir() and not path.is_symlink():
         shutil.rmtree(path)
     else:
@@ -184,7 +184,7 @@ def remove(path: Path) -> None:
 
 
 def synced(path: Path) -> None:
-    """Wait until a file or a folder is on the disk."""
+    """Wait until a file or folder is on the disk."""
     number = os.open(path, os.O_RDONLY)
     try:
         os.fsync(number)
@@ -197,7 +197,7 @@ def synced(path: Path) -> None:
 
 
 def failed(path: Path, error: OSError) -> InputError:
-    """Return the error of a file that cannot be written, as a sentence."""
+    """Return the error for a file that cannot be written, as a sentence."""
     if error.errno == errno.ENOSPC:
         return InputError(f"'{path}' cannot be written: the disk is full.")
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
@@ -208,7 +208,7 @@ def failed(path: Path, error: OSError) -> InputError:
 
 
 def check_room(path: Path, size: int) -> None:
-    """Refuse what the disk has no room for.
+    """Refuse data for which the disk has no space.
 
     Raises:
         InputError: If fewer than `size` bytes are free.
@@ -228,7 +228,7 @@ def _megabytes(size: int) -> str:
 
 
 def _is_recording_folder(path: Path) -> bool:
-    """Whether nothing is in a folder but a recording."""
+    """Whether a folder contains only a recording."""
     return all(
         one.is_file() and (one.name == "metadata.yaml" or one.suffix in SUFFIXES)
         for one in path.iterdir()

@@ -1,4 +1,4 @@
-"""Transforms of chosen topics, with the frames of several robots told apart.
+"""Transforms of chosen topics, with several robots' frames kept apart.
 
 Robots in namespaces publish the same frame names on topics of their own: /r1/tf, /r2/tf.
 """
@@ -21,7 +21,7 @@ SHARED_ROOTS: Final = frozenset({"earth", "map", "world"})
 
 @dataclass(frozen=True, slots=True)
 class RobotNames:
-    """Frame names of several robots, told apart by their namespaces.
+    """Frame names of several robots, distinguished by namespaces.
 
     Attributes:
         robots: Namespaces without slashes around them; empty for topics without one.
@@ -32,7 +32,7 @@ class RobotNames:
     colliding: frozenset[str]
 
     def named(self, topic: str, frame: str) -> str:
-        """Return the name of a frame that a message on a topic names."""
+        """Return the unique name for a frame in a topic's messages."""
         robot = next((one for one in self.robots if one and topic.startswith(f"/{one}/")), "")
         return f"{robot}/{frame}" if robot and frame in self.colliding else frame
 
@@ -49,7 +49,7 @@ class RobotNames:
 def transforms_on(
     source: Source, topics: Sequence[str], progress: Progress | None = None
 ) -> tuple[Transforms, RobotNames]:
-    """Read the transforms of some topics, each with the static one beside it.
+    """Read the transforms of some topics, each with its static topic.
 
     Topics of one namespace belong to one robot. A frame name that several robots use gets the
     namespace as prefix, unless it is a root that they share (`SHARED_ROOTS`).
@@ -96,7 +96,7 @@ def transforms_on(
 
 
 def _with_statics(source: Source, names: Iterable[str]) -> list[str]:
-    """Return the topics of these names, and the static one that goes with each."""
+    """Return these topics with the static topic of each."""
     known = {topic.name for topic in source.topics if topic.transforms}
     found = []
     for name in names:
@@ -109,7 +109,7 @@ def _with_statics(source: Source, names: Iterable[str]) -> list[str]:
 
 
 def _colliding(robots: Sequence[Sequence[Edge]]) -> frozenset[str]:
-    """Return the frame names that mean another frame for each of several robots."""
+    """Return the frame names that several robots use for different frames."""
     used = Counter(
         frame for edges in robots for frame in {one for e in edges for one in (e.parent, e.child)}
     )

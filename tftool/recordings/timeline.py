@@ -1,4 +1,4 @@
-"""In which order, and when, the messages of a recording are to be sent again."""
+"""Order and times for playing a recording's messages."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ _NOTHING: Final = np.zeros(0, dtype=np.int64)
 
 
 def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
-    """Log times on the clock that `/clock` read when it was received, interpolated.
+    """Convert log times to the time of `/clock` at reception, interpolated.
 
     Before its first and after its last message it is taken to run at rate 1.
     """
@@ -37,7 +37,7 @@ def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
 
 
 class PlayClock:
-    """Log times on the clock of the stamps, which is what `/clock` has to say while it plays.
+    """Conversion of log times to the stamps' clock, published on `/clock` during playback.
 
     What the recording's own `/clock` read counts, where it has one. Where stamps are a
     simulation's and log times are not, the median of their differences does; else log times
@@ -69,7 +69,7 @@ class PlayClock:
             self._offset = int(np.median(simulated))
 
     def of(self, log_times: Stamps) -> Stamps:
-        """The moments of log times, nanoseconds, shape (n,)."""
+        """Convert log times to nanoseconds on the stamps' clock, shape (n,)."""
         if not self._is_other:
             return log_times
         if len(self._read):
@@ -79,7 +79,7 @@ class PlayClock:
 
 @dataclass(frozen=True, slots=True)
 class Due:
-    """Transforms of one message, to be sent at one moment.
+    """One message's transforms, to publish at one time.
 
     Attributes:
         moment: When, on the clock of the stamps.
@@ -98,7 +98,7 @@ class Due:
 
 @dataclass(frozen=True, slots=True)
 class TimelineRows:
-    """Transforms of some messages, in the order in which they were received.
+    """Transforms of some messages, in order of reception.
 
     Attributes:
         edges: The number of the edge of each, shape (n,).
@@ -112,7 +112,7 @@ class TimelineRows:
 
 
 class Timeline:
-    """The transforms of a recording in the order in which they were received.
+    """A recording's transforms in order of reception.
 
     Attributes:
         clock: Which moment a log time is.
@@ -121,7 +121,7 @@ class Timeline:
     """
 
     def __init__(self, source: Source, transforms: Transforms) -> None:
-        """Put the messages in order.
+        """Sort the messages.
 
         Args:
             source: The recording.
@@ -154,11 +154,12 @@ class Timeline:
         return len(self.moments)
 
     def place(self, moment: Stamp, *, after: bool = False) -> int:
-        """The number of the first message at or after a moment, or only after it."""
+        """Return the number of the first message at or after a time, or only after it."""
         return int(np.searchsorted(self.moments, moment, side="right" if after else "left"))
 
     def is_plain(self) -> npt.NDArray[np.bool_]:
-        """Tell messages all of whose frames come from one sender, with one parent, none static.
+        """Return a mask of messages whose frames have one publisher and one parent and are not
+        static.
 
         The order among such frames changes nothing. Shape (n,).
         """
@@ -173,7 +174,7 @@ class Timeline:
         return plain
 
     def rows(self, first: int, last: int) -> "TimelineRows":
-        """Return the transforms of the messages from `first` up to `last`, which is left out."""
+        """Return the transforms of the messages from `first` up to, not including, `last`."""
         begin, end = int(self._firsts[first]), int(self._firsts[last])
         counts = np.diff(self._firsts[first : last + 1])
         places = np.repeat(np.arange(first, last), counts)
@@ -184,7 +185,7 @@ class Timeline:
         return self._transforms.edges[number]
 
     def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
-        """Return the sender of each message by its number in names, and these names.
+        """Return each message's publisher as a number, and the publishers' names.
 
         The topic names the sender where no node is recorded.
         """
@@ -194,7 +195,7 @@ class Timeline:
         return numbers[self._transforms.senders[self._order[places]]], names
 
     def message(self, place: int) -> list[Due]:
-        """Return a message's transforms, moving and static ones apart."""
+        """Return a message's transforms, moving and static ones separately."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
         publisher = self._transforms.publishers[int(sender)]
@@ -208,7 +209,7 @@ class Timeline:
         ]
 
     def known_at(self, moment: Stamp) -> list[Due]:
-        """Return the last transform of every child that had been received by a moment.
+        """Return the last transform of every child received up to a time.
 
         A static that came later counts from the beginning on, as what it says holds at all
         times.

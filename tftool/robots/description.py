@@ -14,7 +14,7 @@ LIMITED_TYPES = ("revolute", "prismatic")
 
 @dataclass(frozen=True, slots=True)
 class BoxShape:
-    """A box around its origin.
+    """A box centred on its origin.
 
     Attributes:
         size: Length along x, y and z, metres.
@@ -25,7 +25,7 @@ class BoxShape:
 
 @dataclass(frozen=True, slots=True)
 class CylinderShape:
-    """A cylinder along z around its origin; metres."""
+    """A cylinder along z, centred on its origin; metres."""
 
     radius: float
     length: float
@@ -33,7 +33,7 @@ class CylinderShape:
 
 @dataclass(frozen=True, slots=True)
 class CapsuleShape:
-    """A cylinder along z with half a sphere on each end; metres, `length` without the ends."""
+    """A cylinder along z with a hemisphere on each end; metres, `length` without the ends."""
 
     radius: float
     length: float
@@ -41,14 +41,14 @@ class CapsuleShape:
 
 @dataclass(frozen=True, slots=True)
 class SphereShape:
-    """A sphere around its origin; metres."""
+    """A sphere centred on its origin; metres."""
 
     radius: float
 
 
 @dataclass(frozen=True, slots=True)
 class MeshShape:
-    """A surface in a file of its own.
+    """A surface in a separate file.
 
     Attributes:
         filename: As written: `package://…`, `file://…`, or a path beside the description.
@@ -79,7 +79,7 @@ class Surface:
 
 @dataclass(frozen=True, slots=True)
 class LinkShape:
-    """One visual or one collision shape of a link.
+    """A visual or collision shape of a link.
 
     Attributes:
         name: Its name, often empty.
@@ -96,7 +96,7 @@ class LinkShape:
 
 @dataclass(frozen=True, slots=True)
 class RobotLink:
-    """One rigid part of a robot, which is one frame.
+    """A rigid part of a robot, with its own frame.
 
     Attributes:
         name: Its name, and its frame's.
@@ -130,7 +130,7 @@ class JointLimit:
 
 @dataclass(frozen=True, slots=True)
 class JointMimic:
-    """A joint that follows another: position = multiplier · leader's position + offset."""
+    """A joint that mimics another: position = multiplier · leader's position + offset."""
 
     joint: str
     multiplier: float = 1.0
@@ -168,14 +168,14 @@ class RobotJoint:
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """The least and the greatest position; None for a joint without, such as a wheel."""
+        """Minimum and maximum position; None for a joint without limits, such as a wheel."""
         if self.limit is None or self.type not in LIMITED_TYPES:
             return None
         return self.limit.lower, self.limit.upper
 
     @property
     def unit(self) -> str:
-        """Return the unit of its position: rad or m."""
+        """Unit of its position: rad or m."""
         return "m" if self.type == "prismatic" else "rad"
 
 

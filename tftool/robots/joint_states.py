@@ -1,4 +1,4 @@
-"""Positions of a robot's joints over time."""
+"""Joint positions of a robot over time."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointStates:
-    """Positions of some joints at many moments.
+    """Positions of some joints at many times.
 
     Attributes:
         names: The joints, in the order of the columns.

@@ -1,4 +1,4 @@
-"""Triangles of mesh files: STL, OBJ and COLLADA, with the colours that the files give them."""
+"""Triangles of mesh files: STL, OBJ and COLLADA, with the colours in the files."""
 
 import struct
 from collections.abc import Iterator, Mapping
@@ -188,7 +188,7 @@ def _geometry(
 
 
 def _fan(corners: Indices, sizes: Indices | list[int]) -> Indices:
-    """Cut polygons into triangles around the first corner of each."""
+    """Split polygons into triangles around their first vertex."""
     sizes = np.asarray(sizes, int)
     cuts = np.maximum(sizes - 2, 0)
     first = np.repeat(np.cumsum(sizes) - sizes, cuts)

@@ -1,4 +1,4 @@
-"""Files of a robot's meshes: names in a description to files, inside of known folders alone.
+"""Mesh files of a robot: resolution of their names, limited to known folders.
 
 What a description names is a stranger's text. Only files inside the folders that were given
 or found are ever served: no absolute path, no `file://`, nothing reached by `..` or a
@@ -47,26 +47,26 @@ _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
 
 
 class MeshRefused(Exception):
-    """A mesh cannot be shown; says why in a sentence."""
+    """Error for a mesh that cannot be shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class ServedFile:
-    """A file for the page, and its media type."""
+    """A file for the page, with its media type."""
 
     kind: str
     content: bytes
 
 
 class MeshFolders:
-    """The folders that meshes are served from.
+    """Folders from which meshes are served.
 
     Attributes:
         roots: Each with its place in the addresses: `/mesh/<place>/<path below it>`.
     """
 
     def __init__(self, description: Path | None = None, given: Sequence[Path] = ()) -> None:
-        """Find out where meshes may lie.
+        """Find the folders that may contain meshes.
 
         Args:
             description: The file of the robot's description, where there is one: the package
@@ -79,7 +79,7 @@ class MeshFolders:
         self._packages: dict[str, Path | None] = {}
 
     def address(self, name: str) -> str:
-        """The path under which the page gets a mesh or a texture.
+        """Return the path under which the page requests a mesh or texture.
 
         Args:
             name: As the description has it: `package://…`, or a path beside the description.
@@ -95,7 +95,7 @@ class MeshFolders:
         return f"/mesh/{self.roots.index(root)}/{shown}"
 
     def read(self, address: str) -> ServedFile:
-        """The file behind an address, which may also be one that a mesh refers to.
+        """Return the file of an address, including files that a mesh refers to.
 
         Raises:
             MeshRefused: If there is none that may be served.
@@ -113,7 +113,7 @@ class MeshFolders:
             raise MeshRefused(f"'{path.name}' cannot be read: {error.strerror}.") from error
 
     def _place(self, name: str) -> tuple[Path, str]:
-        """The folder a name is looked for in, and the path inside of it."""
+        """Return the folder for a name, and the path within it."""
         match = _PACKAGE.fullmatch(name)
         if match:
             package = self._package(match[1])
@@ -152,7 +152,7 @@ class MeshFolders:
         return [*([] if self._beside is None else [self._beside]), *self._given]
 
     def _inside(self, root: Path, name: str) -> Path:
-        """The path below a folder, once it is known to end inside of it.
+        """Return the path below a folder, checked to stay inside it.
 
         Raises:
             MeshRefused: If it does not, or is no file of a known kind.
@@ -198,7 +198,7 @@ class MeshFolders:
                 yield Path(entry) / inside / name
 
     def _around(self) -> list[Path]:
-        """The packages around the description, from the nearest on."""
+        """Yield the packages around the description, the nearest first."""
         if self._beside is None:
             return []
         above = [self._beside, *self._beside.parents][:6]
@@ -217,7 +217,7 @@ def package_name(folder: Path) -> str:
 
 
 def _below(folder: Path, name: str) -> Iterator[Path]:
-    """Packages of a name below a folder, the nearest first."""
+    """Yield packages of a name below a folder, the nearest first."""
     level: Iterable[Path] = [folder]
     seen = 0
     for _ in range(DEEPEST):

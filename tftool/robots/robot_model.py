@@ -1,4 +1,4 @@
-"""A robot from its description: joint positions to frames, as robot_state_publisher gives them."""
+"""A robot from its description: joint positions to frames, as in robot_state_publisher."""
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -31,7 +31,7 @@ Records: TypeAlias = npt.NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointColumns:
-    """The poses of one joint's child in its parent, many at once.
+    """Poses of one joint's child in its parent, for many joint states.
 
     Attributes:
         joint: The joint.
@@ -45,7 +45,7 @@ class JointColumns:
 
 
 class Robot:
-    """A robot description that answers where its links are.
+    """A robot description that computes the poses of its links.
 
     A joint that was given no position is at zero where its limits allow that, else in the
     middle of them, as joint_state_publisher has it. A joint that mimics another follows
@@ -67,26 +67,26 @@ class Robot:
 
     @property
     def root(self) -> str:
-        """The link that is no joint's child."""
+        """The root link, which is no joint's child."""
         return self.description.root
 
     @property
     def links(self) -> Mapping[str, RobotLink]:
-        """Every link by its name."""
+        """Every link by name."""
         return self.description.links
 
     @property
     def joints(self) -> Mapping[str, RobotJoint]:
-        """Every joint by its name."""
+        """Every joint by name."""
         return self.description.joints
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Return oddities of the description, as sentences."""
+        """Return oddities of the description as sentences."""
         return self.description.notes
 
     def positions(self, given: Mapping[str, float] | None = None) -> dict[str, float]:
-        """The position of every joint that moves, in radians or metres.
+        """Return the position of every movable joint, in radians or metres.
 
         Args:
             given: Positions by joint; they are taken as they are, beyond limits too.
@@ -110,7 +110,7 @@ class Robot:
     def transforms(
         self, given: Mapping[str, float] | None = None, stamp: Stamp = 0
     ) -> tuple[TransformStamped, ...]:
-        """The pose of every link in its parent, in the order of the description's joints.
+        """Return every link's pose in its parent, in the order of the description's joints.
 
         Args:
             given: Positions by joint, see `positions`.
@@ -129,7 +129,7 @@ class Robot:
         )
 
     def joint_above(self, link: str) -> RobotJoint:
-        """The joint that a link hangs from.
+        """Return the joint above a link.
 
         Raises:
             KeyError: If it is the root, or no link.
@@ -137,12 +137,12 @@ class Robot:
         return self._above[link]
 
     def takes(self, name: str) -> bool:
-        """Whether a name is that of a joint that moves."""
+        """Whether a name is a movable joint's."""
         joint = self.joints.get(name)
         return joint is not None and joint.moves
 
     def moved(self, given: Mapping[str, float], stamp: Stamp = 0) -> tuple[TransformStamped, ...]:
-        """The poses of the links that one joint state moves.
+        """Return the poses of the links that one joint state moves.
 
         As in robot_state_publisher, names that are no moving joint here are passed over, and
         so is a position that is not finite; a joint that mimics another follows it unless it
@@ -168,7 +168,7 @@ class Robot:
         return tuple(poses)
 
     def batch(self, names: Sequence[str], positions: npt.ArrayLike) -> tuple[JointColumns, ...]:
-        """The poses of the joints that moved, for many joint states at once.
+        """Return the poses of the moved joints, for many joint states.
 
         Joints that follow a given one by `mimic` are included; others are not, as in
         robot_state_publisher.
@@ -197,7 +197,7 @@ class Robot:
     def motion(
         self, states: JointStates, wanted: Callable[[RobotJoint], bool] | None = None
     ) -> Iterator[tuple[RobotJoint, Records]]:
-        """The poses of the joints that joint states move, as a buffer keeps samples.
+        """Return the poses of moved joints in a buffer's sample layout.
 
         As in robot_state_publisher, names that are no moving joint here are passed over, and
         a joint that mimics another follows it unless it has a position of its own. A position
@@ -230,7 +230,7 @@ class Robot:
             yield joint, records
 
     def _moved(self, names: Sequence[str], columns: Floats) -> Iterator[tuple[RobotJoint, Floats]]:
-        """Every joint that some given ones move, with its positions, shape (n,)."""
+        """Return every joint that given ones move, with positions, shape (n,)."""
         given = {name: columns[:, place] for place, name in enumerate(names)}
         chosen = frozenset(given)
         for joint in self.joints.values():
@@ -244,7 +244,7 @@ class Robot:
     def buffer(
         self, given: Mapping[str, float] | JointStates | Iterable[JointStates] | None = None
     ) -> Buffer:
-        """A buffer with every frame there is.
+        """Return a buffer with every frame.
 
         Args:
             given: Positions by joint (see `positions`), or none: then every frame holds at all
@@ -270,7 +270,8 @@ class Robot:
         return buffer
 
     def leader(self, name: str, given: Collection[str] = ()) -> str:
-        """The joint whose position decides a joint's: its own name, unless it mimics another.
+        """Return the joint that determines a joint's position: its own name, unless it mimics
+        another.
 
         Args:
             name: The joint.
@@ -279,7 +280,7 @@ class Robot:
         return self._leader(self.joints[name], frozenset(given))[0].name
 
     def drive(self, name: str) -> tuple[str, float, float]:
-        """Return the joint that decides a joint's position, where none is given.
+        """Return the joint that determines a joint's position, if none is given.
 
         Args:
             name: The joint.
@@ -303,7 +304,7 @@ class Robot:
             raise UsageError(f"joint '{name}' is {joint.type}: it takes no position")
 
     def _leader(self, joint: RobotJoint, given: frozenset[str]) -> tuple[RobotJoint, float, float]:
-        """The joint whose position decides, and the factor and offset that lead to this one's."""
+        """Return the joint that determines the position, with factor and offset."""
         factor, offset = 1.0, 0.0
         leader, seen = joint, {joint.name}
         while leader.name not in given and leader.mimic is not None:
@@ -336,14 +337,14 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
 
 
 def set_still(buffer: Buffer, joint: RobotJoint, position: float = 0.0, prefix: str = "") -> None:
-    """Put a joint's child into a buffer where it is at all times, under the joint's name."""
+    """Insert a joint's child as a static link into a buffer, with the joint as its source."""
     parent, child = prefix + joint.parent, prefix + joint.child
     pose = TransformStamped(0, parent, child, _pose(joint, position))
     buffer.set_transform_static(pose, joint_in_words(joint, position))
 
 
 def joint_in_words(joint: RobotJoint, position: float) -> str:
-    """A joint and where it is: "elbow (revolute, 0.5 rad)"."""
+    """Describe a joint and its position: "elbow (revolute, 0.5 rad)"."""
     if not joint.moves:
         return f"{joint.name} ({joint.type})"
     return f"{joint.name} ({joint.type}, {position:.4g} {joint.unit})"
@@ -357,7 +358,7 @@ def _rest(joint: RobotJoint) -> float:
 
 
 def _pose(joint: RobotJoint, position: float) -> Transform:
-    """The child's pose in the parent."""
+    """Return the child's pose in the parent."""
     if joint.type in ("revolute", "continuous"):
         return joint.origin @ Transform(rotation=quaternion_from_axis_angle(joint.axis, position))
     if joint.type == "prismatic":

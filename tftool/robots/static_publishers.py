@@ -1,4 +1,4 @@
-"""Files that publish static transforms, read without running them: launch files and scripts.
+"""Static transforms in launch files and scripts, read without running them.
 
 A launch file in Python is looked at as text: what it computes is not known, and is told.
 """
@@ -31,7 +31,7 @@ _EXECUTABLES: Final = ("exec", "executable", "node_executable", "type")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StaticFrames:
-    """The frames of a file that publishes static transforms.
+    """Frames of a file that publishes static transforms.
 
     Attributes:
         name: The file, as it was given.
@@ -49,7 +49,7 @@ class StaticFrames:
 
     @property
     def buffer(self) -> Buffer:
-        """All of them; of one child the last counts, as in tf2."""
+        """Return a buffer with all of them; for each child the last counts, as in tf2."""
         found = Buffer(NO_LIMIT)
         for one in self.links:
             sample = TransformStamped(0, one.parent, one.child, one.transform)
@@ -57,11 +57,11 @@ class StaticFrames:
         return found
 
     def close(self) -> None:
-        """Nothing is left open."""
+        """Do nothing: no file is open."""
 
 
 def load_statics(path: Path, name: str | None = None) -> StaticFrames:
-    """Read the static transforms that a launch file or a script publishes.
+    """Read the static transforms that a launch file or script publishes.
 
     Raises:
         InputError: If it cannot be read, or publishes none.
@@ -80,7 +80,7 @@ Remark = tuple[int, str]
 
 
 def read_statics(path: Path, name: str) -> tuple[list[StaticArguments], list[Remark], list[Remark]]:
-    """Return the static transforms of a file, the mistakes in it, and what only running it tells.
+    """Return a file's static transforms, its mistakes, and what can only be known by running it.
 
     Raises:
         InputError: If it cannot be read.

@@ -1,4 +1,4 @@
-"""Robot descriptions: URDF text to links and joints, or every mistake in it with its place.
+"""Parser of robot descriptions: URDF to links and joints, or every mistake with its place.
 
 Read as `urdfdom`, ROS's own reader, reads it: namespaces and unknown elements are
 ignored; a missing origin is zero, a missing axis is x; rpy turns about fixed axes.
@@ -51,7 +51,7 @@ _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
 def load_description(
     path: str | Path, arguments: Mapping[str, str] | None = None, *, plain: bool = False
 ) -> RobotDescription:
-    """Read a URDF file; one that contains xacro and is called .xacro is expanded first.
+    """Read a URDF file; xacro in a file named .xacro is expanded first.
 
     Args:
         path: The file.
@@ -85,7 +85,7 @@ def load_description(
 
 
 def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -> str:
-    """The text of a description with its xacro expanded; a plain one as it is.
+    """Return a description with its xacro expanded; a plain one unchanged.
 
     Raises:
         InputError: If it cannot be read or expanded.
@@ -96,7 +96,7 @@ def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -
 
 
 def is_xacro(text: str) -> bool:
-    """Whether a description must be expanded before it can be read.
+    """Whether a description must be expanded first.
 
     An expanded file may still declare xacro's namespace; an unexpanded one has
     elements of it, or an attribute with `${…}` or `$(…)`.
@@ -120,7 +120,7 @@ def is_xacro(text: str) -> bool:
 
 
 def _without_declaration(text: str) -> str:
-    """A text with blanks for its XML declaration, which says nothing once it is text.
+    """Return a text with its XML declaration blanked out, as its encoding no longer applies.
 
     One behind an empty line or with a misspelt word in it is read by everybody else.
     """
@@ -131,11 +131,11 @@ def _without_declaration(text: str) -> str:
 
 
 class UnexpandedXacro(InputError):
-    """Error of a URDF that contains xacro elements; nothing of it is executed."""
+    """Error for a URDF that contains xacro elements; nothing in it is executed."""
 
 
 def parse_description(text: str, name: str = "robot_description") -> RobotDescription:
-    """Read the text of a URDF.
+    """Parse the text of a URDF.
 
     Args:
         text: The whole text.
@@ -176,7 +176,7 @@ def _text_of(path: Path) -> str:
 
 @dataclass(slots=True)
 class _Element:
-    """One XML element and where it starts (line and column from 0)."""
+    """One XML element and its position (line and column from 0)."""
 
     tag: str
     attributes: dict[str, str]
@@ -192,11 +192,11 @@ class _Element:
 
 
 class _Unreadable(Exception):
-    """A part could not be read; the mistake is noted already."""
+    """Signal that a part could not be read; its mistake is already recorded."""
 
 
 class _Reader:
-    """One pass over a text: collects mistakes and builds the description."""
+    """One pass over a text, which collects mistakes and builds the description."""
 
     def __init__(self, text: str, name: str) -> None:
         self.text = text
@@ -270,7 +270,7 @@ class _Reader:
 
     @contextlib.contextmanager
     def _left_out(self) -> Iterator[None]:
-        """Turn mistakes into notes: those that leave every frame where it is.
+        """Convert mistakes that leave every frame in place to notes.
 
         urdfdom reads on behind mistakes in a link's looks or weight, so that robots run
         with such files.
@@ -286,7 +286,7 @@ class _Reader:
             self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
-        """Return the place of an attribute's assignment; that of the element if it is not found."""
+        """Return the position of an attribute; that of the element if it is not found."""
         wanted = re.compile(rf"(?<![\w:]){re.escape(attribute)}\s*=\s*(\"[^\"]*\"|'[^']*')")
         column = element.column
         for line in range(element.line, min(element.line + 20, len(self.lines))):
@@ -611,7 +611,7 @@ class _Reader:
 
 
 class _Doctype(Exception):
-    """A document type begins here; it could expand without bound."""
+    """Signal of a document type, which could expand without bound."""
 
 
 def _refuse_doctype(*_declared: object) -> None:
@@ -623,7 +623,7 @@ def _end(joint: _Element, tag: str) -> _Element:
 
 
 def _loops(joint_above: Mapping[str, RobotJoint]) -> list[list[RobotJoint]]:
-    """Every circle of joints, each once."""
+    """Return every loop of joints once."""
     done: set[str] = set()
     loops = []
     for start in joint_above:

@@ -1,4 +1,4 @@
-"""xacro in a process of its own: a description may evaluate Python, without end and without bound.
+"""xacro in a separate process: a description may run Python code that never ends.
 
 The process is given the path and the arguments on its command line, and says one JSON object.
 """
@@ -26,7 +26,7 @@ _NO_PACKAGE = re.compile(r"Package not found: (\S+)")
 
 
 def expand(path: Path, arguments: Mapping[str, str]) -> str:
-    """Return the text of a description with its xacro expanded.
+    """Return a description's text with its xacro expanded.
 
     Args:
         path: The file; what it includes lies beside it.
@@ -62,7 +62,7 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
 
 
 def _main(path: str, arguments: str) -> None:
-    """Expand a file, on the child's side."""
+    """Expand a file, in the child process."""
     # What expressions of the file print goes nowhere: stdout is for the answer alone.
     with os.fdopen(os.dup(1), "w", encoding="utf-8") as answer:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
@@ -86,7 +86,7 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
 
 
 def _lacks_memory(error: BaseException | None) -> bool:
-    """Whether an error is a MemoryError, or xacro's own because of one."""
+    """Whether an error is a MemoryError, or xacro's own caused by one."""
     return error is not None and (
         isinstance(error, MemoryError)
         or _lacks_memory(error.__cause__ or error.__context__ or getattr(error, "exc", None))

@@ -1,4 +1,4 @@
-"""Checks of an answer: a range, a pose, a refusal, names.
+"""Checks of an answer: range, pose, refusal, names.
 
 A `Form` reads the keys that stand beside a question and makes a check of them;
 the check judges answers and says in words what it expects and what it found.
@@ -30,14 +30,14 @@ NEAR = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """Outcome of one look: whether it holds, and the finding in words."""
+    """Outcome of one check: whether it holds, and the finding as text."""
 
     ok: bool
     found: str
 
 
 def _meant(error: TransformException) -> str:
-    """Return the frame's name near the unknown one; empty without one."""
+    """Return the known frame name nearest to an unknown one; empty without one."""
     remedy = error.remedy if isinstance(error, LookupException) else ""
     return remedy if "did you mean" in remedy else ""
 
@@ -50,7 +50,7 @@ class AnswerCheck(ABC):
         """Compare an answer."""
 
     def refused(self, error: TransformException) -> Judged:
-        """Judge that there is no answer."""
+        """Judge a missing answer."""
         # Some of tf2's sentences end in a full stop and a blank, others in neither.
         hint = _meant(error)
         said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
@@ -66,7 +66,7 @@ Make: TypeAlias = Callable[[Mapping[str, Any], Reading, TextPlace], AnswerCheck]
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """The keys of one kind of check: what may stand beside the question, and what makes it."""
+    """Keys of one kind of check: those allowed beside the question, and its constructor."""
 
     fields: Mapping[str, Key]
     make: Make
@@ -77,7 +77,7 @@ class Form:
 
 @dataclass(frozen=True, slots=True)
 class RangeCheck(AnswerCheck):
-    """A number within bounds; bounds themselves are outside, except of `between`."""
+    """Number within bounds; the bounds are excluded, except by `between`."""
 
     unit: Unit
     below: float | None = None
@@ -119,7 +119,7 @@ class RangeCheck(AnswerCheck):
 
 
 def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float = NEAR) -> Form:
-    """below, above, between, is with a tolerance: at least one of them, or the default."""
+    """Read below, above, between, or is with a tolerance: at least one, or the default."""
     one = values.quantity(unit)
     fields = {
         "below": Key(one, None),
@@ -159,7 +159,7 @@ def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class FrameFacts:
-    """Facts about a frame; all None when it is unknown.
+    """Facts about a frame; all None if it is unknown.
 
     Attributes:
         exists: Whether it is known.
@@ -178,7 +178,7 @@ class FrameFacts:
 
 @dataclass(frozen=True, slots=True)
 class FrameCheck(AnswerCheck):
-    """Facts about a frame; those that are None are not checked."""
+    """Expected facts about a frame; None means unchecked."""
 
     name: str
     wanted: FrameFacts
@@ -231,7 +231,7 @@ FRAME_FORM = Form(_FRAME_FACTS, _frame_check)
 
 @dataclass(frozen=True, slots=True)
 class NamesCheck(AnswerCheck):
-    """Exactly these names, in any order."""
+    """Expectation of exactly these names, in any order."""
 
     wanted: frozenset[str]
 
@@ -256,7 +256,7 @@ COUNT_FORM = Form(
 
 @dataclass(frozen=True, slots=True)
 class CleanCheck(AnswerCheck):
-    """No findings at all."""
+    """Expectation of no findings."""
 
     def judge(self, answer: Iterable[str]) -> Judged:
         """Compare an answer."""
@@ -284,7 +284,7 @@ class Tolerance:
     angle: float = NEAR
 
     def words(self, *, position: bool, angle: bool) -> str:
-        """Return the tolerance in brackets; nothing where it covers rounding alone."""
+        """Return the tolerance in brackets; empty if it only covers rounding."""
         parts = []
         if position and self.position != NEAR:
             parts.append(f"{self.position:g} m")
@@ -294,7 +294,7 @@ class Tolerance:
 
 
 def _tolerance(node: Node, reading: Reading) -> Tolerance:
-    """A number for everything, or a mapping: {position: 1 mm, angle: 0.1 deg}."""
+    """Read a number for everything, or a mapping: {position: 1 mm, angle: 0.1 deg}."""
     if not isinstance(node, document.Mapping):
         text = node.text.strip() if isinstance(node, document.Scalar) else ""
         for part, unit in (("position", values.LENGTH), ("angle", values.ANGLE)):
@@ -324,7 +324,7 @@ _REFUSALS = tuple(
 
 @dataclass(frozen=True, slots=True)
 class RefusalCheck(AnswerCheck):
-    """A lookup that must be refused, by an exception of this name or below it."""
+    """Expectation that a lookup fails with this exception or a subclass."""
 
     raises: str
     says: str | None
@@ -346,7 +346,7 @@ class RefusalCheck(AnswerCheck):
 
 @dataclass(frozen=True, slots=True)
 class PoseCheck(AnswerCheck):
-    """A transform with these parts; those that are None are not checked."""
+    """Expected parts of a transform; None means unchecked."""
 
     x: float | None
     y: float | None
@@ -399,7 +399,7 @@ _POSE_PARTS = {
 
 
 def _value(node: Node, reading: Reading) -> tuple[TextPlace, Mapping[str, Any]]:
-    """The parts of a pose, and where they stand."""
+    """Read the parts of a pose, with their places."""
     return node.place, reading.record(node, _POSE_PARTS, "a value")
 
 
@@ -434,7 +434,7 @@ POSE_FORM = Form(
 def _rotation(
     parts: Mapping[str, Any], reading: Reading, place: TextPlace
 ) -> tuple[Quaternion | None, str]:
-    """The rotation of a value, and how it was said; angles left out are 0."""
+    """Read the rotation of a value and its notation; missing angles are 0."""
     angles = {key: parts[key] for key in ("roll", "pitch", "yaw") if parts[key] is not None}
     given = parts["rotation"]
     if given is not None:
@@ -454,7 +454,7 @@ def _rotation(
 
 @dataclass(frozen=True, slots=True)
 class TurtlePoseCheck(AnswerCheck):
-    """A turtle's published pose with these parts; others are not checked."""
+    """Expected parts of a turtle's published pose; others are unchecked."""
 
     wanted: Mapping[str, float]
     tolerance: Tolerance

@@ -1,4 +1,4 @@
-"""The scenarios that come with tftool: their names and files."""
+"""Built-in scenarios: names and files."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ def folder() -> Path:
 
 
 def shipped(name: str, mark: str) -> Path:
-    """Return the folder shipped with tftool that holds a file or folder called `mark`.
+    """Return the folder shipped with tftool that contains a file or folder named `mark`.
 
     A wheel carries it inside the package; in a checkout, also an editable install of one,
     it lies beside it.
@@ -35,19 +35,19 @@ def shipped(name: str, mark: str) -> Path:
 
 
 def names() -> list[str]:
-    """The names of the built-in scenarios, sorted."""
+    """Return the names of the built-in scenarios, sorted."""
     return sorted(path.stem for path in folder().glob("*.yaml"))
 
 
 def abouts() -> list[tuple[str, str]]:
-    """Every built-in scenario by its name, and what it is about."""
+    """Return every built-in scenario's description, by name."""
     from tftool.scenario.load import load
 
     return [(path.stem, load(path, {}).about) for path in sorted(folder().glob("*.yaml"))]
 
 
 def path_of(name: str) -> Path | None:
-    """The file of a built-in scenario; None where none has that name.
+    """Return the file of a built-in scenario; None for other names.
 
     `./turtles` and `turtles.yaml` are paths, not names.
     """
@@ -55,13 +55,13 @@ def path_of(name: str) -> Path | None:
 
 
 def is_like_a_name(word: str) -> bool:
-    """Whether a word that is no file was meant as a scenario's name."""
+    """Whether a word that is no file was probably meant as a scenario's name."""
     path = Path(word)
     return path.name == word and not path.suffix
 
 
 def unknown(word: str) -> str:
-    """The sentence about a word that names neither a built-in scenario nor a file."""
+    """Return the sentence about a word that is neither a built-in scenario nor a file."""
     near = near_names(word, names())
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names())}."
     shown = visible(word)

@@ -1,4 +1,4 @@
-"""Expectations of a scenario, or of a file beside a recording, about the doctor's findings.
+"""Expectations about the doctor's findings, in a scenario or beside a recording.
 
 The doctor itself, and the numpy it needs, is imported where one is asked: most scenarios ask none.
 """
@@ -25,7 +25,7 @@ ENDING = ".doctor.yaml"
 
 @dataclass(frozen=True, slots=True)
 class DoctorRules:
-    """Checks the doctor leaves out, and thresholds it takes.
+    """Checks that the doctor omits, and its thresholds.
 
     Attributes:
         ignore: Ids and areas of checks.
@@ -36,7 +36,7 @@ class DoctorRules:
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     def settings(self, given: "Settings") -> "Settings":
-        """Return the settings of a command line, with these thresholds where it says nothing."""
+        """Return a command's settings, with these thresholds where it gives none."""
         from tftool.doctor.model import Settings
 
         limits = {name: dict(of) for name, of in self.limits.items()}
@@ -49,7 +49,7 @@ NO_RULES = DoctorRules()
 
 
 def check_or_area(node: Node, reading: Reading) -> str:
-    """Read the id of a check, or an area of them."""
+    """Read a check's id, or an area of checks."""
     from tftool.doctor.findings import Area
     from tftool.doctor.judge import CHECKS
 
@@ -95,7 +95,7 @@ def rules(node: Node, reading: Reading) -> DoctorRules:
 
 
 def rules_beside(path: str | Path) -> tuple[DoctorRules, Path | None]:
-    """The list beside a recording, `run.doctor.yaml` for `run.mcap`, and where it is.
+    """Return the rules beside a recording, `run.doctor.yaml` for `run.mcap`, and their path.
 
     Raises:
         InputError: If it cannot be read; `ScenarioError` with every mistake in it.
@@ -123,7 +123,7 @@ def _parsed(text: str, name: str) -> DoctorRules:
 
 
 def heard_in(world: World) -> "tuple[TransformLog, list[Callable[[], None]]]":
-    """Begin to listen to a world's transforms; the function returned beside ends it."""
+    """Record a world's transforms; return the record, and a function that ends it."""
     from tftool.frames.transform_log import TransformLog
 
     hearing = TransformLog()

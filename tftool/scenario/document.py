@@ -1,4 +1,4 @@
-"""YAML text as a small tree in which every value knows its place.
+"""YAML text as a small tree whose values know their positions.
 
 Only YAML's syntax is used: its event stream. What a plain word means is
 decided later by what reads it, so `no` can be a frame and `1e-3` a number,
@@ -30,7 +30,7 @@ MOST_VALUES = 20_000
 
 @dataclass(frozen=True, slots=True)
 class TextPlace:
-    """Place in a text: line and column from 0, and the width."""
+    """Position in a text: line and column from 0, and width."""
 
     line: int
     column: int
@@ -39,7 +39,7 @@ class TextPlace:
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A single value, as written; `plain` when it stands without quotes."""
+    """A single value as written; `plain` if it has no quotes."""
 
     place: TextPlace
     text: str
@@ -53,7 +53,7 @@ class Scalar:
 
 @dataclass(frozen=True, slots=True)
 class Mapping:
-    """Keys and values in the order of the file; keys may be there twice."""
+    """Keys and values in file order; keys may be repeated."""
 
     place: TextPlace
     entries: tuple[tuple[Scalar, "Node"], ...]
@@ -61,7 +61,7 @@ class Mapping:
 
 @dataclass(frozen=True, slots=True)
 class Sequence:
-    """Values in a row."""
+    """A list of values."""
 
     place: TextPlace
     items: tuple["Node", ...]
@@ -71,7 +71,7 @@ Node = Scalar | Mapping | Sequence
 
 
 class Document:
-    """A text under a name: shows its lines, and reads its tree.
+    """A named text, its lines, and its tree.
 
     Args:
         text: The whole text.
@@ -90,11 +90,11 @@ class Document:
         self._lines = unified.replace("\u2028", "\n").replace("\u2029", "\n").split("\n")
 
     def mistake(self, place: TextPlace, text: str) -> Mistake:
-        """Report the mistake at a place, with its line and a caret under it."""
+        """Return a mistake at a position, with its line and a caret below it."""
         return Mistake.at(self.name, self._lines, place.line, place.column, text, width=place.width)
 
     def read(self) -> Node:
-        """Read the tree.
+        """Parse the tree.
 
         Raises:
             ScenarioError: When the text is no YAML, is empty, holds more than one
@@ -122,12 +122,12 @@ class Document:
         return root
 
     def refuse(self, place: TextPlace, text: str, cause: Exception | None = None) -> NoReturn:
-        """Give up on the whole text because of one place."""
+        """Raise an error about the whole text because of one position."""
         raise ScenarioError(self.name, [*self.mistakes, self.mistake(place, text)]) from cause
 
 
 class _TreeReader:
-    """Turns the event stream into nodes."""
+    """Converter of YAML events to nodes."""
 
     def __init__(self, document: Document) -> None:
         self.document = document
@@ -200,7 +200,7 @@ def _place(event: yaml.Event) -> TextPlace:
 
 
 def text_of(path: Path | str) -> str:
-    """The text of a file, not more of it than can be a scenario.
+    """Return a file's text, limited to the size of a scenario.
 
     Raises:
         InputError: If it cannot be read, or is no UTF-8.

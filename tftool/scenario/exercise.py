@@ -1,4 +1,4 @@
-"""Programs of the user's in a scenario, judged by what it expects.
+"""User programs in a scenario, judged by its expectations.
 
 A scenario itself never names code to run: the one who calls does. A program takes the
 place and the name of one of the scenario's nodes, or lives beside them all; a launch
@@ -26,7 +26,7 @@ from tftool.world.world import World
 
 @dataclass(frozen=True, slots=True)
 class Entrant:
-    """A program of the user's.
+    """A user's program.
 
     Attributes:
         words: What follows `tftool run`: a file, or a package and its executable, then arguments.
@@ -39,7 +39,7 @@ class Entrant:
 
 @dataclass(frozen=True, slots=True)
 class Exercise:
-    """Programs and launch files that the user brings to a scenario.
+    """Programs and launch files that a user adds to a scenario.
 
     Attributes:
         workspace: Where packages are looked for.
@@ -54,7 +54,7 @@ class Exercise:
     tell: Callable[[LogRecord], object] = lambda record: None
 
     def judge(self, scenario: Scenario, *, watch: Watch = nullcontext) -> Verdict:
-        """Play a scenario with these programs on simulated time, to its end, and judge it.
+        """Play a scenario with these programs on simulated time to its end, and judge it.
 
         A program that fails is part of the verdict; the others go on, as processes do.
 

@@ -1,4 +1,4 @@
-"""Readers of a document by its expected shape, with every mistake reported at once.
+"""Readers of a document by its expected structure; all mistakes are reported together.
 
 A reader is a function from a node to a value. It notes the mistake and
 raises `Unreadable`; what reads several things catches that and goes on with
@@ -31,19 +31,19 @@ _ARGUMENT = re.compile(r"\$(?:\$|\{(\w+)\}|(\w+))")
 
 
 class Unreadable(Exception):
-    """A part could not be read; why is noted already."""
+    """Signal that a part could not be read; the reason is already recorded."""
 
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """Values that one key may hold, and its default."""
+    """Allowed values of one key, and its default."""
 
     read: Reader
     default: Any = REQUIRED
 
 
 class Reading:
-    """One pass over a document: the arguments it is read with, and its mistakes."""
+    """One pass over a document, with its arguments and mistakes."""
 
     def __init__(self, source: Document) -> None:
         self.source = source
@@ -52,37 +52,37 @@ class Reading:
         self._noted: set[tuple[TextPlace, str]] = set()
 
     def note(self, where: Node | TextPlace, text: str) -> None:
-        """Note a mistake; the same one is noted once, however often an alias repeats it."""
+        """Record a mistake, once even if an alias repeats it."""
         place = where if isinstance(where, TextPlace) else where.place
         if (place, text) not in self._noted:
             self._noted.add((place, text))
             self.mistakes.append(self.source.mistake(place, text))
 
     def refuse(self, where: Node | TextPlace, text: str) -> Unreadable:
-        """Note a mistake, and give the exception to raise."""
+        """Record a mistake, and return the exception to raise."""
         self.note(where, text)
         return Unreadable()
 
     def try_read(self, read: Reader, node: Node) -> Any:
-        """Read something; `UNREAD` stands in for what could not be read."""
+        """Read a value; return `UNREAD` if that fails."""
         try:
             return read(node, self)
         except Unreadable:
             return UNREAD
 
     def whole(self, values: Iterable[T]) -> list[T]:
-        """The values, if every one of them could be read."""
+        """Return the values if every one of them was read."""
         found = list(values)
         if any(value is UNREAD for value in found):
             raise Unreadable
         return found
 
     def part(self, node: Node, text: str) -> Scalar:
-        """A part of a value, to be read by itself; mistakes in it point at the value."""
+        """Return a part of a value for separate reading; its mistakes point at the value."""
         return Scalar(node.place, text.replace("$", "$$"))
 
     def text(self, node: Node, wanted: str) -> str:
-        """The text of a single value, arguments put in.
+        """Return the text of a single value, with arguments inserted.
 
         Args:
             node: Where it should stand.
@@ -111,7 +111,7 @@ class Reading:
         return _ARGUMENT.sub(value, node.text)
 
     def entries(self, node: Node, wanted: str) -> dict[str, tuple[Scalar, Node]]:
-        """The entries of a mapping by key; a key that is there twice is a mistake."""
+        """Return a mapping's entries by key; a repeated key is a mistake."""
         if isinstance(node, Scalar) and node.is_nothing:
             return {}
         if not isinstance(node, document.Mapping):
@@ -127,7 +127,7 @@ class Reading:
         return found
 
     def items(self, node: Node, wanted: str) -> tuple[Node, ...]:
-        """The items of a list; nothing at all is an empty one."""
+        """Return a list's items; an empty value is an empty list."""
         if isinstance(node, Scalar) and node.is_nothing:
             return ()
         if not isinstance(node, document.Sequence):
@@ -155,7 +155,7 @@ class Reading:
         known: Mapping[str, Key],
         what: str,
     ) -> dict[str, Any]:
-        """Read entries that are keys and values already; see `record`."""
+        """Read entries already split into keys and values; see `record`."""
         whole = True
         meant = set()
         for name, (key, _) in entries.items():
@@ -182,7 +182,7 @@ class Reading:
 
 
 def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = False) -> Any:
-    """A dataclass field that is read from a scenario.
+    """Declare a dataclass field that is read from a scenario.
 
     Args:
         read: Reader of its value.
@@ -197,7 +197,7 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
 
 
 def parts_of(kind: type) -> dict[str, tuple[Key, bool]]:
-    """Return the keys that a dataclass reads, and whether each stands beside it."""
+    """Return the keys that a dataclass reads, and whether each is written beside the main value."""
     parts = {}
     for one in fields(kind):
         if "read" in one.metadata:
@@ -208,12 +208,12 @@ def parts_of(kind: type) -> dict[str, tuple[Key, bool]]:
 
 
 def attribute_names(kind: type) -> dict[str, str]:
-    """The attribute of a dataclass that is read for each of its keys."""
+    """Return the dataclass attribute for each of its keys."""
     return {one.metadata.get("key", one.name): one.name for one in fields(kind)}
 
 
 def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
-    """The rest of a sentence about an unknown word: the nearest known one, or what there is."""
+    """Return the end of a sentence about an unknown word: the nearest known one, or all of them."""
     choices = list(known)
     meant = did_you_mean(word, choices)
     if meant or not always:
@@ -222,12 +222,12 @@ def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
 
 
 def listed(words: Iterable[str]) -> str:
-    """Words as a list to read."""
+    """Join words to a readable list."""
     return ", ".join(words)
 
 
 def quoted(text: str) -> str:
-    """A value from a file, fit for a message."""
+    """Quote a value from a file for a message."""
     shown = visible(text)
     return f"'{shown[:60]}…'" if len(shown) > 60 else f"'{shown}'"
 
@@ -240,7 +240,7 @@ def tagged(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> tuple[str, Any, dict[str, Any]]:
-    """Read a mapping in which one key says what it is, and the others stand beside it.
+    """Read a mapping in which one key gives the kind, and the others are its settings.
 
     Args:
         node: The mapping.
@@ -289,7 +289,7 @@ def _tag(
     common: Mapping[str, Key],
     beside: Mapping[str, Mapping[str, Key]],
 ) -> str:
-    """Return the one key that says what a mapping means, or the mistake in its keys."""
+    """Return the key that gives a mapping's kind, or the mistake in its keys."""
     entries = reading.entries(node, "")
     tags = [key for key in entries if key in kinds]
     if len(tags) == 1:
@@ -314,7 +314,7 @@ def _tag(
 
 
 def _entries_of(kind: type, key: Scalar) -> Reader:
-    """Return a reader of the value behind a tag: a mapping, or its one main value by itself."""
+    """Return a reader of a kind's value: a mapping, or its single main value."""
     short = getattr(kind, "short", None)
 
     def read(value: Node, reading: Reading) -> dict[str, tuple[Scalar, Node]]:

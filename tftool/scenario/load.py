@@ -1,4 +1,4 @@
-"""YAML in, a scenario out, or every mistake in it with its place.
+"""Loading a scenario from YAML, or every mistake in it with its position.
 
 The kinds of nodes, actions and subjects come from `kinds.KINDS`, `actions.ACTIONS` and
 `questions.SUBJECTS`; nothing here knows any of them.
@@ -65,7 +65,7 @@ def load(path: Path | str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scena
 
 
 def parse(text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scenario:
-    """Read a scenario from a text; see `load`.
+    """Parse a scenario from text; see `load`.
 
     Args:
         text: The YAML.
@@ -87,7 +87,7 @@ def _place(mistake: Any) -> tuple[int, int]:
 
 
 class _ScenarioReader:
-    """One pass over a scenario; earlier parts check later ones.
+    """One pass over a scenario; later parts are checked against earlier ones.
 
     Attributes:
         given: Arguments from outside.
@@ -105,7 +105,7 @@ class _ScenarioReader:
         self.not_a_tree: list[Mistake] = []
 
     def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
-        """Read everything, in the order in which one thing checks another."""
+        """Read everything, in the order that the checks need."""
         known = {
             "about": Key(values.text, ""),
             "arguments": Key(self.arguments, NO_ARGUMENTS),
@@ -142,7 +142,7 @@ class _ScenarioReader:
     # What the rest is read with.
 
     def arguments(self, node: Node, reading: Reading) -> Mapping[str, str]:
-        """Declared arguments, with those given from outside in place of their defaults."""
+        """Return the declared arguments, with given values in place of defaults."""
         entries = reading.entries(node, "name: default")
         declared: dict[str, str] = {}
         whole = True
@@ -163,7 +163,7 @@ class _ScenarioReader:
         return MappingProxyType(reading.arguments)
 
     def check_given(self, declared: Mapping[str, str], reading: Reading) -> None:
-        """Refuse arguments from outside that the scenario does not declare."""
+        """Refuse given arguments that the scenario does not declare."""
         for name in self.given:
             if name not in declared:
                 have = f"; it has {listed(declared)}" if declared else "; it has none"
@@ -173,12 +173,12 @@ class _ScenarioReader:
                 )
 
     def length(self, node: Node, reading: Reading) -> Duration:
-        """Duration of the scenario."""
+        """Read the scenario's duration."""
         self.duration = values.time(least=values.SHORTEST)(node, reading)
         return self.duration
 
     def moment(self, node: Node, reading: Reading) -> Duration:
-        """A time since the start, not after the end."""
+        """Read a time since the start, not after the end."""
         at: Duration = values.duration(node, reading)
         if self.duration is not None and at > self.duration:
             raise reading.refuse(
@@ -191,7 +191,7 @@ class _ScenarioReader:
     # Nodes.
 
     def nodes(self, node: Node, reading: Reading) -> tuple[NodeEntry, ...]:
-        """The nodes, each with a name of its own."""
+        """Read the nodes, each with a unique name."""
         items = [self.node(item, reading) for item in reading.items(node, "one node an item")]
         counts = Counter(kind for kind, _, _ in items)
         numbers: Counter[str] = Counter()
@@ -224,7 +224,7 @@ class _ScenarioReader:
     def against_a_tree(
         self, places: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
     ) -> None:
-        """Note which nodes' links cannot stand in one tree: two parents, a loop, itself."""
+        """Record nodes whose links contradict each other: two parents, a loop, itself."""
         parents: dict[str, tuple[str, int]] = {}
         for item, (kind, _, parameters) in zip(places, items, strict=True):
             link = None if parameters is UNREAD else link_of(kind, parameters)
@@ -251,7 +251,7 @@ class _ScenarioReader:
             self.not_a_tree.append(reading.source.mistake(item.place, text))
 
     def node(self, item: Node, reading: Reading) -> tuple[str, str, Any]:
-        """One node: its kind ("" if that is not known), its name if it has one, the rest."""
+        """Split one node: its kind ("" if unknown), its name if given, the rest."""
         if isinstance(item, Scalar) and not item.is_nothing:
             # Just the kind: `- turtlesim`.
             entries: Mapping[str, tuple[Scalar, Node]] = {item.text: (item, _nothing_at(item))}
@@ -290,7 +290,7 @@ class _ScenarioReader:
 
     @staticmethod
     def name_of(value: Node) -> str:
-        """The name a node gives itself, in spite of its mistakes."""
+        """Return a node's given name, even if it has mistakes."""
         for key, entry in value.entries if isinstance(value, document.Mapping) else ():
             if key.text == "name" and isinstance(entry, Scalar):
                 return entry.text
@@ -299,14 +299,14 @@ class _ScenarioReader:
     # Script and expectations.
 
     def script(self, node: Node, reading: Reading) -> tuple[Step, ...]:
-        """Actions of the scenario."""
+        """Read the script's actions."""
         read = [
             reading.try_read(self.step, item) for item in reading.items(node, "one action an item")
         ]
         return tuple(reading.whole(read))
 
     def step(self, node: Node, reading: Reading) -> Step:
-        """One action and its time."""
+        """Read one action and its time."""
         common = {"at": Key(self.moment), "fails": Key(values.flag, False)}
         name, action, given = tagged(node, reading, "an action", ACTIONS, common, {})
         if isinstance(action, StopNode) and self.names is not None:
@@ -317,7 +317,7 @@ class _ScenarioReader:
         return Step(given["at"], action, node.place.line + 1, name, given["fails"])
 
     def expect(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """Expectations of the scenario."""
+        """Read the scenario's expectations."""
         read = [
             reading.try_read(self.expectation, item)
             for item in reading.items(node, "one expectation an item")
@@ -325,7 +325,7 @@ class _ScenarioReader:
         return tuple(one for several in reading.whole(read) for one in several)
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
-        """One question; several expectations when it is asked at several moments."""
+        """Read one question; several times give several expectations."""
         beside = {name: subject.form.fields for name, subject in SUBJECTS.items()}
         common = {
             "at": Key(self.moments, None),
@@ -350,7 +350,7 @@ class _ScenarioReader:
         return tuple(Expectation(when, question, check, line) for when in whens)
 
     def moments(self, node: Node, reading: Reading) -> tuple[Duration, ...]:
-        """One moment or a list of them."""
+        """Read one time or a list of times."""
         if isinstance(node, document.Sequence):
             found: tuple[Duration, ...] = values.several(self.moment, "moments")(node, reading)
             if not found:
@@ -361,7 +361,7 @@ class _ScenarioReader:
     def whens(
         self, place: document.TextPlace, given: Mapping[str, Any], reading: Reading
     ) -> tuple[When, ...]:
-        """Moments at which an expectation is judged."""
+        """Read the times at which an expectation is judged."""
         said = [key for key in _WHEN if given[key] is not None]
         if len(said) != 1:
             raise Unreadable  # said already

@@ -1,4 +1,4 @@
-"""The kinds of nodes a scenario may start: one entry each.
+"""Kinds of nodes that a scenario may start: one entry each.
 
 An entry names the class and how each parameter that a scenario may give it is read;
 every parameter is handed on under its own name, and its default is the class's own.
@@ -47,7 +47,7 @@ MOTIONS = ("still", "sine", "steps", "recorded")
 
 
 def robot_file(node: document.Node, reading: Reading) -> "Robot":
-    """Read the description a scenario names, beside the scenario; xacro is code, and refused."""
+    """Read a description beside the scenario; xacro is refused, since it runs code."""
     # numpy comes with it, which other scenarios do without.
     from tftool.robots.robot_model import Robot
     from tftool.robots.urdf import load_description
@@ -60,7 +60,7 @@ def robot_file(node: document.Node, reading: Reading) -> "Robot":
 
 
 def joint_recording(node: document.Node, reading: Reading) -> tuple[Any, ...]:
-    """Read the joint states of the recording a scenario names, beside the scenario."""
+    """Read the joint states of a recording beside the scenario."""
     from tftool.recordings.recording import open_recording
 
     path = _beside(node, reading, "a recording")
@@ -72,7 +72,7 @@ def joint_recording(node: document.Node, reading: Reading) -> tuple[Any, ...]:
 
 
 def joint_positions(node: document.Node, reading: Reading) -> dict[str, float]:
-    """Positions by joint: a bare number is radians or metres, `30 deg` and `5 cm` say which."""
+    """Read positions by joint: numbers are radians or metres, or have units: `30 deg`, `5 cm`."""
     found = {
         name: reading.try_read(_position, value)
         for name, (_, value) in reading.entries(node, "joint: position").items()
@@ -109,7 +109,7 @@ def moving_robot(
     period: int = 50_000_000,
     frame_prefix: str = "",
 ) -> Node:
-    """The node; see `nodes.joints.MovingRobot`."""
+    """Make the node; see `nodes.joints.MovingRobot`."""
     from tftool.world.nodes.joints import MovingRobot
 
     return MovingRobot(
@@ -170,11 +170,11 @@ class NodeKind:
         }
 
     def defaults(self) -> dict[str, Any]:
-        """The parameters of a node about which nothing is said."""
+        """Return a node's default parameters."""
         return {name: field.default for name, field in self.fields.items()}
 
     def build(self, world: World, name: str, parameters: Mapping[str, Any]) -> Node:
-        """Make a node, which joins `world` by that.
+        """Make a node and add it to `world`.
 
         Raises:
             UsageError: If the parameters do not go together.
@@ -183,7 +183,7 @@ class NodeKind:
 
 
 def _triple(x: float, y: float, last: str, last_value: float) -> Reader:
-    """A reader of {x, y, z} or {x, y, theta}, as a tuple."""
+    """Return a reader of {x, y, z} or {x, y, theta} as a tuple."""
     known = {
         "x": Key(values.length, x),
         "y": Key(values.length, y),
@@ -197,7 +197,7 @@ def _triple(x: float, y: float, last: str, last_value: float) -> Reader:
 
 
 def _gains(node: document.Node, reading: Reading) -> Gains:
-    """Gains of a controller: {kp, ki, kd, integral_limit, output_limit}, or kp alone."""
+    """Read a controller's gains: {kp, ki, kd, integral_limit, output_limit}, or kp alone."""
     if isinstance(node, document.Scalar):
         return Gains(values.number(node, reading))
     limit = values.or_none(values.positive)
@@ -217,7 +217,7 @@ def _color(node: document.Node, reading: Reading) -> Color:
 
 
 def _turtle(node: document.Node, reading: Reading) -> Any:
-    """Read a turtle to begin with, as a request of Spawn."""
+    """Read a turtle to start with, as a Spawn request."""
     known = {
         "name": Key(values.turtle),
         "x": Key(values.length),
@@ -240,7 +240,7 @@ def _static(
     pitch: float = 0.0,
     yaw: float = 0.0,
 ) -> StaticBroadcaster:
-    """A static broadcaster of one transform, written out."""
+    """Return a static broadcaster of one transform."""
     pose = Transform((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
     stamped = TransformStamped(world.clock.now(), parent, child, pose)
     return StaticBroadcaster(world, name, transforms=[stamped])
@@ -404,7 +404,7 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
 
 
 def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
-    """The parent and child of the one link that a node with these parameters publishes.
+    """Return parent and child of the single link that a node with these parameters publishes.
 
     None for a node that publishes none, or whose links its parameters do not name.
     """

@@ -1,4 +1,4 @@
-"""Builds a scenario's world, lives through it on simulated or real time, judges what it expects."""
+"""Running a scenario: builds its world, runs it on simulated or real time, judges it."""
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
@@ -24,7 +24,7 @@ from tftool.world.world import World
 
 
 def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
-    """Look at one expectation now."""
+    """Judge one expectation now."""
     try:
         answer = expectation.question.answer(scene)
     except TransformException as error:
@@ -33,7 +33,7 @@ def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
 
 
 class Expectations(Node):
-    """Judges every expectation when its time comes, after everything else of that instant.
+    """Judge of every expectation at its time, after everything else of that instant.
 
     Attributes:
         outcomes: What came of each, None for those whose time has not come.
@@ -44,7 +44,7 @@ class Expectations(Node):
     def __init__(
         self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
     ) -> None:
-        """Watch over `world`; log lines and transforms count from now on."""
+        """Watch `world`; log lines and transforms count from now on."""
         super().__init__(world, "expectations")
         self.expected = tuple(expected)
         self.outcomes: list[Outcome | None] = [None] * len(self.expected)
@@ -58,7 +58,7 @@ class Expectations(Node):
         self._stops.append(world.log.listen(self._scene.count, self.name))
 
     async def run(self) -> None:
-        """Judge them all, each in its own time."""
+        """Judge all expectations, each at its time."""
         self._scene.start = self.clock.now()
         await asyncio.gather(*(self._judge(index) for index in range(len(self.expected))))
 
@@ -141,7 +141,7 @@ class Play:
         )
 
     async def live(self, until: Stamp | None = None, *, endless: bool = False) -> None:
-        """Live through the scenario.
+        """Run the scenario.
 
         Args:
             until: The last moment; that of the scenario's duration when None.
@@ -159,7 +159,7 @@ class Play:
             raise
 
     def verdict(self) -> Verdict:
-        """Return the verdict so far; expectations that are not due yet say so."""
+        """Return the current verdict; expectations not yet due are marked."""
         judge = self._expectations
         steps = () if self._script is None else tuple(self._script.outcomes)
         pairs = [] if judge is None else zip(judge.expected, judge.outcomes, strict=True)
@@ -188,7 +188,7 @@ def _not_reached(expected: Expectation) -> Outcome:
 
 
 def left_to_a_person(scenario: Scenario) -> Scenario:
-    """The scenario without what a person at the keys does better: keys and drives.
+    """Return the scenario without keys and drives, which a person at the keyboard replaces.
 
     What happens to the world still does. With a person in it, it promises nothing.
     """
@@ -220,7 +220,7 @@ def build(
 def run_scenario(
     scenario: Scenario, arguments: Mapping[str, str] = NO_ARGUMENTS, *, watch: Watch = nullcontext
 ) -> Verdict:
-    """Play a scenario on simulated time, to its end, and judge it.
+    """Play a scenario on simulated time to its end, and judge it.
 
     A node that fails ends the play; that is part of the verdict.
 

@@ -26,7 +26,7 @@ def played(
     cache_time: Duration | None,
     watch: Callable[[World], object] | None,
 ) -> Frames:
-    """Play a scenario on simulated time, and keep all that it broadcast.
+    """Play a scenario on simulated time, and return all its transforms.
 
     Args:
         found: Its file.

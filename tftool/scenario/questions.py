@@ -1,4 +1,4 @@
-"""Questions about a scenario: the subjects of its expectations, each with its answer.
+"""Questions about a scenario: the subjects of expectations, with their answers.
 
 A subject is a dataclass: each field names the reader of its value, `key` is what a
 scenario calls it, `form` says what its answer may be held to, and `answer` finds the
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 
 
 class ScenarioWorld:
-    """World that answers questions.
+    """World as questions see it.
 
     Attributes:
         world: Where the scenario lives.
@@ -68,16 +68,16 @@ class ScenarioWorld:
 
     @property
     def now(self) -> Stamp:
-        """The moment it is."""
+        """Current time."""
         return self.world.clock.now()
 
     def lookup(self, target: str, source: str, time: RelativeMoment) -> Transform:
-        """Look up a pose, at a moment of the scenario."""
+        """Look up a pose at a time of the scenario."""
         stamp = time.stamp(self.start, self.now)
         return self.world.buffer.lookup_transform(target, source, stamp).transform
 
     def frame(self, name: str) -> FrameInfo:
-        """All about one frame.
+        """Return the facts about one frame.
 
         Raises:
             LookupException: If there is none.
@@ -89,18 +89,18 @@ class ScenarioWorld:
         return snapshot.frame(name)
 
     def roots(self) -> tuple[str, ...]:
-        """The frames without a parent."""
+        """Return the frames without a parent."""
         return self.world.buffer.snapshot(self.now).roots()
 
     def count(self, record: LogRecord) -> None:
-        """Count a line of the log for the questions it answers."""
+        """Count a log line for the questions about it."""
         for question in self.lines:
             if question.counts(record):
                 self.lines[question] += 1
 
 
 class Subject(ABC):
-    """Something that is asked of a scenario, at a moment of it.
+    """Something that can be asked about a scenario at some time.
 
     Attributes:
         key: What a scenario calls it.
@@ -114,7 +114,7 @@ class Subject(ABC):
 
     @abstractmethod
     def answer(self, scene: ScenarioWorld) -> Any:
-        """Find the answer, now.
+        """Return the answer at this time.
 
         Raises:
             TransformException: If there is none.
@@ -122,13 +122,13 @@ class Subject(ABC):
 
     @property
     def problem(self) -> str:
-        """Return the fault of its fields together; empty when there is none."""
+        """Return what is wrong with its fields together; empty if nothing is."""
         return ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lookup(Subject):
-    """The pose of `source` in `target` at a moment, or through a fixed frame at two."""
+    """Pose of `source` in `target` at one time, or through a fixed frame at two."""
 
     key: ClassVar[str] = "lookup"
     form: ClassVar[Form] = POSE_FORM
@@ -141,7 +141,7 @@ class Lookup(Subject):
 
     @property
     def problem(self) -> str:
-        """Return the fault of the whole; empty when there is none."""
+        """Return what is wrong with its fields together; empty if nothing is."""
         if self.fixed is None and (self.target_time or self.source_time):
             return "two times need a fixed frame to go through: 'fixed'"
         if self.fixed is not None and self.time is not None:
@@ -149,7 +149,7 @@ class Lookup(Subject):
         return ""
 
     def answer(self, scene: ScenarioWorld) -> Transform:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         if self.fixed is None:
             return scene.lookup(self.target, self.source, self.time or RelativeMoment())
         latest = RelativeMoment()
@@ -168,7 +168,7 @@ class Lookup(Subject):
 
     @property
     def words(self) -> tuple[str, str, str]:
-        """Target, source, and the moment or the fixed frame, in words."""
+        """Describe target, source, and the time or fixed frame."""
         if self.fixed is None:
             return self.target, self.source, "" if self.time is None else f" ({self.time})"
         latest = RelativeMoment()
@@ -181,7 +181,7 @@ class Lookup(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Between(Subject, ABC):
-    """Two frames, the second one seen from the first; see `Lookup` for the times."""
+    """Two frames, the second one relative to the first; see `Lookup` for the times."""
 
     start: str = reads(values.frame, key="from")
     end: str = reads(values.frame, key="to")
@@ -192,12 +192,12 @@ class Between(Subject, ABC):
 
     @property
     def problem(self) -> str:
-        """Return the fault of the whole; empty when there is none."""
+        """Return what is wrong with its fields together; empty if nothing is."""
         return self.lookup.problem
 
     @property
     def lookup(self) -> Lookup:
-        """The lookup that answers it."""
+        """Return the lookup that gives the answer."""
         return Lookup(
             target=self.start,
             source=self.end,
@@ -209,13 +209,13 @@ class Between(Subject, ABC):
 
 
 class Distance(Between):
-    """Distance of the origins of two frames."""
+    """Distance between two frames' origins."""
 
     key: ClassVar[str] = "distance"
     form: ClassVar[Form] = range_form(LENGTH)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return math.hypot(*self.lookup.answer(scene).translation)
 
     def __str__(self) -> str:
@@ -224,13 +224,13 @@ class Distance(Between):
 
 
 class Bearing(Between):
-    """In which direction, seen from one frame, another one lies."""
+    """Direction of a frame seen from another."""
 
     key: ClassVar[str] = "bearing"
     form: ClassVar[Form] = range_form(ANGLE)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return planar.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:
@@ -240,7 +240,7 @@ class Bearing(Between):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PointOf(Subject):
-    """Position, in one frame, of a point fixed in another."""
+    """Position in one frame of a point fixed in another."""
 
     key: ClassVar[str] = "point"
     form: ClassVar[Form] = POSE_FORM
@@ -252,7 +252,7 @@ class PointOf(Subject):
     time: RelativeMoment = reads(values.moment, RelativeMoment())
 
     def answer(self, scene: ScenarioWorld) -> Transform:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         target_from_frame = scene.lookup(self.target, self.frame, self.time)
         return Transform(target_from_frame.apply((self.x, self.y, self.z)))
 
@@ -262,7 +262,7 @@ class PointOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Motion(Subject, ABC):
-    """Motion of one frame in another, taken over a while."""
+    """Motion of one frame in another, averaged over a duration."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
@@ -270,7 +270,7 @@ class Motion(Subject, ABC):
     over: Duration = reads(values.period, seconds(0.1))
 
     def velocity(self, scene: ScenarioWorld) -> Velocity:
-        """The velocity asked about, now."""
+        """Return the requested velocity at this time."""
         stamp = self.time.stamp(scene.start, scene.now)
         return scene.world.buffer.lookup_twist(self.frame, self.target, stamp, self.over)
 
@@ -282,7 +282,7 @@ class SpeedOf(Motion):
     form: ClassVar[Form] = range_form(SPEED)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return math.hypot(*self.velocity(scene).linear)
 
     def __str__(self) -> str:
@@ -290,13 +290,13 @@ class SpeedOf(Motion):
 
 
 class TurnRateOf(Motion):
-    """Turn rate of a frame about the z axis, anticlockwise."""
+    """Counter-clockwise turn rate of a frame about the z axis."""
 
     key: ClassVar[str] = "turn_rate"
     form: ClassVar[Form] = range_form(TURN_RATE)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return self.velocity(scene).angular.z
 
     def __str__(self) -> str:
@@ -305,20 +305,20 @@ class TurnRateOf(Motion):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OfFrame(Subject, ABC):
-    """A number measured of one frame."""
+    """A number measured for one frame."""
 
     short: ClassVar[str] = "frame"
     frame: str = reads(values.frame)
 
 
 class RateOf(OfFrame):
-    """At which rate a frame comes in."""
+    """Rate at which a frame is published."""
 
     key: ClassVar[str] = "rate"
     form: ClassVar[Form] = range_form(RATE)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return scene.frame(self.frame).rate
 
     def __str__(self) -> str:
@@ -332,7 +332,7 @@ class AgeOf(OfFrame):
     form: ClassVar[Form] = range_form(DURATION)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return as_seconds(scene.frame(self.frame).age)
 
     def __str__(self) -> str:
@@ -340,13 +340,13 @@ class AgeOf(OfFrame):
 
 
 class MemoryOf(OfFrame):
-    """Length of a frame's history: newest minus oldest sample."""
+    """Duration of a frame's history: newest minus oldest sample."""
 
     key: ClassVar[str] = "memory"
     form: ClassVar[Form] = range_form(DURATION)
 
     def answer(self, scene: ScenarioWorld) -> float:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return as_seconds(scene.frame(self.frame).buffer_length)
 
     def __str__(self) -> str:
@@ -355,7 +355,7 @@ class MemoryOf(OfFrame):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrameOf(Subject):
-    """Whether a frame is known, under which parent, from whom."""
+    """Whether a frame is known, its parent, and its publisher."""
 
     key: ClassVar[str] = "frame"
     form: ClassVar[Form] = FRAME_FORM
@@ -363,7 +363,7 @@ class FrameOf(Subject):
     name: str = reads(values.frame)
 
     def answer(self, scene: ScenarioWorld) -> FrameFacts:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         snapshot = scene.world.buffer.snapshot(scene.now)
         known = [info.frame for info in snapshot.frames]
         if self.name not in snapshot:
@@ -377,7 +377,7 @@ class FrameOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trees(Subject):
-    """Number of trees the frames make."""
+    """Number of trees."""
 
     key: ClassVar[str] = "trees"
     form: ClassVar[Form] = COUNT_FORM
@@ -385,7 +385,7 @@ class Trees(Subject):
     count: int = reads(values.whole(0, 100_000))
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return len(scene.roots())
 
     def __str__(self) -> str:
@@ -402,7 +402,7 @@ class Roots(Subject):
     names: tuple[str, ...] = reads(values.several(values.frame, "frames"))
 
     def answer(self, scene: ScenarioWorld) -> tuple[str, ...]:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return scene.roots()
 
     def __str__(self) -> str:
@@ -419,7 +419,7 @@ class Turtles(Subject):
     names: tuple[str, ...] = reads(values.several(values.turtle, "turtles"))
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         # Topics outlive turtles and come before them; a turtle's services do neither.
         ending = "/teleport_absolute"
         services = scene.world.services()
@@ -431,7 +431,7 @@ class Turtles(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PoseOf(Subject):
-    """The pose a turtle published last."""
+    """A turtle's last published pose."""
 
     key: ClassVar[str] = "pose"
     form: ClassVar[Form] = TURTLE_POSE_FORM
@@ -439,7 +439,7 @@ class PoseOf(Subject):
     turtle: str = reads(values.turtle)
 
     def answer(self, scene: ScenarioWorld) -> Any:
-        """Return its last Pose message; None where there is none."""
+        """Return its last Pose message; None if there is none."""
         topic = scene.world.topics().get(f"{self.turtle}/pose")
         return topic.latest if topic is not None and topic.kind is Pose else None
 
@@ -449,7 +449,7 @@ class PoseOf(Subject):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Logged(Subject):
-    """Number of log lines that hold a text."""
+    """Number of log lines that contain a text."""
 
     key: ClassVar[str] = "logged"
     form: ClassVar[Form] = range_form(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0)
@@ -459,11 +459,11 @@ class Logged(Subject):
     level: str | None = reads(values.choice(LEVELS, "a level"), None)
 
     def answer(self, scene: ScenarioWorld) -> int:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         return scene.lines.get(self, 0)
 
     def counts(self, record: LogRecord) -> bool:
-        """Whether it counts a line of the log."""
+        """Whether it counts a log line."""
         return (
             self.text in record.text
             and self.node in (None, record.node)
@@ -486,7 +486,7 @@ class Diagnosed(Subject):
     ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
-        """Find the answer, now."""
+        """Return the answer at this time."""
         from tftool.doctor.evidence import evidence_of_log
         from tftool.doctor.findings import Severity
         from tftool.doctor.judge import judge

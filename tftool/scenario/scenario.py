@@ -1,4 +1,4 @@
-"""Values: a scenario, read and checked, and the verdict on one run of it."""
+"""Values: a checked scenario, and the verdict on one run of it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -32,7 +32,7 @@ class NodeEntry:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One thing that happens, `at` nanoseconds after the start.
+    """One action, `at` nanoseconds after the start.
 
     Attributes:
         at: When.
@@ -51,7 +51,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class When:
-    """Moments at which an expectation is judged, in nanoseconds since the start.
+    """Times at which an expectation is judged, in nanoseconds since the start.
 
     Attributes:
         kind: "at" a moment, "by" a moment at the latest, or "during" a while.
@@ -73,7 +73,7 @@ class When:
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """Condition that must hold, and its moments.
+    """A condition that must hold, and its times.
 
     Attributes:
         when: When it is judged.
@@ -93,7 +93,7 @@ class Expectation:
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
-    """A world, what happens in it, and what must hold.
+    """A world, the actions in it, and its expectations.
 
     Attributes:
         name: What it is called: its file's name without the ending.
@@ -153,11 +153,11 @@ class Outcome:
 
     @property
     def reached(self) -> bool:
-        """Whether its time came."""
+        """Whether its time was reached."""
         return self.at is not None
 
     def judgement(self) -> Judgement:
-        """Return it in a form for tables and test reports."""
+        """Convert it for tables and test reports."""
         return Judgement(
             subject=f"{self.when}: {self.expectation} {self.expected}",
             ok=self.ok,
@@ -191,11 +191,11 @@ class Verdict:
 
     @property
     def ok(self) -> bool:
-        """Whether nothing failed, and everything whose time came holds."""
+        """Whether nothing failed, and every expectation that was due holds."""
         return not self.failure and all(one.ok for one in self.outcomes if one.reached)
 
     def report(self) -> Report:
-        """Return it in a form for tables and test reports."""
+        """Convert it for tables and test reports."""
         judgements = tuple(outcome.judgement() for outcome in self.outcomes)
         lasted = as_seconds(self.lasted)
         return Report(self.scenario, self.file, judgements, lasted, self.failure, self.warnings)

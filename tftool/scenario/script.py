@@ -1,4 +1,4 @@
-"""The script of a scenario: every kind of action, each done when its time comes."""
+"""Script of a scenario: every kind of action, run at its time."""
 
 import asyncio
 from abc import ABC, abstractmethod
@@ -39,11 +39,11 @@ SILENCE: Duration = seconds(1)
 
 
 class StepFailed(TftoolError):
-    """A step was refused, and why."""
+    """Error for a refused step, with the reason."""
 
 
 class Script(Node):
-    """Does every step at its time; steps of one instant in the order of the file.
+    """Runs every step at its time; steps of one instant in file order.
 
     A step that fails is told and noted; the others are done all the same.
 
@@ -53,14 +53,14 @@ class Script(Node):
     """
 
     def __init__(self, world: World, steps: Sequence[Step]) -> None:
-        """Act in `world`."""
+        """Make the script of a scenario in `world`."""
         super().__init__(world, "script")
         self.steps = tuple(steps)
         self.start = world.clock.now()
         self.outcomes: list[Outcome] = []
 
     async def run(self) -> None:
-        """Do all steps; one that waits for an answer holds up no other."""
+        """Run all steps; one that waits for an answer does not delay others."""
         self.start = self.clock.now()
         await asyncio.gather(*(self._do(step) for step in self.steps))
 
@@ -88,7 +88,7 @@ class Script(Node):
         )
 
     async def call(self, service: str, request: Any) -> Any:
-        """Ask a service and wait for its answer.
+        """Call a service and wait for the response.
 
         Raises:
             StepFailed: If the run ends and there is none.
@@ -105,7 +105,7 @@ class Script(Node):
             ) from None
 
     async def wait_until(self, stamp: Stamp) -> None:
-        """Wait for a moment, in this node's place within it."""
+        """Wait until a time, and for this node's turn within it."""
         await self.clock.sleep_until(stamp, self.phase, self.rank)
 
 
@@ -116,7 +116,7 @@ _REFUSED = "the buffer refused it; the log says why"
 
 
 class Action(ABC):
-    """Something that happens at a moment of a scenario.
+    """Something that happens at a time of a scenario.
 
     Attributes:
         key: What a scenario calls it.
@@ -128,7 +128,7 @@ class Action(ABC):
 
     @abstractmethod
     async def do(self, script: Script) -> None:
-        """Do it, now.
+        """Do it now.
 
         Raises:
             StepFailed: If it is refused, and why.
@@ -137,7 +137,7 @@ class Action(ABC):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Press(Action):
-    """Press keys on the teleop node, one after the other."""
+    """Press keys on the teleop node one after the other."""
 
     key: ClassVar[str] = "keys"
     short: ClassVar[str] = "keys"
@@ -145,7 +145,7 @@ class Press(Action):
     every: Duration = reads(values.period, seconds(1), beside=True)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         start = script.clock.now()
         for count, key in enumerate(self.keys):
             await script.wait_until(start + count * self.every)
@@ -154,7 +154,7 @@ class Press(Action):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Drive(Action):
-    """Command a velocity for a time, then a stop."""
+    """Command a velocity for a duration, then a stop."""
 
     key: ClassVar[str] = "drive"
     turtle: str = reads(values.turtle, "turtle1")
@@ -164,7 +164,7 @@ class Drive(Action):
     lasting: Duration = reads(values.duration, key="for", beside=True)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         topic = script.publisher(f"{self.turtle}/cmd_vel", Twist)
         at = script.clock.now()
         end = at + self.lasting
@@ -181,7 +181,7 @@ class Drive(Action):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SpawnTurtle(Action):
-    """Put a turtle on the field; without a name the simulator finds one."""
+    """Spawn a turtle; without a name the simulator chooses one."""
 
     key: ClassVar[str] = "spawn"
     short: ClassVar[str] = "name"
@@ -191,7 +191,7 @@ class SpawnTurtle(Action):
     theta: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         request = build(Spawn.Request, self.x, self.y, self.theta, self.name)
         spawned = await script.call("spawn", request)
         if not spawned.name:
@@ -200,14 +200,14 @@ class SpawnTurtle(Action):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KillTurtle(Action):
-    """Take a turtle off the field."""
+    """Remove a turtle."""
 
     key: ClassVar[str] = "kill"
     short: ClassVar[str] = "turtle"
     turtle: str = reads(values.turtle)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         # The answer says nothing, as in ROS 2.
         is_there = script.world.has_service(f"{self.turtle}/set_pen")
         await script.call("kill", build(Kill.Request, self.turtle))
@@ -217,7 +217,7 @@ class KillTurtle(Action):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Teleport(Action):
-    """Put a turtle somewhere at once."""
+    """Move a turtle to a pose at once."""
 
     key: ClassVar[str] = "teleport"
     turtle: str = reads(values.turtle, "turtle1")
@@ -226,14 +226,14 @@ class Teleport(Action):
     theta: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         request = build(TeleportAbsolute.Request, self.x, self.y, self.theta)
         await script.call(f"{self.turtle}/teleport_absolute", request)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hop(Action):
-    """Turn a turtle and move it along its new heading, at once."""
+    """Turn a turtle, and move it along its new heading, at once."""
 
     key: ClassVar[str] = "hop"
     turtle: str = reads(values.turtle, "turtle1")
@@ -241,7 +241,7 @@ class Hop(Action):
     angular: float = reads(values.angle, 0.0)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         request = build(TeleportRelative.Request, self.linear, self.angular)
         await script.call(f"{self.turtle}/teleport_relative", request)
 
@@ -255,7 +255,7 @@ class Rotate(Action):
     theta: float = reads(values.angle)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         goal = build(RotateAbsolute.Goal, self.theta)
         script.world.send_goal(f"{self.turtle}/rotate_absolute", goal, patience=PATIENCE)
 
@@ -265,7 +265,7 @@ _channel = values.whole(0, 255)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pen(Action):
-    """Change a turtle's pen."""
+    """Set a turtle's pen."""
 
     key: ClassVar[str] = "set_pen"
     turtle: str = reads(values.turtle, "turtle1")
@@ -276,30 +276,30 @@ class Pen(Action):
     off: bool = reads(values.flag, False)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         request = build(SetPen.Request, self.r, self.g, self.b, self.width, int(self.off))
         await script.call(f"{self.turtle}/set_pen", request)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClearField(Action):
-    """Wipe all trails."""
+    """Erase all trails."""
 
     key: ClassVar[str] = "clear"
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         await script.call("clear", Empty.Request())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ResetField(Action):
-    """Begin again with one turtle in the centre."""
+    """Reset the field to one turtle in the centre."""
 
     key: ClassVar[str] = "reset"
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         await script.call("reset", Empty.Request())
 
 
@@ -318,14 +318,14 @@ class FrameAction(Action, ABC):
 
     @property
     def transform(self) -> Transform:
-        """Moves points of the child into the parent."""
+        """Transform of the child in the parent."""
         rotation = quaternion_from_rpy(self.roll, self.pitch, self.yaw)
         return Transform((self.x, self.y, self.z), rotation)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Broadcast(FrameAction):
-    """Broadcast where a child is in its parent, once or repeatedly for a time."""
+    """Broadcast a transform, once or repeatedly for a duration."""
 
     key: ClassVar[str] = "broadcast"
     stamp: RelativeMoment = reads(values.moment, RelativeMoment("now"))
@@ -333,7 +333,7 @@ class Broadcast(FrameAction):
     lasting: Duration = reads(values.duration, 0, key="for", beside=True)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         pose = self.transform
         at = script.clock.now()
         end = at + self.lasting
@@ -352,12 +352,12 @@ class Broadcast(FrameAction):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BroadcastStatic(FrameAction):
-    """Broadcast where a child is in its parent, for all time."""
+    """Broadcast a static transform."""
 
     key: ClassVar[str] = "static"
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         now = script.clock.now()
         pose = self.transform
         if not script.broadcast_static(TransformStamped(now, self.parent, self.child, pose)):
@@ -366,14 +366,14 @@ class BroadcastStatic(FrameAction):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StopNode(Action):
-    """Stop a node and let it leave."""
+    """Stop a node and remove it from the world."""
 
     key: ClassVar[str] = "stop"
     short: ClassVar[str] = "node"
     node: str = reads(values.name("a node"))
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         # It may be gone already: stopped before, or left out by what hosts this world.
         gone = [node for node in script.world.nodes if node.name == self.node]
         for node in gone:
@@ -386,14 +386,14 @@ class StopNode(Action):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Say(Action):
-    """Write a line into the log, for people who watch."""
+    """Write a line to the log, for people who watch."""
 
     key: ClassVar[str] = "say"
     short: ClassVar[str] = "text"
     text: str = reads(values.text)
 
     async def do(self, script: Script) -> None:
-        """Do it, now."""
+        """Do it now."""
         script.info(self.text)
 
 

@@ -1,4 +1,4 @@
-"""Summary of a scenario that was played through: final poses, and the expectations that held."""
+"""Summary of a finished scenario: final poses, and the expectations that held."""
 
 import json
 import math
@@ -38,7 +38,7 @@ class Played:
     defaults: Mapping[str, str]
 
     def changed(self) -> list[str]:
-        """The names of the arguments that are not as its expectations have them."""
+        """Return the names of arguments that differ from those its expectations assume."""
         given = self.scenario.arguments
         return [name for name, value in given.items() if value != self.defaults.get(name)]
 
@@ -69,7 +69,7 @@ def play_through(
 
 
 def written(played: Played) -> str:
-    """Say it to a person, in lines."""
+    """Format it as lines for a person."""
     scenario, verdict, snapshot = played.scenario, played.verdict, played.snapshot
     changed = played.changed()
     given = _settings(scenario.arguments, changed)
@@ -122,7 +122,7 @@ def written(played: Played) -> str:
 
 
 def as_json(played: Played) -> str:
-    """Say it to a program."""
+    """Return it for --json."""
     verdict = played.verdict
     frames = {}
     for info in played.snapshot.frames:
@@ -162,7 +162,7 @@ def _settings(values: Mapping[str, str], names: Sequence[str]) -> str:
 
 
 def _distances(played: Played) -> list[tuple[str, str, float]]:
-    """Return the final distance of each moving frame from the first one in its tree."""
+    """Return the final distance of each moving frame from its tree's first frame."""
     moving = [
         info
         for info in played.snapshot.frames

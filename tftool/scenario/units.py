@@ -1,4 +1,4 @@
-"""Readers of single values: numbers with units, names, choices, moments.
+"""Readers of single values: numbers with units, names, choices, times.
 
 Every number has a documented unit and may carry another of the same kind:
 `period: 1`, `period: 1 s` and `period: 1000 ms` are the same.
@@ -22,14 +22,14 @@ _DEGREE = math.pi / 180.0
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A kind of number: what it is called, and its units by their factor (the first is 1)."""
+    """A kind of number: its name, and its units' factors (the first is 1)."""
 
     kind: str
     factors: Mapping[str, float]
 
     @property
     def name(self) -> str:
-        """The unit a bare number has; empty when it has none."""
+        """Return the unit of a bare number; empty if it has none."""
         return next(iter(self.factors), "")
 
 
@@ -54,7 +54,7 @@ LONGEST = 24 * 3600.0
 
 
 def _measure(node: Node, reading: Reading, unit: Unit) -> tuple[str, str]:
-    """The digits of a number and the unit written after it, both checked."""
+    """Split a number from the unit after it, and check both."""
     text = reading.text(node, unit.kind)
     match = _NUMBER.fullmatch(text)
     if match is None or len(text) > 60:
@@ -84,7 +84,7 @@ def _about(written: str, unit: Unit) -> str:
 
 
 def quantity(unit: Unit, *, least: float | None = None, most: float | None = None) -> Reader:
-    """A reader of numbers, given in the unit's first name, within bounds."""
+    """Return a reader of numbers in the first unit, within bounds."""
 
     def read(node: Node, reading: Reading) -> float:
         digits, written = _measure(node, reading, unit)
@@ -112,7 +112,7 @@ def _outside(value: float, unit: Unit, least: float | None, most: float | None) 
 
 
 def time(*, least: float = 0.0, most: float = LONGEST) -> Reader:
-    """A reader of durations, exact to the nanosecond."""
+    """Return a reader of durations, exact to the nanosecond."""
 
     def read(node: Node, reading: Reading) -> Duration:
         digits, written = _measure(node, reading, DURATION)
@@ -144,7 +144,7 @@ positive = quantity(NUMBER, least=0.0)
 
 
 def whole(least: int, most: int) -> Reader:
-    """A reader of whole numbers within bounds."""
+    """Return a reader of integers within bounds."""
 
     def read(node: Node, reading: Reading) -> int:
         value = quantity(NUMBER)(node, reading)
@@ -158,7 +158,7 @@ def whole(least: int, most: int) -> Reader:
 
 
 def name(what: str = "a name") -> Reader:
-    """A reader of names: any text that can be printed and is not blank."""
+    """Return a reader of names: any printable text that is not blank."""
 
     def read(node: Node, reading: Reading) -> str:
         value = reading.text(node, what)
@@ -177,7 +177,7 @@ _TOPIC = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 
 
 def turtle(node: Node, reading: Reading) -> str:
-    """A turtle's name: part of topic names, so letters, digits and _ only."""
+    """Read a turtle's name: letters, digits and _ only, as it is part of topic names."""
     value: str = name("a turtle")(node, reading)
     if _TOPIC.fullmatch(value) is None:
         raise reading.refuse(
@@ -187,7 +187,7 @@ def turtle(node: Node, reading: Reading) -> str:
 
 
 def text(node: Node, reading: Reading) -> str:
-    """Any text; what cannot be printed in it is replaced."""
+    """Read any text; unprintable characters are replaced."""
     value = reading.text(node, "a text")
     return "".join(char if char.isprintable() or char == "\n" else "\ufffd" for char in value)
 
@@ -196,7 +196,7 @@ _TRUTHS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "
 
 
 def flag(node: Node, reading: Reading) -> bool:
-    """Yes or no."""
+    """Read yes or no."""
     value = reading.text(node, "true or false")
     if value.lower() not in _TRUTHS:
         raise reading.refuse(node, f"{quoted(value)} is neither true nor false")
@@ -204,7 +204,7 @@ def flag(node: Node, reading: Reading) -> bool:
 
 
 def or_none(read_one: Reader) -> Reader:
-    """A reader that takes `none` as well, or nothing at all."""
+    """Return a reader that also accepts `none`, or nothing."""
 
     def read(node: Node, reading: Reading) -> object:
         if isinstance(node, Scalar) and (node.is_nothing or reading.text(node, "") == "none"):
@@ -215,7 +215,7 @@ def or_none(read_one: Reader) -> Reader:
 
 
 def choice(choices: Iterable[str], what: str) -> Reader:
-    """A reader of one of several words."""
+    """Return a reader of one of several words."""
     known = tuple(choices)
 
     def read(node: Node, reading: Reading) -> str:
@@ -229,7 +229,7 @@ def choice(choices: Iterable[str], what: str) -> Reader:
 
 
 def words(known: Iterable[str], what: str) -> Reader:
-    """A reader of words with blanks between them, each one of `known`."""
+    """Return a reader of words separated by blanks, each one of `known`."""
     choices = tuple(known)
 
     def read(node: Node, reading: Reading) -> tuple[str, ...]:
@@ -246,7 +246,7 @@ def words(known: Iterable[str], what: str) -> Reader:
 
 
 def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
-    """A reader of a list whose items are all of one kind."""
+    """Return a reader of a list of one kind of items."""
 
     def read(node: Node, reading: Reading) -> tuple[object, ...]:
         items = reading.items(node, what)
@@ -260,7 +260,7 @@ def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
 
 @dataclass(frozen=True, slots=True)
 class RelativeMoment:
-    """A moment in a question: relative to the start, to the asking, or just the latest.
+    """A time in a question: relative to the start or the question, or the latest.
 
     Attributes:
         kind: What `offset` counts from; nothing for "latest".
@@ -271,7 +271,7 @@ class RelativeMoment:
     offset: Duration = 0
 
     def stamp(self, start: Stamp, now: Stamp) -> Stamp:
-        """The stamp it means in a scenario that started at `start`, asked at `now`."""
+        """Return its stamp in a scenario that started at `start`, for a question at `now`."""
         if self.kind == "latest":
             return 0
         return (start if self.kind == "start" else now) + self.offset
@@ -289,7 +289,7 @@ _AGO = re.compile(r"\s*now\s*(?:-\s*(.+))?")
 
 
 def moment(node: Node, reading: Reading) -> RelativeMoment:
-    """`latest`, `now`, `now - 5 s`, or a time since the scenario's start."""
+    """Read `latest`, `now`, `now - 5 s`, or a time since the scenario's start."""
     value = reading.text(node, "a moment")
     if value.strip() == "latest":
         return RelativeMoment()

@@ -1,4 +1,4 @@
-"""Frames that are all there, as screens show them, and the moment to show first."""
+"""Complete frames in the form that screens show, and the time to show first."""
 
 from dataclasses import dataclass
 from typing import Final, Protocol
@@ -18,7 +18,7 @@ class ShownFrames(Protocol):
 
     @property
     def clock(self) -> Clock:
-        """The clock of the frames."""
+        """Clock of the frames."""
 
     @property
     def buffer(self) -> Buffer:
@@ -26,12 +26,12 @@ class ShownFrames(Protocol):
 
     @property
     def log(self) -> Log:
-        """Lines for people who look on."""
+        """Empty log."""
 
 
 @dataclass(frozen=True, slots=True)
 class StillFrames:
-    """Frames that are all there.
+    """Complete frames, at rest.
 
     Attributes:
         clock: Stands still at their end.
@@ -45,7 +45,7 @@ class StillFrames:
 
 
 def first_look(frames: Frames) -> Stamp | None:
-    """Return the moment to show first of frames that were read; None where nothing lasts."""
+    """Return the time to show first; None for static transforms."""
     start, end = frames.span
     if start == end:
         return None
@@ -54,7 +54,7 @@ def first_look(frames: Frames) -> Stamp | None:
 
 
 def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
-    """The moment to show first; None where nothing moves.
+    """Time to show first; None if nothing moves.
 
     That is when all has come that comes within `SETTLING` of the beginning.
 

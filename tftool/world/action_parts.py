@@ -1,4 +1,4 @@
-"""An action as ROS 2 makes it of services and topics: what they answer and say, over a world's."""
+"""An action's services and topics as in ROS 2, on top of a world's actions."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -27,35 +27,35 @@ _NO_ERROR, _REJECTED, _UNKNOWN_GOAL, _ENDED = 0, 1, 2, 3
 
 
 class Tasks:
-    """Tasks that are held until they end, and cancelled when their owner closes."""
+    """Tasks kept until they end, and cancelled when their owner closes."""
 
     def __init__(self) -> None:
         self._tasks: set[asyncio.Task[None]] = set()
 
     def start(self, work: Coroutine[Any, Any, None]) -> None:
-        """Let something run beside everything else."""
+        """Run something concurrently."""
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
     def cancel(self) -> None:
-        """End whatever still runs."""
+        """Cancel everything that still runs."""
         for task in tuple(self._tasks):
             task.cancel()
 
 
 def message(ros_type: str, **fields: Any) -> Any:
-    """A message, or a part of a service or an action, by its full name."""
+    """Return a message, or a part of a service or action, by its full name."""
     return INTERFACES.part(ros_type)(**fields)
 
 
 def goal_id_message(goal_id: bytes) -> Any:
-    """A goal's id as a message."""
+    """Convert a goal's id to a message."""
     return message("unique_identifier_msgs/msg/UUID", uuid=goal_id)
 
 
 def goal_info(goal_id: bytes, accepted: Stamp) -> Any:
-    """Goal id, and the stamp at which it was accepted."""
+    """Return a goal's id and acceptance stamp as a message."""
     return message(
         "action_msgs/msg/GoalInfo", goal_id=goal_id_message(goal_id), stamp=_time(accepted)
     )
@@ -67,7 +67,7 @@ def _time(stamp: Stamp) -> Any:
 
 
 class ActionParts:
-    """Answers what an action's hidden services are asked, and says what its hidden topics say.
+    """Server of an action's hidden services, and publisher of its hidden topics.
 
     It tracks every goal sent to the action's server in this world, from any client.
     """
@@ -105,7 +105,7 @@ class ActionParts:
         self._stop = world.watch_goals(name, self._follow, name)
 
     def close(self) -> None:
-        """Follow no more; running goals are not reported."""
+        """Stop following; running goals are not reported any more."""
         self._is_closed = True
         self._stop()
         self._tasks.cancel()
@@ -116,7 +116,7 @@ class ActionParts:
             goal.cancel()
 
     async def send_goal(self, asked: Any) -> Any:
-        """Hand a goal over; the answer comes once its server has decided."""
+        """Send a goal; the response comes when its server has decided."""
         goal_id = bytes(asked.goal_id.uuid)
         now = self._world.clock.now()
         is_new = goal_id not in self._goals and goal_id not in self._undecided
@@ -132,14 +132,14 @@ class ActionParts:
         return message(f"{self._type}_SendGoal_Response", accepted=accepted, stamp=_time(now))
 
     def _has_room(self) -> bool:
-        """Whether one more goal may begin; the oldest that have ended make way for it."""
+        """Whether one more goal may start; the oldest finished ones are dropped for it."""
         if self._make_way(len(self._undecided)) <= 0:
             return True
         self._warn(f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.")
         return False
 
     def _make_way(self, others: int) -> int:
-        """Forget goals that have ended until one more has room; how many are too many still."""
+        """Drop finished goals until one more fits; return how many are still too many."""
         surplus = len(self._goals) + others + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
         for goal_id in ended[: max(0, surplus)]:
@@ -166,7 +166,7 @@ class ActionParts:
             self._publish_status()
 
     async def _enters(self, goal: GoalHandle) -> bool:
-        """Note a goal once its server takes it; whether it does."""
+        """Record a goal when its server accepts it; return whether it does."""
         if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         if goal.goal_id not in self._goals:
@@ -176,7 +176,7 @@ class ActionParts:
         return True
 
     async def cancel_goal(self, asked: Any) -> Any:
-        """Ask for the end of one goal, or of all; the answer comes with the server's decision."""
+        """Cancel one goal or all; the response comes with the server's decision."""
         goal_id = bytes(asked.goal_info.goal_id.uuid)
         every = goal_id == _EVERY_GOAL
         chosen = [
@@ -202,7 +202,7 @@ class ActionParts:
         return message(f"{CANCEL_GOAL}_Response", return_code=code, goals_canceling=canceled)
 
     async def get_result(self, asked: Any) -> Any:
-        """Wait for a goal's end."""
+        """Wait for a goal's result."""
         goal, _ = self._goals.get(bytes(asked.goal_id.uuid), (None, 0))
         answer = f"{self._type}_GetResult_Response"
         if goal is None:

@@ -1,4 +1,4 @@
-"""Clocks, simulated and real, behind one interface.
+"""Simulated and real clocks with one interface.
 
 No other module touches `time` or `asyncio.sleep`. A waiter names the moment it wants
 and its place within that moment: (stamp, phase, rank, order of asking). Both
@@ -31,7 +31,7 @@ T = TypeVar("T")
 
 
 class Phase(IntEnum):
-    """The order of wake-ups within one instant."""
+    """Order of wake-ups within one instant."""
 
     SIMULATE = 0
     BROADCAST = 1
@@ -70,19 +70,19 @@ class Clock(ABC):
 
     @abstractmethod
     def now(self) -> Stamp:
-        """The moment it is, in nanoseconds."""
+        """The present time, in nanoseconds."""
 
     @abstractmethod
     def new_loop(self) -> asyncio.AbstractEventLoop:
-        """Make an event loop whose time is this clock's."""
+        """Make an event loop that runs in this clock's time."""
 
     def interrupt(self) -> None:
-        """Note that a signal has come."""
+        """Record that a signal was received."""
         self.interrupted = True
 
     @abstractmethod
     def limit(self, until: Stamp | None) -> None:
-        """Have a node that holds up the loop ended once the run is to be over.
+        """End a node that blocks the loop when the run should be over.
 
         Args:
             until: The end of the run; None where it needs no watching any more.
@@ -90,12 +90,12 @@ class Clock(ABC):
 
     @abstractmethod
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """A future that is done after `patience` real seconds; cancel it to give it up."""
+        """Return a future that is done after `patience` real seconds; cancel it to give up."""
 
     async def wait_for_end(
         self, tasks: "Collection[asyncio.Task[Any]]"
     ) -> "set[asyncio.Task[Any]]":
-        """Wait for cancelled tasks, for `PATIENCE` real seconds; for ever after a signal.
+        """Wait for cancelled tasks, for `PATIENCE` real seconds; without limit after a signal.
 
         Returns:
             Those that have not returned.
@@ -112,13 +112,13 @@ class Clock(ABC):
         return waiting
 
     def elapsed(self) -> Duration:
-        """Return the time since the clock's epoch, in nanoseconds."""
+        """Time since the clock's epoch, in nanoseconds."""
         return self.now() - self.epoch
 
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """A future that is done at `stamp` (at once, in turn, if that has passed).
+        """Return a future that is done at `stamp`; if that is past, at its turn in this instant.
 
         Cancel it to give it up.
 
@@ -133,11 +133,11 @@ class Clock(ABC):
         return future
 
     async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait for a moment; one that has passed still waits for its turn."""
+        """Wait until a time; a past one still waits for its turn."""
         await self.timer(stamp, phase, rank)
 
     async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
-        """Wait for a while, in nanoseconds of this clock."""
+        """Wait for a duration, in nanoseconds of this clock."""
         await self.timer(self.now() + duration, phase, rank)
 
     def _next_due(self) -> Stamp | None:
@@ -172,26 +172,26 @@ class SimClock(Clock):
         self._now = epoch
 
     def now(self) -> Stamp:
-        """The simulated moment, in nanoseconds."""
+        """The simulated time, in nanoseconds."""
         return self._now
 
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """A future that is done at `stamp`; a past one takes its turn in this instant."""
+        """Return a future that is done at `stamp`; a past one gets its turn in this instant."""
         return super().timer(max(whole(stamp), self._now), phase, rank)
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
-        """Make an event loop that lives in this clock's time."""
+        """Make an event loop that runs in this clock's time."""
         return VirtualLoop(self)
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that holds up simulated time for `STANDSTILL` real seconds."""
+        """End a node that blocks simulated time for `STANDSTILL` real seconds."""
         if self.stopper is not None:
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """A future that is done after `patience` real seconds, however much is simulated."""
+        """Return a future that is done after `patience` real seconds, whatever is simulated."""
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
 
@@ -213,7 +213,7 @@ class SimClock(Clock):
         return future
 
     def advance(self, loop_timer: float | None) -> bool:
-        """Jump to the next due timer and wake it; False when nothing is due, ever.
+        """Jump to the next due timer and wake it; return False if there is none.
 
         Called by the clock's own event loop when every task waits.
 
@@ -273,7 +273,7 @@ class WallClock(Clock):
         self._simulated: Stamp | None = self.epoch if head_start else None
 
     def now(self) -> Stamp:
-        """The moment it is, in nanoseconds since the Unix epoch (at rate 1)."""
+        """Nanoseconds since the Unix epoch (at rate 1)."""
         return self._real() if self._simulated is None else self._simulated
 
     def _real(self) -> Stamp:
@@ -287,21 +287,21 @@ class WallClock(Clock):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """A future that is done at `stamp`; the alarm is reset if that is the earliest."""
+        """Return a future that is done at `stamp`; the alarm is set anew if it is the earliest."""
         future = super().timer(stamp, phase, rank)
         if self._waiters[0][4] is future:
             self._set_alarm()
         return future
 
     def limit(self, until: Stamp | None) -> None:
-        """End a node that holds up the loop when that moment has passed."""
+        """End a node that still blocks the loop at that time."""
         if self.stopper is not None:
             wait = None if until is None else (until - self.now()) / (NANOSECONDS * self.rate)
             # A thread waits for no more than some hundred years.
             self.stopper.limit(None if wait is None or wait > 1e9 else max(wait, 0.0))
 
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """A future that is done after `patience` real seconds, whatever the rate."""
+        """Return a future that is done after `patience` real seconds, at any rate."""
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
         alarm = loop.call_later(patience, _set, future)
@@ -338,7 +338,7 @@ class WallClock(Clock):
         asyncio.get_running_loop().call_soon(self._wake)
 
     def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
-        """Return the moment at which a head start goes on; None once it has reached the present."""
+        """Return the time up to which a head start runs; None once it has reached the present."""
         real = self._real()
         behind = real - self._caught_up
         if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
@@ -355,7 +355,7 @@ class WallClock(Clock):
 
 
 class FollowedClock(WallClock):
-    """Real time, until it is told what time it is: then it stands still between two tellings.
+    """Real time until it is set; then it stands still until it is set again.
 
     What a world that shares a session lives by: while another process publishes `/clock`, as one
     that plays a recording does, now is what that says. A wait keeps its remaining duration when
@@ -366,7 +366,7 @@ class FollowedClock(WallClock):
     """
 
     def __init__(self, told: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
-        """Read real time, or a moment that stands still from the beginning.
+        """Read real time, or stand still at a time from the start.
 
         Args:
             told: That moment.
@@ -379,15 +379,15 @@ class FollowedClock(WallClock):
 
     @property
     def is_told(self) -> bool:
-        """Whether it reads what it is told."""
+        """Whether it has been set."""
         return self._told is not None
 
     def now(self) -> Stamp:
-        """The moment it was told last, else the moment it is."""
+        """The time it was last set to, else the present."""
         return super().now() if self._told is None else self._told
 
     def tell(self, moment: Stamp) -> None:
-        """Say what time it is, from now on; in the loop that runs on it.
+        """Set the time; call in the loop that runs on this clock.
 
         Args:
             moment: Nanoseconds; 0 and less, which are no moment, count as 1.
@@ -408,7 +408,7 @@ class FollowedClock(WallClock):
             self.fell_back.call(-change)
 
     async def told_once(self, patience: Duration) -> None:
-        """Wait until it is told what time it is, for so long in real time."""
+        """Wait until it is set for the first time, at most for a duration in real time."""
         first = self._first = asyncio.get_running_loop().create_future()
         if self.is_told:
             first.set_result(None)
@@ -419,7 +419,7 @@ class FollowedClock(WallClock):
             timer.cancel()
 
     def run_on(self) -> None:
-        """Go on by real time from where it stands: it is told no more."""
+        """Continue in real time from its present value."""
         if self._told is not None:
             self._started = time.monotonic_ns() - (self._told - self.epoch)
             self._told = None
@@ -430,7 +430,7 @@ class FollowedClock(WallClock):
         super().limit(None if self.is_told else until)
 
     def _shift(self, change: Duration) -> None:
-        """Let every waiter wait for as long as it would have."""
+        """Shift every waiter so that it waits as long as before."""
         self._waiters = [
             (stamp + change, phase, rank, asked, future)
             for stamp, phase, rank, asked, future in self._waiters
@@ -450,7 +450,7 @@ class FollowedClock(WallClock):
 
 
 def pace_of(clock: Clock) -> Clock:
-    """The clock by which to wait for what a person should see, while the world lives by `clock`.
+    """Return the clock for waits that a person watches, while the world runs on `clock`.
 
     Real time where the world's is told from outside: that may stand still, or run at any rate.
     """
@@ -467,7 +467,7 @@ def _set(future: "asyncio.Future[None]") -> None:
 
 
 def _others_wait_their_turn() -> bool:
-    """Whether the running loop has work at hand; asyncio has no public way to ask."""
+    """Whether the running loop has work to do; asyncio has no public function for this."""
     return bool(getattr(asyncio.get_running_loop(), "_ready", ()))
 
 
@@ -509,7 +509,7 @@ def _real_seconds() -> float:
 
 
 def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[T]") -> T:
-    """Run a task to its end, and those it leaves behind."""
+    """Run a task and its remaining subtasks to their end; return its result."""
     failure: BaseException | None = None
     try:
         loop.run_until_complete(task)
@@ -531,7 +531,7 @@ def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[
 
 
 def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseException | None:
-    """Cancel what still runs, and give the first thing that is raised by it."""
+    """Cancel the remaining tasks, and return the first exception from them."""
 
     async def cancel(tasks: "set[asyncio.Task[Any]]") -> BaseException | None:
         for task in tasks:
@@ -558,7 +558,7 @@ def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseExce
 
 
 class VirtualLoop(asyncio.SelectorEventLoop):
-    """An event loop whose time is a simulated clock's."""
+    """Event loop that runs in the time of a simulated clock."""
 
     def __init__(self, clock: "SimClock") -> None:
         # Before the base class, whose constructor asks for the time already.
@@ -566,11 +566,11 @@ class VirtualLoop(asyncio.SelectorEventLoop):
         super().__init__(_VirtualSelector(self))
 
     def time(self) -> float:
-        """The clock's moment in seconds, for asyncio's own timers."""
+        """Return the clock's time in seconds, for asyncio's own timers."""
         return self.clock.now() / NANOSECONDS
 
     def is_forsaken(self) -> bool:
-        """Whether nothing from outside can wake this loop any more."""
+        """Whether nothing outside can wake this loop any more."""
         selector: Any = getattr(self, "_selector", None)
         # The one file that is always there is the loop's own wake-up pipe.
         files = 0 if selector is None else len(selector.get_map())
@@ -579,7 +579,7 @@ class VirtualLoop(asyncio.SelectorEventLoop):
 
 
 class _VirtualSelector(selectors.DefaultSelector):
-    """Selector of a virtual loop: it lets the clock jump instead of waiting for files."""
+    """Selector of a virtual loop: where a real one would wait, the clock jumps."""
 
     POLL_EVERY = 64
 
@@ -589,7 +589,7 @@ class _VirtualSelector(selectors.DefaultSelector):
         self._calls = 0
 
     def select(self, timeout: float | None = None) -> Any:
-        """Poll now and then for signals and threads; jump when the loop has nothing to run."""
+        """Poll for signals and threads now and then; jump when the loop has nothing to run."""
         # A real poll costs a system call; a run of a million jumps cannot afford one for each.
         self._calls += 1
         if self._calls % self.POLL_EVERY == 0 or self.has_files():

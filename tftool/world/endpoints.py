@@ -1,4 +1,4 @@
-"""Publishers and subscriptions of topics, with their quality of service.
+"""Publishers and subscriptions of topics with their quality of service.
 
 Nodes are entered here by what they publish and subscribe, those of other processes too. What
 stays inside the process, such as keys that are pressed, has no ROS type and is not entered.
@@ -64,7 +64,7 @@ TF_STATIC: Final = Quality(depth=1, is_latched=True)
 
 
 def conflict(offered: Quality, requested: Quality) -> str:
-    """The policy by which a subscription asks for more than a publisher gives; "" when none."""
+    """Return the policy in which a publisher offers less than is requested; "" if none."""
     if requested.is_reliable and not offered.is_reliable:
         return "RELIABILITY"
     if requested.is_latched and not offered.is_latched:
@@ -109,10 +109,10 @@ class Endpoint:
 
 
 class Endpoints:
-    """Every endpoint of a world and of those it is linked to."""
+    """All endpoints of a world and of the worlds linked to it."""
 
     def __init__(self, changed: Callable[[], object], warn: Callable[[str, str], object]) -> None:
-        """Begin with none.
+        """Start empty.
 
         Args:
             changed: Called when one comes or goes.
@@ -124,7 +124,7 @@ class Endpoints:
         self._silent: set[Endpoint] = set()
 
     def add(self, endpoint: Endpoint) -> Callable[[], None]:
-        """Enter one; call the returned function to remove it."""
+        """Add an endpoint; call the returned function to remove it."""
         others = self._by_topic.setdefault(endpoint.topic, [])
         others.append(endpoint)
         for other in others:
@@ -146,25 +146,25 @@ class Endpoints:
         return remove
 
     def set_alive(self, endpoint: Endpoint, alive: bool) -> None:
-        """Note whether a publisher gives the signs of life that it has promised."""
+        """Record whether a publisher keeps its liveliness."""
         if alive is (endpoint in self._silent):
             (self._silent.discard if alive else self._silent.add)(endpoint)
             self._changed()
 
     def is_alive(self, endpoint: Endpoint) -> bool:
-        """Whether it does, as far as is known."""
+        """Whether it keeps its liveliness, as far as known."""
         return endpoint not in self._silent
 
     def of(self, topic: str, role: Role) -> list[Endpoint]:
-        """The publishers or the subscriptions of a topic."""
+        """Return a topic's publishers or subscriptions."""
         return [one for one in self._by_topic.get(topic, ()) if one.role == role]
 
     def topics(self) -> list[str]:
-        """The names of all topics that have an endpoint."""
+        """Return the names of all topics with an endpoint."""
         return list(self._by_topic)
 
     def _compare(self, publisher: Endpoint, subscription: Endpoint) -> None:
-        """Say on both sides when nothing will pass between two, and why."""
+        """Report on both sides that two endpoints are incompatible, and why."""
         policy = conflict(publisher.quality, subscription.quality)
         if not policy or publisher.interface != subscription.interface:
             return

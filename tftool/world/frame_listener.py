@@ -1,4 +1,4 @@
-"""Every transform of a world, kept in a buffer of its own while the world lives."""
+"""Recorder of a world's transforms in a separate buffer."""
 
 import asyncio
 from collections.abc import Coroutine, Iterator
@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 @contextmanager
 def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer, TransformLog]]:
-    """Keep every transform of a world in a buffer of its own, and in the order of arrival.
+    """Record every transform of a world in a separate buffer, and in order of arrival.
 
     Args:
         world: Which broadcasts them.
@@ -44,7 +44,7 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
 
 
 def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
-    """Run work on a world's clock; on a thread of its own where a loop runs here already."""
+    """Run work on a world's clock; in a new thread if a loop already runs here."""
     try:
         asyncio.get_running_loop()
     except RuntimeError:

@@ -1,4 +1,4 @@
-"""Headers of a running session's messages, for the doctor."""
+"""Headers of a session's messages, for the doctor."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
@@ -20,7 +20,7 @@ _HEADER: Final = "std_msgs/msg/Header"
 
 
 class HeaderListener:
-    """Listener to the first messages of each topic whose type begins with a header."""
+    """Subscriber to the first messages of each topic whose type begins with a header."""
 
     def __init__(self) -> None:
         self._world: World | None = None
@@ -29,7 +29,7 @@ class HeaderListener:
         self._is_looking = False
 
     def begin(self, world: World) -> None:
-        """Listen to what other processes publish in a world, now and later."""
+        """Subscribe to what other processes publish, now and later."""
         self._world = world
         world.watch(self._look, "doctor")
 
@@ -64,7 +64,7 @@ class HeaderListener:
         self._stops[key] = world.topic(publisher.topic, kind).subscribe(hear, "doctor")
 
     def headers(self) -> "dict[str, Headers]":
-        """Return the headers that were heard, in columns, by topic."""
+        """Return the received headers in columns, by topic."""
         import numpy as np  # most worlds are never judged
 
         from tftool.recordings.contract import Headers

@@ -1,4 +1,4 @@
-"""Log lines of nodes, kept for screens and handed to listeners."""
+"""Log lines of nodes, kept for screens and passed to listeners."""
 
 import math
 from collections import deque
@@ -38,7 +38,7 @@ class LogRecord:
     program: str = ""
 
     def __str__(self) -> str:
-        """The line as ROS 2's console shows it; a logger's name has dots for a node's slashes."""
+        """Return the line in the form of ROS 2's console; a logger's name has dots for slashes."""
         second, rest = divmod(self.stamp, NANOSECONDS)
         logger = self.node.replace("/", ".")
         return f"[{self.level}] [{second}.{rest:09d}] [{logger}]: {self.text}"
@@ -49,13 +49,13 @@ MOST_KINDS: Final = 20
 
 
 class Repeats:
-    """Counts alike lines: the first of a kind is said, then the 10th, the 100th and so on."""
+    """Counter of similar lines: the first is logged, then the 10th, the 100th and so on."""
 
     def __init__(self) -> None:
         self._counts: dict[str, int] = {}
 
     def said(self, kind: str, text: str) -> str:
-        """Count a line; return how it is to be said, "" where it is only counted.
+        """Count a line; return the text to log, "" if it is only counted.
 
         Args:
             kind: The common part of similar lines.
@@ -77,12 +77,12 @@ class Repeats:
 
 
 class Log:
-    """The last thousand lines, and the listeners that get each as it comes."""
+    """The last thousand lines, and listeners for each new one."""
 
     def __init__(
         self, now: Callable[[], Stamp], keep: int = 1000, report: Report | None = None
     ) -> None:
-        """Begin empty.
+        """Start empty.
 
         Args:
             now: Gives the stamp of a line.
@@ -96,18 +96,18 @@ class Log:
     def listen(
         self, callback: Callable[[LogRecord], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Have `callback` called with every line to come; call the returned function to stop.
+        """Call `callback` with every further line until the returned function is called.
 
         What it raises is reported under the name of its `owner`.
         """
         return self._listeners.add(callback, owner)
 
     def debug(self, node: str, text: str) -> None:
-        """Say something that helps to find a fault."""
+        """Log a line for debugging."""
         self.add("DEBUG", node, text)
 
     def info(self, node: str, text: str) -> None:
-        """Say what happens."""
+        """Log information."""
         self.add("INFO", node, text)
 
     def warn(self, node: str, text: str) -> None:
@@ -115,11 +115,11 @@ class Log:
         self.add("WARN", node, text)
 
     def error(self, node: str, text: str) -> None:
-        """Say what went wrong."""
+        """Log an error."""
         self.add("ERROR", node, text)
 
     def add(self, level: Level, node: str, text: str, *, program: str = "") -> None:
-        """Keep a line and hand it on."""
+        """Store a line and pass it on."""
         record = LogRecord(self._now(), level, node, text, program)
         self.records.append(record)
         self._listeners.call(record)

@@ -1,4 +1,4 @@
-"""Limit of the memory that the transforms of a live world take; the oldest beyond it are dropped.
+"""Memory limit for a live world's transforms; beyond it the oldest are dropped.
 
 A buffer prunes by time alone, as tf2's does: a publisher at a very high rate, or with stamps a
 nanosecond apart, fills the memory of each process that subscribes. The size of a recording is not
@@ -26,7 +26,7 @@ Say = Callable[[str], object]
 
 
 def allowed(environment: Mapping[str, str] = os.environ) -> int:
-    """Return the bytes a buffer's samples may take: from the environment, else `MAX_BYTES`.
+    """Return the number of bytes for samples: from the environment, else `MAX_BYTES`.
 
     Raises:
         UsageError: If the environment names no number of megabytes.
@@ -44,7 +44,7 @@ def allowed(environment: Mapping[str, str] = os.environ) -> int:
 
 
 class MemoryBound:
-    """Keeps the samples of a live buffer within a number of bytes.
+    """Keeps the samples of a live buffer within a memory limit.
 
     Attributes:
         limit: How many.
@@ -53,7 +53,7 @@ class MemoryBound:
     __slots__ = ("_buffer", "_said", "_say", "_unseen", "limit")
 
     def __init__(self, buffer: Buffer, say: Say, limit: int) -> None:
-        """Watch a buffer; `say` is told once about each frame that is cut short."""
+        """Watch a buffer; `say` is called once for each frame whose history is shortened."""
         self.limit = limit
         self._buffer = buffer
         self._say = say
@@ -61,7 +61,7 @@ class MemoryBound:
         self._said: set[str] = set()
 
     def note(self, samples: int) -> None:
-        """Count `samples` more; now and then, check how much memory all of them take."""
+        """Count `samples` more; now and then check the memory that all of them use."""
         self._unseen += samples
         if self._unseen >= EVERY:
             self._unseen = 0

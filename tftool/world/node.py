@@ -1,4 +1,4 @@
-"""A node: one coroutine, `run`, in a world, waiting only through the world's clock."""
+"""A node: one coroutine, `run`, in a world; it waits on the world's clock only."""
 
 import asyncio
 import inspect
@@ -27,7 +27,7 @@ LATE = seconds(1.0)
 
 
 class Node(Resident):
-    """Override `run`, and wait by `every` or the clock.
+    """Base of nodes: override `run`, and wait with `every` or the clock.
 
     Attributes:
         world: Where it lives.
@@ -78,7 +78,7 @@ class Node(Resident):
         """Run the node; it ends when this returns."""
 
     def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
-        """Run something beside `run`, as a part of this node.
+        """Run something concurrently with `run`, as part of this node.
 
         It may outlast `run`, and is cancelled when the node leaves or the world ends. What it
         raises is the failure of this node.
@@ -92,7 +92,7 @@ class Node(Resident):
         return self.world.start_soon(self, work)
 
     async def every(self, period: Duration, *, immediately: bool = False) -> AsyncIterator[Stamp]:
-        """The moments of a timer, on an integer grid from now on.
+        """Yield the times of a timer, at exact multiples of the period from now on.
 
         The first is one period from now, as a ROS timer's. On the wall clock a late
         node gets a few missed ticks made up for, then the grid slips; a second is said, once.
@@ -130,14 +130,14 @@ class Node(Resident):
     # Talking
 
     def publish(self, topic: str, value: Any) -> None:
-        """Publish on a topic, made with the value's type if it is new."""
+        """Publish on a topic; a new topic is created with the value's type."""
         publisher = self._publishers.get(topic)
         if publisher is None or publisher.kind is not type(value):
             publisher = self.publisher(topic, type(value))
         publisher.publish(value)
 
     def publisher(self, topic: str, kind: type[T], quality: Quality = USUAL) -> TopicPublisher[T]:
-        """Become a publisher of a topic, until this node ends, before there is a value."""
+        """Register as a publisher of a topic until this node ends, before the first message."""
         publisher = self.world.publisher(self.name, topic, kind, quality)
         self._publishers[topic] = publisher
         self._until_end(publisher.close)
@@ -150,7 +150,7 @@ class Node(Resident):
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Have `callback` called with every value; if it raises, this node has failed.
+        """Call `callback` with every message; if it raises, this node has failed.
 
         A latched subscription gets what latched publishers sent before, too.
         """
@@ -159,36 +159,36 @@ class Node(Resident):
     def serve(
         self, name: str, handler: Callable[[Any], Any], kind: Any = None, *, shares: bool = False
     ) -> Callable[[], None]:
-        """Answer a service until this node ends; the arguments are those of `World.serve`."""
+        """Serve a service until this node ends; the arguments are those of `World.serve`."""
         return self._until_end(self.world.serve(name, handler, kind, node=self.name, shares=shares))
 
     def serve_action(
         self, name: str, accept: Callable[[Any], None], kind: Any = None
     ) -> Callable[[], None]:
-        """Take an action's goals until this node ends; `kind` is as in `serve`."""
+        """Accept an action's goals until this node ends; `kind` is as in `serve`."""
         return self._until_end(self.world.serve_action(name, accept, kind, node=self.name))
 
     async def call(self, service: str, request: Any) -> Any:
-        """Ask a service and wait for its answer; see `World.call`.
+        """Call a service and wait for its response; see `World.call`.
 
         A server of another process has `PATIENCE`.
         """
         return await self.world.call(service, request, patience=PATIENCE)
 
     def broadcast(self, *transforms: TransformStamped) -> bool:
-        """Put transforms into the buffer, under this node's name; whether it took them all."""
+        """Broadcast transforms in this node's name; return whether all were accepted."""
         if "tf" not in self._publishers:
             self.publisher("tf", TransformMessage, TF)
         return self.world.broadcast(transforms, self.name)
 
     def broadcast_static(self, *transforms: TransformStamped) -> bool:
-        """Put transforms that hold for all time into the buffer; whether it took them all."""
+        """Broadcast static transforms in this node's name; return whether all were accepted."""
         if "tf_static" not in self._publishers:
             self.publisher("tf_static", TransformMessage, TF_STATIC)
         return self.world.broadcast(transforms, self.name, static=True)
 
     def info(self, text: str) -> None:
-        """Log what happens."""
+        """Log information."""
         self.world.log.info(self.name, text)
 
     def warn(self, text: str) -> None:
@@ -196,25 +196,25 @@ class Node(Resident):
         self.world.log.warn(self.name, text)
 
     def error(self, text: str) -> None:
-        """Log what went wrong."""
+        """Log an error."""
         self.world.log.error(self.name, text)
 
     # Settings
 
     def declare_parameter(self, name: str, default: Value) -> Value:
-        """Make a setting known with its default."""
+        """Declare a parameter with its default."""
         return self.parameters.declare(name, default)
 
     def get_parameter(self, name: str) -> Value:
-        """A setting as it stands."""
+        """Return a parameter's value."""
         return self.parameters[name]
 
     def set_parameter(self, name: str, value: Value) -> None:
-        """Change a setting; see `Parameters.set`."""
+        """Change a parameter; see `Parameters.set`."""
         self.parameters.set(name, value)
 
     def close(self) -> None:
-        """Withdraw every subscription and service; the supervisor calls it at the end."""
+        """Close every subscription and service; the supervisor calls it at the end."""
         while self._stops:
             self._stops.pop()()
         self._publishers.clear()

@@ -1,4 +1,4 @@
-"""Settings of a node that can change while it runs, and ROS 2's six services about them."""
+"""A node's parameters, and ROS 2's six services for them."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
@@ -16,7 +16,7 @@ Value = bool | int | float | str
 
 
 class Parameters:
-    """Declared names with typed values, and callbacks for each change."""
+    """Declared names with typed values, and callbacks for changes."""
 
     def __init__(self, owner: str) -> None:
         self._owner = owner
@@ -24,11 +24,11 @@ class Parameters:
         self._listeners: list[Callable[[str, Value], object]] = []
 
     def declare(self, name: str, default: Value) -> Value:
-        """Make a parameter known with its default, whose type it keeps."""
+        """Declare a parameter with its default, which determines its type."""
         return self._values.setdefault(name, default)
 
     def __getitem__(self, name: str) -> Value:
-        """The value of a declared parameter."""
+        """Return the value of a declared parameter."""
         self._check(name)
         return self._values[name]
 
@@ -53,11 +53,11 @@ class Parameters:
             listener(name, value)
 
     def on_change(self, callback: Callable[[str, Value], object]) -> None:
-        """Have `callback` called with name and value after every change."""
+        """Call `callback` with name and value after every change."""
         self._listeners.append(callback)
 
     def values(self) -> Mapping[str, Value]:
-        """Every parameter as it stands, read-only."""
+        """Return every parameter, read-only."""
         return MappingProxyType(self._values)
 
     def _check(self, name: str) -> None:
@@ -68,19 +68,19 @@ class Parameters:
 
 
 class ParameterHolder(Protocol):
-    """Parameters as the services read and change them: messages of rcl_interfaces in and out."""
+    """Parameters as their services use them, in messages of rcl_interfaces."""
 
     def values(self, names: Sequence[str]) -> list[Any]:
-        """A ParameterValue for each name, without a type where there is none of that name."""
+        """Return a ParameterValue for each name, without a type for unknown names."""
 
     def descriptors(self, names: Sequence[str]) -> list[Any]:
-        """A ParameterDescriptor for each name that is known."""
+        """Return a ParameterDescriptor for each known name."""
 
     def listed(self, prefixes: Sequence[str], depth: int) -> Any:
-        """A ListParametersResult."""
+        """Return a ListParametersResult."""
 
     def change(self, parameters: Sequence[Any]) -> Any:
-        """Set each of some Parameters, or none of them; a SetParametersResult."""
+        """Set all of some Parameters, or none; return a SetParametersResult."""
 
 
 Answer = Callable[[Any, Any], Any]
@@ -88,7 +88,7 @@ Answer = Callable[[Any, Any], Any]
 
 
 def parameter_services(holder: ParameterHolder) -> Iterator[tuple[str, Any, Answer]]:
-    """Each service's name below its node, its type, and what answers it."""
+    """Yield each parameter service's name below its node, its type, and its handler."""
 
     def get(request: Any, response: Any) -> Any:
         response.values = holder.values(request.names)
@@ -126,10 +126,10 @@ def parameter_services(holder: ParameterHolder) -> Iterator[tuple[str, Any, Answ
 
 
 class ParameterServices:
-    """Serves the parameters of a node of ours."""
+    """Server of a node's parameters."""
 
     def __init__(self, node: "Node") -> None:
-        """Serve from now on, until the node ends."""
+        """Serve until the node ends."""
         self._node = node
         for name, kind, answer in parameter_services(self):
             self._serve(name, kind, answer)
@@ -144,22 +144,22 @@ class ParameterServices:
         return SCALARS.get(type(self._node.parameters.values().get(name)), 0)
 
     def values(self, names: Sequence[str]) -> list[Any]:
-        """A ParameterValue for each name."""
+        """Return a ParameterValue for each name."""
         known = self._node.parameters.values()
         return [value_message(known.get(name), self._number(name)) for name in names]
 
     def descriptors(self, names: Sequence[str]) -> list[Any]:
-        """A ParameterDescriptor for each name that is known."""
+        """Return a ParameterDescriptor for each known name."""
         kind = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
         known = self._node.parameters.values()
         return [kind(name=name, type=self._number(name)) for name in names if name in known]
 
     def listed(self, prefixes: Sequence[str], depth: int) -> Any:
-        """The names below some prefixes."""
+        """Return the names below some prefixes."""
         return list_result(self._node.parameters.values(), prefixes, depth)
 
     def change(self, parameters: Sequence[Any]) -> Any:
-        """Make all changes or none; how that went."""
+        """Make all changes or none; return the result."""
         kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
         before = dict(self._node.parameters.values())
         try:

@@ -1,4 +1,4 @@
-"""Registry of a world's nodes, their supervisor, and the services and actions they serve.
+"""Registry of a world's nodes and supervisor, and of its services and actions.
 
 Nodes know their world; the world knows them only as residents, so that neither module has to
 know the other.
@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 
 class Resident:
-    """Something that runs in a world under a name: a node, or a program that carries nodes.
+    """Something named that runs in a world: a node, or a program with nodes.
 
     Attributes:
         name: Its name; no two residents of a world share one.
@@ -32,11 +32,11 @@ class Resident:
         """Run it; it ends when this returns."""
 
     def close(self) -> None:
-        """Withdraw everything it offers; called at its end."""
+        """Close everything it offers; called at its end."""
 
 
 class Supervision:
-    """Interface of the supervisor that runs a world's residents."""
+    """Interface of the supervisor of a world's residents."""
 
     def start(self, resident: Resident) -> None:
         """Start one that joined."""
@@ -45,7 +45,7 @@ class Supervision:
     def start_soon(
         self, resident: Resident, work: Coroutine[Any, Any, T]
     ) -> "asyncio.Task[T | None]":
-        """Run something beside a resident's `run`, as a part of it."""
+        """Run something concurrently with a resident's `run`, as part of it."""
         raise NotImplementedError
 
     def end(self, resident: Resident) -> None:
@@ -57,11 +57,11 @@ class Supervision:
         raise NotImplementedError
 
     def fail(self, resident: Resident, error: BaseException) -> None:
-        """End the run because one raised."""
+        """End the run because a resident raised."""
         raise NotImplementedError
 
     def end_by(self, error: Exception) -> None:
-        """End the run by an error that is of no resident."""
+        """End the run with an error that belongs to no resident."""
         raise NotImplementedError
 
 
@@ -84,14 +84,14 @@ class Offer(Generic[T]):
 
 
 class NamedOffers(Generic[T]):
-    """Services, or actions, by name: who answers each, and who does from when that leaves.
+    """Services or actions by name, with their servers in order of succession.
 
     Attributes:
         by_name: Who answers, read-only.
     """
 
     def __init__(self, what: str, changed: Callable[[], object]) -> None:
-        """Begin with none.
+        """Start empty.
 
         Args:
             what: What they are: "service", "action".
@@ -104,7 +104,7 @@ class NamedOffers(Generic[T]):
         self.by_name: Mapping[str, Offer[T]] = MappingProxyType(self._first)
 
     def add(self, name: str, offer: Offer[T], *, shares: bool) -> Callable[[], None]:
-        """Take one more in; call the returned function to remove it.
+        """Add a server; call the returned function to remove it.
 
         Args:
             name: What it is called.
@@ -138,10 +138,10 @@ class NamedOffers(Generic[T]):
         return stop
 
     def get(self, name: str) -> Offer[T] | None:
-        """Return the server that answers; None where none does."""
+        """Return the active server; None if there is none."""
         return self._first.get(name.removeprefix("/"))
 
     def count(self, name: str) -> int:
-        """Return how many servers would answer in turn."""
+        """Return the number of servers."""
         plain = name.removeprefix("/")
         return (plain in self._first) + len(self._next.get(plain, ()))

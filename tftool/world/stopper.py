@@ -39,7 +39,7 @@ _LEAVE_SCREEN = (
 
 
 class Overdue(BaseException):
-    """Raised inside a node that holds up the loop beyond the end of the run.
+    """Raised inside a node that blocks the loop beyond the end of the run.
 
     Not an `Exception`, so that a node that catches those and goes on is ended, too.
     """
@@ -60,7 +60,7 @@ class Stopper:
         on_interrupt: Callable[[], object],
         when_killed: Listeners[()],
     ) -> None:
-        """Take the signals, where this is the main thread.
+        """Install the signal handlers, in the main thread only.
 
         Args:
             loop: The loop that runs, on the calling thread.
@@ -97,7 +97,7 @@ class Stopper:
             self._begin()
 
     def limit(self, deadline: float | None, standstill: float | None = None) -> None:
-        """Say when the run is to end, or that it has ended by itself.
+        """Set when the run must end, or that it has ended.
 
         Args:
             deadline: Real seconds from now until the end; None for no end in real time.
@@ -111,7 +111,7 @@ class Stopper:
             self._poke()
 
     def close(self) -> None:
-        """Give the signals back to their former handlers."""
+        """Restore the former signal handlers."""
         # Set before the poke: the thread looks at it as soon as it wakes up.
         self._over = True
         for number, before in self._handlers.items():
@@ -154,7 +154,7 @@ class Stopper:
                 self._look()
 
     def _pause(self) -> float | None:
-        """Real seconds until there may be something to do without a signal."""
+        """Return real seconds until something may have to be done without a signal."""
         waits = []
         if self._interrupted_at is not None:
             waits.append(self._interrupted_at + PATIENCE - self._now())
@@ -207,7 +207,7 @@ class Stopper:
             )
 
     def _answered(self) -> None:
-        """Note, on the loop's thread, that the loop runs."""
+        """Record, in the loop's thread, that the loop runs."""
         self._asked_at = self._raised_at = None
 
     def _ask(self, callback: Callable[[], object]) -> None:
@@ -215,7 +215,7 @@ class Stopper:
             self._loop.call_soon_threadsafe(callback)
 
     def _not_returned(self) -> list[str]:
-        """The nodes that still run, each with its line: the one that holds the loop, or all."""
+        """Return the running nodes with their lines: the one that blocks the loop, or all."""
         current = asyncio.current_task(self._loop)
         if current is not None:
             frame = sys._current_frames().get(self._loop_thread)
@@ -228,7 +228,7 @@ class Stopper:
         return names[:_MOST_NAMED] or ["the run"]
 
     def _kill(self, status: int) -> None:
-        """End the process, with the terminal as it was."""
+        """End the process, with its terminal restored."""
         self._when_killed.call()
         if self._terminal is not None:
             import termios
@@ -240,7 +240,7 @@ class Stopper:
 
 
 def leave_screen() -> None:
-    """Take a full-screen app off the terminal, for `Clock.when_killed`.
+    """Restore the terminal of a full-screen app, for `Clock.when_killed`.
 
     The alternate screen, the hidden cursor, and the reports of the mouse, of the focus and of
     pasted text are undone.
@@ -253,19 +253,19 @@ def leave_screen() -> None:
 
 
 def node_task_name(name: str) -> str:
-    """Return the name of a node's tasks, which tells them from others."""
+    """Return the name of a node's tasks, by which they are recognised."""
     return f"node '{name}'"
 
 
 def abandon(task: "asyncio.Task[Any]") -> None:
-    """Let go of a task that does not heed its cancellation: nothing waits for it any more."""
+    """Abandon a task that ignores its cancellation: nothing waits for it any more."""
     _abandoned.add(task)
     # asyncio's own way not to complain about it when the loop is closed.
     task._log_destroy_pending = False  # type: ignore[attr-defined]
 
 
 def leftovers(loop: asyncio.AbstractEventLoop) -> "set[asyncio.Task[Any]]":
-    """The tasks of a loop that are not done and not abandoned."""
+    """Return the tasks of a loop that are neither done nor abandoned."""
     return {task for task in asyncio.all_tasks(loop) if task not in _abandoned}
 
 
@@ -281,19 +281,19 @@ def _title(task: "asyncio.Task[Any]") -> str:
 
 
 def _stack(frame: FrameType | None) -> Iterable[tuple[str, int]]:
-    """The files and lines of a stack, innermost first."""
+    """Return the files and lines of a stack, innermost first."""
     while frame is not None:
         yield frame.f_code.co_filename, frame.f_lineno
         frame = frame.f_back
 
 
 def line_of_task(task: "asyncio.Task[Any]") -> str:
-    """The line of a user's code at which a task waits, as "busy.py:10"; "" where there is none."""
+    """Return the line of a user's code at which a task waits, as "busy.py:10"; else ""."""
     return _line(_awaiting(task))
 
 
 def _awaiting(task: "asyncio.Task[Any]") -> list[tuple[str, int]]:
-    """The files and lines at which a task waits, innermost first."""
+    """Return the files and lines at which a task waits, innermost first."""
     found = []
     waiting: Any = task.get_coro()
     while waiting is not None:
@@ -305,7 +305,7 @@ def _awaiting(task: "asyncio.Task[Any]") -> list[tuple[str, int]]:
 
 
 def _line(lines: Iterable[tuple[str, int]]) -> str:
-    """The innermost line of a user's code, "" where there is none."""
+    """Return the innermost line of a user's code; else ""."""
     for file, line in lines:
         if is_users_file(file):
             return f"{os.path.basename(file)}:{line}"
@@ -324,7 +324,7 @@ def _say(sentence: str) -> None:
 
 
 def _terminal_settings() -> Any:
-    """Return the settings of the terminal on stdin; None where there is none."""
+    """Return the settings of the terminal on stdin; None if it is no terminal."""
     try:
         import termios
 
@@ -336,8 +336,8 @@ def _terminal_settings() -> Any:
 
 
 def _pass_over(number: int, frame: FrameType | None) -> None:
-    """Do nothing: what came was written to the socket as well."""
+    """Do nothing: the signal was also written to the socket."""
 
 
 def _nothing() -> None:
-    """Wake the loop."""
+    """Do nothing but wake the loop."""

@@ -1,4 +1,4 @@
-"""Start nodes, stop them, report the first failure."""
+"""Starting and stopping nodes, and reporting the first failure."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:
-    """Let a world's nodes run until an end is reached.
+    """Run a world's nodes until an end is reached.
 
     The end is `until` (everything due in that instant still happens), `world.stop()`,
     or, without `until`, the return of the last node. Whatever still runs then is
@@ -115,7 +115,7 @@ async def beside(
 
 
 class _Supervisor(Supervision):
-    """The tasks of the nodes of one run.
+    """Tasks of the nodes of one run.
 
     Attributes:
         over: Done when the run is to end.
@@ -173,7 +173,7 @@ class _Supervisor(Supervision):
         self.stop()
 
     async def cancel(self) -> None:
-        """Cancel what still runs, and wait for it."""
+        """Cancel all running tasks, and wait for them."""
         self._is_ending = True
         while self._tasks:
             tasks = list(self._tasks)
@@ -204,7 +204,7 @@ class _Supervisor(Supervision):
             raise
 
     async def _guarded(self, resident: Resident, work: Coroutine[Any, Any, T]) -> T | None:
-        """Await some work of a node; what it raises is the failure of that node."""
+        """Await some work of a node; an exception becomes the node's failure."""
         try:
             return await work
         except Overdue as overdue:

@@ -1,4 +1,4 @@
-"""Typed streams inside one process, and the questions that want an answer.
+"""Typed topics within one process, and goals of actions.
 
 Delivery is a direct call: `publish` has called every subscriber, in the order they
 subscribed, when it returns.
@@ -20,7 +20,7 @@ Status = Literal["succeeded", "aborted", "canceled"]
 
 
 class Topic(Generic[T]):
-    """A named stream of values of one type that keeps its latest value.
+    """A named stream of values of one type that keeps its last value.
 
     Attributes:
         name: The topic's name, without a leading slash.
@@ -51,7 +51,7 @@ class Topic(Generic[T]):
     )
 
     def __init__(self, name: str, kind: type[T], report: Report | None = None) -> None:
-        """Begin without a value; `report` takes what subscribers raise, see `Listeners`."""
+        """Start without a value; `report` receives subscribers' exceptions, see `Listeners`."""
         self.name = name
         self.kind = kind
         self.latest: T | None = None
@@ -65,7 +65,7 @@ class Topic(Generic[T]):
         self._subscribers: Listeners[T] = Listeners(report)
 
     def publish(self, value: T, sender: Endpoint | None = None) -> None:
-        """Keep `value` and tell every subscriber at once, and who sent it if that is known.
+        """Store `value` and pass it to every subscriber at once, with its sender if known.
 
         Raises:
             TypeError: If `value` is not of the topic's kind.
@@ -86,7 +86,7 @@ class Topic(Generic[T]):
             self.sender = before
 
     def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
-        """Have `callback` called with every value to come; call the returned function to stop.
+        """Call `callback` with every further value until the returned function is called.
 
         What it raises is reported under the name of its `owner`, and does not reach the
         publisher.
@@ -108,23 +108,23 @@ class Topic(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """Return how many subscribe at the moment, those in other processes included."""
+        """Return the present number of subscribers, including other processes'."""
         return len(self._subscribers.registered) + self.far_subscribers
 
     @property
     def near_subscribers(self) -> int:
-        """Return how many subscribe in this process."""
+        """Return the number of subscribers in this process."""
         return len(self._subscribers)
 
     def stream(self, depth: int = 100) -> AsyncIterator[T]:
-        """Values to come, one by one; a reader slower than `depth` values loses the oldest."""
+        """Yield further values; a reader slower than `depth` values loses the oldest."""
         return streamed(self.subscribe, depth)
 
 
 async def streamed(
     subscribe: Callable[[Callable[[T], object]], Callable[[], None]], depth: int
 ) -> AsyncIterator[T]:
-    """Yield a subscription's messages one by one; a reader slower than `depth` loses the oldest."""
+    """Yield a subscription's messages; a reader slower than `depth` loses the oldest."""
     waiting: deque[T] = deque(maxlen=depth)
     arrived = asyncio.Event()
 
@@ -164,12 +164,12 @@ _NUMBERS = itertools.count(1)
 
 
 def new_goal_id() -> bytes:
-    """Sixteen bytes for a goal; they are counted, so that two runs are the same run."""
+    """Return sixteen bytes for a goal, counted so that equal runs give equal ids."""
     return next(_NUMBERS).to_bytes(16, "big")
 
 
 class GoalHandle:
-    """One goal of an action, as both its client and its server hold it.
+    """One goal of an action, shared by its client and its server.
 
     Attributes:
         request: The request.
@@ -221,11 +221,11 @@ class GoalHandle:
             self.on_cancel()
 
     async def cancellation(self) -> bool:
-        """Wait for what the server says to the last cancellation; whether it agrees."""
+        """Wait for the server's answer to the last cancellation; return whether it agrees."""
         return self._cancellation is not None and await asyncio.shield(self._cancellation)
 
     async def result(self) -> GoalResult:
-        """Wait for the end."""
+        """Wait for the result."""
         return await asyncio.shield(self._result)
 
     @property
@@ -235,19 +235,19 @@ class GoalHandle:
 
     @property
     def ended(self) -> GoalResult | None:
-        """Return its result; None while it is under way."""
+        """Return its result; None while it runs."""
         return self._result.result() if self.done else None
 
     # The server's side.
 
     def publish_feedback(self, value: Any) -> None:
-        """Tell the client how far it is."""
+        """Send progress to the client."""
         self.feedback = value
         for feed in self.feeds:
             feed(value)
 
     def decide_cancel(self, accepted: bool) -> None:
-        """Say whether the goal will be stopped; the first answer to a cancellation counts."""
+        """Decide whether the goal will be stopped; the first answer to a cancellation counts."""
         if self._cancellation is not None and not self._cancellation.done():
             self.cancel_requested = accepted
             self._cancellation.set_result(accepted)

@@ -1,4 +1,4 @@
-"""Await a transform, with a deadline on the clock's time.
+"""Waiting for a transform, with a deadline on the clock's time.
 
 Nothing is polled: the buffer's own requests wake a waiter from inside the set that
 makes its transform possible.
@@ -26,7 +26,7 @@ async def wait_for_transform(
     time: Stamp = 0,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """The transform as soon as it can be given.
+    """Return the transform as soon as it is available.
 
     Args:
         buffer: Where it will appear.
@@ -57,7 +57,7 @@ async def wait_for_transform_full(
     fixed_frame: str,
     timeout: Duration | None = None,
 ) -> TransformStamped:
-    """The transform between two moments, through a fixed frame, as soon as it can be given.
+    """Return the transform between two times through a fixed frame, as soon as available.
 
     Raises as `wait_for_transform` does, and LookupException at once if all three frames
     are one that is unknown.

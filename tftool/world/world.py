@@ -1,4 +1,4 @@
-"""The world nodes live in: one clock, one buffer, topics, services, actions, a log."""
+"""The nodes' world: one clock, one buffer, topics, services, actions, a log."""
 
 import asyncio
 import inspect
@@ -39,7 +39,7 @@ class _Transforms(NamedTuple):
 
 
 class TransformMessage(_Transforms):
-    """Transforms and their sender, as topics `tf` and `tf_static` carry them."""
+    """Transforms and their sender, as on the topics `tf` and `tf_static`."""
 
     __slots__ = ()
 
@@ -47,7 +47,7 @@ class TransformMessage(_Transforms):
 
 
 class TopicPublisher(Generic[T]):
-    """Publisher of one node on one topic.
+    """One node's publisher on one topic.
 
     Attributes:
         name: The topic's name, without a leading slash.
@@ -70,7 +70,7 @@ class TopicPublisher(Generic[T]):
         self._topic: Topic[T] | None = None
 
     def publish(self, value: T) -> None:
-        """Publish a value; a topic that was removed meanwhile is created again."""
+        """Publish a value; a topic removed meanwhile is created again."""
         topic = self._topic
         if topic is None or topic.is_removed:
             topic = self._topic = self._world.topic(self.name, self.kind)
@@ -81,19 +81,19 @@ class TopicPublisher(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """Return how many subscribe to the topic, those in other processes included."""
+        """Return the number of subscribers, including other processes'."""
         topic = self._topic
         if topic is None or topic.is_removed:
             topic = self._topic = self._world.topic(self.name, self.kind)
         return topic.subscribers
 
     def close(self) -> None:
-        """Publish no more: the node is no publisher of that topic any longer."""
+        """Close it: the node is no longer a publisher of that topic."""
         self._withdraw()
 
 
 class World:
-    """Everything the nodes of one process share.
+    """Everything that the nodes of one process share.
 
     Attributes:
         clock: Whose time everything here means.
@@ -151,7 +151,7 @@ class World:
     # Topics
 
     def topic(self, name: str, kind: type[T]) -> Topic[T]:
-        """Return the topic of that name; make it when it is first named.
+        """Return the topic of that name, created on first use.
 
         Args:
             name: Its name.
@@ -165,7 +165,7 @@ class World:
         return topic
 
     def name_topic(self, name: str, kind: type[Any]) -> None:
-        """List a topic that only other processes have, until it is asked for here."""
+        """List a topic that only other processes use, until it is used here."""
         self._topic(name, kind).is_far = True
 
     def _topic(self, name: str, kind: type[Any]) -> Topic[Any]:
@@ -181,7 +181,7 @@ class World:
     def publisher(
         self, node: str, name: str, kind: type[T], quality: Quality = USUAL
     ) -> TopicPublisher[T]:
-        """Enter a node as a publisher of a topic.
+        """Register a node as a publisher of a topic.
 
         Args:
             node: Its name.
@@ -199,7 +199,7 @@ class World:
         callback: Callable[[T], object],
         quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Enter a node as a subscriber of a topic; call the returned function to stop.
+        """Register a node as a subscriber of a topic; call the returned function to stop.
 
         Args:
             node: Its name, under which a failure of the callback is reported.
@@ -249,7 +249,7 @@ class World:
         keeps: bool = False,
         deliver: Callable[[Any, Endpoint | None], object] | None = None,
     ) -> tuple[Endpoint | None, Callable[[], None]]:
-        """Enter an end of a topic among the endpoints; what stays in the process has none.
+        """Register an endpoint of a topic; topics internal to the process have none.
 
         Args:
             role: Which end.
@@ -271,11 +271,11 @@ class World:
         return endpoint, self.endpoints.add(endpoint)
 
     def topics(self) -> Mapping[str, Topic[Any]]:
-        """Every topic by its name, read-only."""
+        """Return every topic by name, read-only."""
         return MappingProxyType(self._topics)
 
     def remove_topic(self, name: str) -> None:
-        """Forget a topic; a message on a `Topic` still held reaches no new subscriber."""
+        """Remove a topic; messages on a `Topic` still held reach no new subscriber."""
         name = name.removeprefix("/")
         topic = self._topics.pop(name, None)
         if topic is not None:
@@ -294,7 +294,7 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Answer a service by `handler`; call the returned function to stop.
+        """Serve a service with `handler`; call the returned function to stop.
 
         Args:
             name: The service's name.
@@ -311,19 +311,19 @@ class World:
         return self._services.add(name, Offer(handler, kind, node, is_remote), shares=shares)
 
     def has_service(self, name: str) -> bool:
-        """Whether any node answers that service."""
+        """Whether any node serves that service."""
         return self._services.get(name) is not None
 
     def count_services(self, name: str) -> int:
-        """Return how many nodes here answer that service in turn; another process counts as 1."""
+        """Return the number of nodes here that serve a service; other processes count as 1."""
         return self._services.count(name)
 
     def services(self) -> Mapping[str, Offer[Handler]]:
-        """Every service by its name, read-only."""
+        """Return every service by name, read-only."""
         return self._services.by_name
 
     async def call(self, name: str, request: Any, *, patience: float | None = None) -> Any:
-        """Ask a service and wait for its answer.
+        """Call a service and wait for its response.
 
         Args:
             name: The service's name.
@@ -363,7 +363,7 @@ class World:
         is_remote: bool = False,
         shares: bool = False,
     ) -> Callable[[], None]:
-        """Take goals of an action by `accept`; call the returned function to stop.
+        """Accept goals of an action with `accept`; call the returned function to stop.
 
         The arguments are those of `serve`.
 
@@ -373,13 +373,13 @@ class World:
         return self._actions.add(name, Offer(accept, kind, node, is_remote), shares=shares)
 
     def actions(self) -> Mapping[str, Offer[Acceptor]]:
-        """Every action by its name, read-only."""
+        """Return every action by name, read-only."""
         return self._actions.by_name
 
     def watch_goals(
         self, name: str, callback: Callable[[GoalHandle], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Have `callback` called with each goal of an action, before its server has it.
+        """Call `callback` with each goal of an action, before its server receives it.
 
         Call the returned function to stop; what it raises is reported as `watch` says.
         """
@@ -394,7 +394,7 @@ class World:
         patience: float | None = None,
         goal_id: bytes | None = None,
     ) -> GoalHandle:
-        """Hand a goal to an action's server.
+        """Send a goal to an action's server.
 
         Args:
             name: The action's name.
@@ -419,7 +419,7 @@ class World:
         return handle
 
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
-        """Have `callback` called when a topic, service, action or node comes or goes.
+        """Call `callback` when a topic, service, action or node is added or removed.
 
         It is called before the first value on a new topic. Call the returned function to stop.
         What it raises is reported under the name of its `owner`.
@@ -434,7 +434,7 @@ class World:
     def broadcast(
         self, transforms: Iterable[TransformStamped], authority: str, *, static: bool = False
     ) -> bool:
-        """Put transforms into the buffer and publish them on `tf` or `tf_static`.
+        """Insert transforms into the buffer and publish them on `tf` or `tf_static`.
 
         What the buffer refuses (and says why) goes no further. A static message always
         holds all statics of its sender, the newest of each child, as a late listener
@@ -460,7 +460,7 @@ class World:
     def receive_static(
         self, transforms: Iterable[TransformStamped], authority: str
     ) -> tuple[TransformStamped, ...]:
-        """Store the statics of another process's node, for late subscribers here as well.
+        """Store static transforms of another process's node, for late local subscribers too.
 
         Returns:
             What the buffer took.
@@ -480,7 +480,7 @@ class World:
         return accepted
 
     def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
-        """The static transforms of one sender here, or of all, in the order they became known."""
+        """Return the static transforms of one or all senders here, in order of arrival."""
         if authority is not None:
             return tuple(self._statics.get(authority, {}).values())
         held = [self._far_statics, *self._statics.values()]
@@ -493,7 +493,7 @@ class World:
         time: Stamp = 0,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """The transform as soon as it can be given; see `waiting.wait_for_transform`."""
+        """Return the transform as soon as it is available; see `waiting.wait_for_transform`."""
         return await waiting.wait_for_transform(
             self.buffer, self.clock, target_frame, source_frame, time, timeout
         )
@@ -507,7 +507,7 @@ class World:
         fixed_frame: str,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """The transform between two moments; see `waiting.wait_for_transform_full`."""
+        """Return the transform between two times; see `waiting.wait_for_transform_full`."""
         return await waiting.wait_for_transform_full(
             self.buffer,
             self.clock,
@@ -522,7 +522,7 @@ class World:
     # Nodes
 
     def add(self, node: Resident) -> None:
-        """Let a node join; in a world that lives already it starts at once.
+        """Add a node; in a running world it starts at once.
 
         Raises:
             TftoolError: If a node of that name is here.
@@ -537,7 +537,7 @@ class World:
             self._supervisor.start(node)
 
     def start_soon(self, node: Resident, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
-        """Run something as a part of a node; see `Node.start_soon`.
+        """Run something as part of a node; see `Node.start_soon`.
 
         Raises:
             TftoolError: If the world does not run.
@@ -548,7 +548,7 @@ class World:
         return self._supervisor.start_soon(node, work)
 
     def free_name(self, wanted: str) -> str:
-        """A name no node has: the wanted one, or that with a number behind it."""
+        """Return the wanted name if it is free, else with a number appended."""
         taken = {node.name for node in self.nodes}
         name, number = wanted, 1
         while name in taken:
@@ -557,7 +557,7 @@ class World:
         return name
 
     def remove(self, node: Resident) -> None:
-        """Stop a node and let it leave."""
+        """Stop and remove a node."""
         if node in self.nodes:
             self.nodes.remove(node)
             self._changed()
@@ -565,14 +565,14 @@ class World:
             self._supervisor.end(node)
 
     def know_far_nodes(self, names: Iterable[str]) -> None:
-        """Note which nodes live in other processes."""
+        """Record which nodes run in other processes."""
         found = tuple(sorted(set(names)))
         if found != self.far_nodes:
             self.far_nodes = found
             self._changed()
 
     def node(self, name: str) -> Resident:
-        """The node of that name.
+        """Return the node of that name.
 
         Raises:
             TftoolError: If there is none.
@@ -583,7 +583,7 @@ class World:
         raise TftoolError(f"no node is named '{name}'")
 
     def run(self, duration: Duration | None = None) -> None:
-        """Let the nodes run for a while from now on, outside any event loop.
+        """Run the nodes for a duration from now on, outside any event loop.
 
         `world.run(seconds(10))` is `run(clock, live(world, until=clock.now() + seconds(10)))`.
 
@@ -604,12 +604,12 @@ class World:
         run(self.clock, live(self, until=until))
 
     def stop(self) -> None:
-        """End the run: `live` returns as soon as the current step is over."""
+        """End the run: `live` returns after the current step."""
         if self._supervisor is not None:
             self._supervisor.stop()
 
     def fail(self, node: Resident, error: BaseException) -> None:
-        """Report that a node raised outside its `run`, in a callback for example.
+        """Report that a node raised outside its `run`, for example in a callback.
 
         Raises:
             BaseException: `error` itself, while the world does not run.
@@ -619,7 +619,7 @@ class World:
         self._supervisor.fail(node, error)
 
     def report(self, owner: str, failure: Exception) -> None:
-        """Take what a listener raised: its owner has failed if it is a node, else the log tells.
+        """Handle a listener's exception: a node's fails the node, others are logged.
 
         Args:
             owner: The name of the listener's owner.
@@ -662,11 +662,11 @@ class World:
 
 
 def _nothing() -> None:
-    """Take nothing out."""
+    """Do nothing, in place of removing an entity."""
 
 
 def _require(asked: Any, part: str, kind: Any, what: str) -> None:
-    """Refuse a request that is not of a service's class, or a goal not of an action's.
+    """Refuse a request not of a service's class, or a goal not of an action's.
 
     Raises:
         TftoolError: If it is not.

@@ -1,4 +1,4 @@
-"""Calibration of a mount from two recorded motions of one rigid body, or a refusal in words."""
+"""Calibration of a mount from two recorded motions of one rigid body."""
 
 import math
 from collections.abc import Callable
@@ -136,7 +136,7 @@ def calibrate(
     seed: int = 0,
     progress: Callable[[int, int], object] | None = None,
 ) -> Calibration:
-    """Find where one moving frame is mounted on another, from the motions of both.
+    """Estimate where one moving frame is mounted on another, from both motions.
 
         found = tftool.calibrate(tftool.open("vicon.csv"), tftool.open("camera.csv"))
         found.mount, found.interval95.translation
@@ -175,7 +175,7 @@ def calibrate(
 
 
 def difference(mount: Transform, published: Transform) -> tuple[list[float], list[float]]:
-    """Return by how much a mount differs from the published one.
+    """Return a mount's difference from the published one.
 
     Returns:
         Metres along moving_a's axes, degrees about moving_b's, as in `Calibration.interval95`.
@@ -196,7 +196,7 @@ def _swapped(second: BodyMotion, names: Names) -> tuple[BodyMotion, Names]:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Shown:
-    """Directions of the mount that the motion shows.
+    """Directions of the mount that the motion determines.
 
     Attributes:
         free: Directions among the nine parameters of a fit.
@@ -250,7 +250,7 @@ class _Solver:
         )
 
     def _start(self, problem: Problem) -> tuple[Fit, MotionPairs, _Shown, float]:
-        """Solve roughly from pairs of moments; the error judges whether the motions fit."""
+        """Solve roughly from pairs of times; the error shows whether the motions fit."""
         pairs = pairs_of(problem, 0.0)
         if pairs.largest < LEAST_TURN or len(pairs.turns_a) < 20:
             raise CalibrationRefused(
@@ -278,18 +278,18 @@ class _Solver:
         return Fit(turn, shift, 0.0), pairs, _Shown(directions, None, ()), error
 
     def _prior_turn(self, found: Floats, is_planar: bool) -> Floats:
-        """Keep roll and pitch of the published mount where the motion does not show them."""
+        """Keep roll and pitch of the published mount if the motion does not determine them."""
         if not is_planar or self.published is None:
             return found
         return np.array(self.published.rotation)
 
     def _along(self, shift: Floats, axis: Floats) -> Floats:
-        """Keep the published translation along the axis of rotation."""
+        """Keep the published translation along the rotation axis."""
         kept = 0.0 if self.published is None else np.array(self.published.translation) @ axis
         return np.asarray(shift - (shift @ axis) * axis + kept * axis)
 
     def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
-        """Fit with segments of several lengths and with one Y for all time; keep the surest.
+        """Fit with several segment lengths and with one Y for all; keep the most certain.
 
         Where longer segments leave larger residuals, a chain drifts. A bootstrap over blocks of
         time does not see that: such lengths are left out.
@@ -313,7 +313,7 @@ class _Solver:
         return best[1], best[2]
 
     def _judged(self, pairs: MotionPairs, fit: Fit, shown: _Shown) -> _Shown:
-        """Take a motion whose second axis is no more than noise for one about a single axis."""
+        """Treat a motion as one about a single axis if its second axis is only noise."""
         if shown.axis is not None:
             return shown
         values, vectors = np.linalg.eigh(pairs.turns_a.T @ pairs.turns_a / len(pairs.turns_a))
@@ -333,7 +333,7 @@ class _Solver:
     def _halves(
         self, problem: Problem, fit: Fit, free: tuple[Floats, ...], length: float
     ) -> tuple[float, float] | None:
-        """Solve both halves apart; the distance between their mounts, metres and degrees."""
+        """Solve both halves separately; return their mounts' distance, metres and degrees."""
         middle = float(np.median(problem.times))
         found = []
         for begin, end in ((-math.inf, middle), (middle, math.inf)):
@@ -399,7 +399,7 @@ WIDTH: Final = 2.1
 
 
 def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> tuple[float, float]:
-    """Return factors for the intervals of rotation and translation.
+    """Return the factors that widen the intervals of rotation and translation.
 
     Where the halves of the recording differ by more than the interval, residuals lie: a scale or
     a drift is at work that no bootstrap sees.
@@ -412,7 +412,7 @@ def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> 
 
 
 def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
-    """Put B on the time axis of A, at most so many poses as the fit needs.
+    """Resample B to A's clock, with at most as many poses as the fit needs.
 
     Raises:
         CalibrationRefused: If the two overlap too little.
@@ -431,7 +431,7 @@ def _problem(a: BodyMotion, b: BodyMotion, clock: ClockOffset) -> Problem:
 
 
 def _segments(problem: Problem, length: float) -> "np.ndarray":
-    """Number the poses of B by segments of time, without holes."""
+    """Number B's poses by time segment, without gaps in the numbers."""
     if not math.isfinite(length):
         return np.zeros(len(problem.times), dtype=np.intp)
     numbers = ((problem.times - problem.times[0]) // length).astype(np.intp)
@@ -440,7 +440,7 @@ def _segments(problem: Problem, length: float) -> "np.ndarray":
 
 
 def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
-    """Return what a motion about one axis shows: nothing along it; a planar one, no tilt either."""
+    """Return what a motion about one axis shows: nothing along it; if planar, no tilt either."""
     free = np.zeros((5, 9))
     free[:3, :3] = np.eye(3)
     free[3:, 3:6] = np.linalg.svd(axis[None])[2][1:]
@@ -467,7 +467,7 @@ def _reason(shown: _Shown) -> tuple[str, str | None]:
 
 
 def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
-    """Return the unseen direction where it is no axis of moving_a."""
+    """Return the undetermined direction if it is not an axis of moving_a."""
     if shown.axis is None or np.abs(shown.axis).max() > math.cos(math.radians(3.0)):
         return None
     x, y, z = shown.axis.tolist()
@@ -475,7 +475,7 @@ def _tilted(shown: _Shown) -> tuple[float, float, float] | None:
 
 
 def _interval(sizes: Floats, shown: _Shown) -> Interval:
-    """Return half-widths by axis from those along the free directions."""
+    """Convert half-widths along the free directions to half-widths by axis."""
     free = np.array(shown.free)[:, :6]
     widths = np.sqrt(((free * sizes[:, None]) ** 2).sum(axis=0))
     known = [name not in shown.unseen for name in (*ANGLES, *AXES)]

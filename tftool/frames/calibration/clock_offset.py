@@ -1,4 +1,4 @@
-"""Offset between the clocks of two motions of one rigid body, from their rotation alone.
+"""Offset between the clocks of two motions of one rigid body, from rotation alone.
 
 The angle a body turns by in a window of time depends neither on where on the body it is
 measured nor on the fixed frame. Both motions give it, each on its own clock; the shift at which
@@ -41,14 +41,14 @@ _DRAWS: Final = 200
 
 
 class CalibrationRefused(TftoolError):
-    """The motion does not determine the answer; the text names one that would.
+    """Error for motion that does not determine the answer; the text names one that would.
 
     Attributes:
         next_motion: The motion to record instead; empty if none helps.
     """
 
     def __init__(self, text: str, next_motion: str = "") -> None:
-        """Take the reason, and the motion to record next."""
+        """Make the error from the reason, and the motion to record next."""
         super().__init__(text)
         self.next_motion = next_motion
 
@@ -103,7 +103,7 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
 
 
 def path_of(frames: TransformArray | Frames) -> TransformArray:
-    """Return poses over time: as given, or those of the only chain of some frames.
+    """Return poses over time: those given, or those of the only chain of some frames.
 
     Raises:
         InputError: If the frames are several chains.
@@ -147,7 +147,7 @@ def offset_of(a: BodyMotion, b: BodyMotion) -> ClockOffset:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Correlation:
-    """Correlation of two courses over all lags, in steps of one grid."""
+    """Correlation of two curves at all lags, in steps of one grid."""
 
     lags: Floats
     curve: Floats
@@ -163,7 +163,7 @@ class _Correlation:
         return float(self.curve[self.peak]) if np.isfinite(self.curve).any() else -1.0
 
     def second_peak(self) -> float:
-        """Return the highest value outside of the hill that the peak is on."""
+        """Return the highest value outside the hill of the main peak."""
         curve, peak = np.nan_to_num(self.curve, nan=-1.0), self.peak
         low, high = peak, peak
         while low > 0 and curve[low - 1] <= curve[low]:
@@ -174,7 +174,7 @@ class _Correlation:
         return float(rest.max()) if len(rest) else -1.0
 
     def refined(self) -> tuple[float, float]:
-        """Return the peak's place between the steps, and its 95 % half-width, in steps.
+        """Return the interpolated peak and its 95 % half-width, in steps.
 
         A parabola through five values about the peak; blocks of time are drawn again and again
         (block bootstrap) to see how far it moves.
@@ -196,7 +196,7 @@ class _Correlation:
 
 
 def _tops(sums: Floats) -> Floats:
-    """Return where the correlation over nine shifts is highest, by a parabola; shape (n,)."""
+    """Return by a parabola where the correlation of nine shifts is highest; shape (n,)."""
     count, x, y, xx, yy, xy = np.moveaxis(sums, -1, 0)
     count = np.maximum(count, 1.0)
     spread = (xx - x * x / count) * (yy - y * y / count)
@@ -211,14 +211,14 @@ def _tops(sums: Floats) -> Floats:
 def _overlap(
     f: Floats, has_f: Floats, g: Floats, has_g: Floats, lag: int
 ) -> tuple[Floats, Floats, Floats]:
-    """Return both courses where they overlap at a lag, 0 where one is missing, and where not."""
+    """Return both curves where they overlap at a lag, 0 in gaps, and a mask of no gap."""
     low, high = max(0, lag), min(len(f), len(g) + lag)
     both = has_f[low:high] * has_g[low - lag : high - lag]
     return f[low:high] * both, g[low - lag : high - lag] * both, both
 
 
 def _course(motion: BodyMotion, step: float, window: float) -> tuple[Floats, Floats]:
-    """Return the angle turned within a window, on a grid, and where it is known (0 or 1)."""
+    """Return the angle turned within a window, on a grid, and a 0-1 mask of where it is known."""
     grid = np.arange(0.0, motion.duration - window, step)
     _, first, knows_first = motion.at(grid)
     _, last, knows_last = motion.at(grid + window)
@@ -227,7 +227,7 @@ def _course(motion: BodyMotion, step: float, window: float) -> tuple[Floats, Flo
 
 
 def _correlated(a: BodyMotion, b: BodyMotion, step: float, window: float) -> _Correlation:
-    """Correlate the courses of two motions at every lag, gaps left out.
+    """Correlate the curves of two motions at every lag, without gaps.
 
     Source:
         Padfield, "Masked object registration in the Fourier domain", 2012.

@@ -23,7 +23,7 @@ _LEAST_POSES: Final = 20
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyMotion:
-    """Poses of one moving frame, by increasing time.
+    """Poses of one moving frame in order of time.
 
     Attributes:
         name: The chain in words: "base_link in odom".
@@ -64,29 +64,29 @@ class BodyMotion:
 
     @property
     def duration(self) -> float:
-        """Seconds from the first pose to the last."""
+        """Seconds from the first to the last pose."""
         return float(self.times[-1])
 
     @property
     def period(self) -> float:
-        """Median of the seconds between two poses."""
+        """Median seconds between poses."""
         return float(np.median(np.diff(self.times)))
 
     def inverted(self) -> "BodyMotion":
-        """Return the motion of the fixed frame as seen from the moving one."""
+        """Return the motion of the fixed frame relative to the moving one."""
         back = batch.conjugate(self.rotations)
         target, _, source = self.name.partition(" in ")
         places = -batch.rotate(back, self.positions)
         return BodyMotion(f"{source} in {target}", self.start, self.times, places, back)
 
     def is_planar(self) -> bool:
-        """Whether its poses are x, y and yaw alone, as those of a planar odometry."""
+        """Whether its poses have only x, y and yaw, as planar odometry has."""
         return bool(
             np.ptp(self.positions[:, 2]) < 1e-6 and np.abs(self.rotations[:, :2]).max() < 1e-6
         )
 
     def at(self, times: Floats) -> tuple[Floats, Floats, Flags]:
-        """Interpolate: linearly in position, along the shorter arc in rotation.
+        """Interpolate at times: position linearly, rotation along the shorter arc.
 
         Args:
             times: Seconds on its own time axis, shape (m,).
@@ -106,7 +106,7 @@ class BodyMotion:
         return positions, batch.unit(turns), valid
 
     def velocities(self, times: Floats) -> tuple[Floats, Floats]:
-        """Return velocities in the fixed frame, and turn rates about the moving axes.
+        """Return velocities in the fixed frame, and angular velocities about the moving axes.
 
         They are differences over a tenth of a second, which the noise of poses does not drown.
 
@@ -121,7 +121,7 @@ class BodyMotion:
 
 
 def poses_of(edge: Edge) -> TransformArray:
-    """Return the transforms of one recorded edge as poses in the order of time."""
+    """Return the transforms of one recorded edge as poses in order of time."""
     order = np.argsort(edge.stamps, kind="stable")
     poses = edge.translations[order], batch.unit(edge.rotations[order])
     valid = np.asarray(np.isfinite(np.concatenate(poses, axis=1)).all(axis=1))
@@ -137,7 +137,7 @@ _DENSE: Final = 200
 
 
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
-    """Return the poses that are no spikes, such as flipped tags, which a correlation cannot bear.
+    """Remove spikes such as flipped tags, which would distort a correlation.
 
     First goes a pose whose median distance (or angle) to six neighbours is far above that of the
     poses around it; then, without those, a pose that is far from the middle of its neighbours.

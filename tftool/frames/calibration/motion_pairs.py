@@ -1,4 +1,4 @@
-"""Pairs of moments of two motions: a first solution, and what of the mount they can show."""
+"""Pairs of times of two motions: an initial solution, and which parts they determine."""
 
 from dataclasses import dataclass
 from typing import Final
@@ -37,7 +37,7 @@ class MotionPairs:
 
 
 def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPairs:
-    """Choose pairs at most `longest` seconds apart that turn by 12° to 150°, if there are such."""
+    """Choose pairs at most `longest` seconds apart that turn by 12° to 150°, if any."""
     places, turns, valid = problem.a.at(problem.times + offset)
     known = np.flatnonzero(valid)
     dice = np.random.default_rng(0)
@@ -65,7 +65,7 @@ def pairs_of(problem: Problem, offset: float, longest: float = 10.0) -> MotionPa
 
 
 def kabsch(pairs: MotionPairs) -> tuple[Floats, Floats]:
-    """Return the rotation that takes B's turns to A's, as a quaternion, and each pair's weight."""
+    """Return the rotation from B's turns to A's as a quaternion, and each pair's weight."""
     weights = np.ones(len(pairs.turns_a))
     for _ in range(10):
         matrix = _aligned(pairs.turns_a * weights[:, None], pairs.turns_b)
@@ -139,7 +139,7 @@ def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Flo
 
 
 def shortest_turn(source: Floats, target: Floats) -> Floats:
-    """Return the quaternion of the smallest rotation that takes one unit vector to another."""
+    """Return the quaternion of the smallest rotation from one unit vector to another."""
     half = np.concatenate([np.cross(source, target), [1.0 + source @ target]])
     if np.linalg.norm(half) < 1e-6:  # opposite: about any axis across
         across = np.cross(source, np.eye(3)[int(np.argmin(np.abs(source)))])

@@ -1,4 +1,4 @@
-"""Least squares of a mount: A(t + d) · X = Y · B(t), with weights that outliers lose.
+"""Least squares of a mount: A(t + d) · X = Y · B(t), with robust weights.
 
 X is the mount, Y joins the fixed frames, d is the clock offset. Where a chain drifts, as odometry
 does, time is cut into segments with a Y of their own, which drop out of the equations (Schur
@@ -25,7 +25,7 @@ MOUNT, SHIFT, DRIFT, SCALE, JOIN = slice(0, 6), 6, 7, 8, slice(9, 15)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
-    """A state of the fit.
+    """State of the fit.
 
     Attributes:
         turn: Rotation of X, quaternion.
@@ -53,7 +53,7 @@ class Fit:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Problem:
-    """Two motions on one time axis: poses of B, and A to be interpolated.
+    """Two motions on one time axis: B's poses, and A to be interpolated.
 
     Attributes:
         a: BodyMotion of A.
@@ -70,7 +70,7 @@ class Problem:
     middle: float
 
     def between(self, begin: float, end: float) -> "Problem":
-        """Return the part between two moments."""
+        """Return the part between two times."""
         kept = (self.times >= begin) & (self.times < end)
         return replace(
             self,
@@ -92,7 +92,7 @@ def turned_by(vector: Floats) -> Floats:
 
 
 def cross(vectors: Floats) -> Floats:
-    """Return the matrices that take the cross product with vectors, shape (n, 3, 3)."""
+    """Return the cross product matrices of vectors, shape (n, 3, 3)."""
     x, y, z = vectors.T
     zero = np.zeros_like(x)
     return np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
@@ -111,7 +111,7 @@ def refine(
     segments: npt.NDArray[np.intp],
     rounds: int = ROUNDS,
 ) -> Fit:
-    """Improve a fit by Gauss-Newton rounds with robust weights.
+    """Improve a fit by Gauss-Newton steps with robust weights.
 
     Args:
         problem: The two motions.
@@ -135,7 +135,7 @@ def refine(
 
 
 class _Residuals:
-    """Residuals of one state, their derivatives and weights; six rows a pose."""
+    """Residuals of one state with derivatives and weights; six rows per pose."""
 
     def __init__(
         self, problem: Problem, fit: Fit, segments: npt.NDArray[np.intp], count: int
@@ -171,7 +171,7 @@ class _Residuals:
         self._weigh()
 
     def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
-        """Begin with the mean Y of each segment where there is none yet."""
+        """Initialise missing Y of segments with their mean."""
         if len(fit.joins) == self.count:
             return fit
         back = batch.conjugate(problem.rotations)
@@ -218,7 +218,7 @@ class _Residuals:
         return np.add.reduceat(square, starts), np.add.reduceat(right, starts)
 
     def by_segment(self, basis: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """Return the equations with each segment's Y eliminated, and how to get Y back."""
+        """Return the equations with each segment's Y eliminated, and the data to recover Y."""
         starts = np.flatnonzero(np.diff(self.segments, prepend=-1))
         square, right = self.sums(starts)
         inner = square[:, JOIN, JOIN] + 1e-9 * np.eye(6)
@@ -236,7 +236,7 @@ class _Residuals:
         return reduced.sum(axis=0), gradient.sum(axis=0)
 
     def blocks(self, basis: Floats) -> tuple[Floats, Floats]:
-        """Return the equations of blocks of time, for a bootstrap.
+        """Return the equations of time blocks, for a bootstrap.
 
         With one Y for all time, Y is among the parameters; else each segment is a block.
         """
@@ -273,7 +273,7 @@ def _moved(fit: Fit, rows: _Residuals, basis: Floats, normal: Floats, right: Flo
 
 
 def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
-    """Return the deviations of the free parameters, by a block bootstrap.
+    """Return the standard deviations of the free parameters, by block bootstrap.
 
     The fit is moved by one linear step for each drawing of blocks.
 

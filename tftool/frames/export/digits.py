@@ -1,4 +1,4 @@
-"""Numbers to text by the million: decimal digits looked up four at a time, in numpy.
+"""Fast formatting of millions of numbers: four decimal digits per table lookup, in numpy.
 
 A block of rows becomes one array of bytes in which every number has the same room; bytes
 that stay zero are left out at the end. Nothing is rounded twice: a number is scaled to a
@@ -42,7 +42,7 @@ _POINT: Final = _table([b".%d" % n for n in range(10)])
 def rows(
     numbers: Floats, *, stamps: Stamps | None = None, seconds: bool = False, separator: str = ","
 ) -> bytes:
-    """Write a block of rows, a line each; numbers with nine decimals.
+    """Format a block of rows, a line each; numbers get nine decimals.
 
     Args:
         numbers: Finite and below 9e9, shape (n, k).
@@ -67,7 +67,7 @@ def rows(
 
 
 def fits(numbers: Floats) -> bool:
-    """Whether `rows` can write these; else `exact_rows` can."""
+    """Whether `rows` can format these numbers; else use `exact_rows`."""
     # Asked this way round, NaN does not.
     return bool((np.abs(numbers) < _LARGEST).all())
 
@@ -92,7 +92,7 @@ def exact_rows(
 
 
 def stamp_text(stamp: int) -> str:
-    """Nanoseconds as seconds with nine decimals, without passing through a float."""
+    """Format nanoseconds as seconds with nine decimals, without floating point."""
     whole, rest = divmod(abs(stamp), _SCALE)
     return f"{'-' if stamp < 0 else ''}{whole}.{rest:09}"
 
@@ -104,12 +104,12 @@ def _shortest(number: float) -> str:
 
 
 def _whole(values: Stamps) -> Words:
-    """Whole numbers, shape (n,), as words of four digits each, shape (n, w)."""
+    """Convert whole numbers, shape (n,), to words of four digits each, shape (n, w)."""
     return _digits(values[:, np.newaxis], b"")[:, 0]
 
 
 def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
-    """Whole numbers of the last decimal, shape (n, k), as text, shape (n, k·w)."""
+    """Convert whole numbers of the last decimal, shape (n, k), to text, shape (n, k·w)."""
     count, width = scaled.shape
     size = np.abs(scaled)
     whole = size // _SCALE
@@ -136,7 +136,7 @@ def _decimals(scaled: npt.NDArray[np.int64], before: bytes) -> Words:
 def _digits(
     values: npt.NDArray[np.int64], before: bytes, *, negative: npt.NDArray[np.bool_] | None = None
 ) -> Words:
-    """Format whole numbers, shape (n, k), as words: a prefix, the sign, the digits."""
+    """Convert whole numbers, shape (n, k), to words: prefix, sign, digits."""
     size = np.abs(values)
     signs = _table([before, before + b"-"])
     words = [signs[((values < 0) if negative is None else negative).astype(np.intp)]]

@@ -1,4 +1,4 @@
-"""Export of frames to files of other tools: the format a name asks for, and its content."""
+"""Export of frames to other tools' files: choice of format, and contents."""
 
 import os
 from collections.abc import Callable, Sequence
@@ -31,7 +31,7 @@ Framed: TypeAlias = "Buffer | Frames | Recording | Robot"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Exported:
-    """Files that were written.
+    """The written files.
 
     Attributes:
         paths: The files.
@@ -47,12 +47,12 @@ class Exported:
 
     @property
     def refused(self) -> int:
-        """At how many moments there was no pose; they are left out."""
+        """Return at how many times there was no pose; these are left out."""
         return sum(one.refused for one in self.trajectories)
 
 
 def buffer_of(frames: Framed) -> Buffer:
-    """The buffer that holds some frames."""
+    """Return the buffer of some frames."""
     if isinstance(frames, Buffer):
         return frames
     if not hasattr(frames, "buffer"):
@@ -65,7 +65,7 @@ P = ParamSpec("P")
 
 
 def _named_path(function: "Callable[P, Exported]") -> "Callable[P, Exported]":
-    """Answer a call in another order of arguments by the right one."""
+    """Raise a TypeError that names the right call if arguments come in the old order."""
 
     @wraps(function)
     def checked(*given: P.args, **named: P.kwargs) -> Exported:
@@ -159,7 +159,7 @@ def _written(
     force: bool,
     progress: Progress | None,
 ) -> Exported:
-    """Write pairs or links, whichever the format holds."""
+    """Write pairs or links, depending on the format."""
     buffer = buffer_of(frames)
     if not form.is_trajectory:
         if asked:
@@ -207,7 +207,7 @@ def write_links(
     force: bool = False,
     progress: Progress | None = None,
 ) -> Exported:
-    """Write the links between frames: those that hold at all times, or to MCAP all.
+    """Write the links between frames: static ones, or for MCAP all.
 
     Raises:
         InputError: If it cannot be written.
@@ -248,7 +248,7 @@ def _named(name: str) -> Format:
 
 
 def refuse_input(frames: object, path: Path) -> None:
-    """Refuse to write onto the file that frames are read from, or into the folder of a recording.
+    """Refuse to overwrite the file or folder that frames are read from.
 
     Raises:
         UsageError: If that is asked for.

@@ -1,4 +1,4 @@
-"""Export formats, by the name of a file, and the style of an export.
+"""Export formats by file name, and the options of an export.
 
 To add a format: its line in `Format`, and its function in the table of writers in
 `trajectory_files` (pairs over time) or `static_files` (links).
@@ -18,7 +18,7 @@ DECIMALS: Final = 9
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """Style of an export; each format uses the fields that concern it.
+    """Options of an export; each format uses those that apply.
 
     Attributes:
         decimals: Of numbers in texts; 17 writes each as short as it can be read back.
@@ -51,7 +51,7 @@ class Format(StrEnum):
     def __new__(
         cls, name: str, holds: Literal["pair", "pairs", "links"], *suffixes: str
     ) -> "Format":
-        """Make a member from its line."""
+        """Make a member from its table row."""
         member = str.__new__(cls, name)
         member._value_ = name
         member.holds, member.suffixes = holds, suffixes
@@ -73,7 +73,7 @@ class Format(StrEnum):
 
     @property
     def is_trajectory(self) -> bool:
-        """Whether it holds pairs of frames over time, not the links themselves."""
+        """Whether it stores pairs over time, and not links."""
         return self.holds != "links"
 
 
@@ -82,13 +82,13 @@ SUFFIXES: Final = {suffix: form for form in Format for suffix in form.suffixes}
 
 
 def suffixes_of(*, trajectories: bool) -> str:
-    """List the ends of names that ask for pairs over time, or for links, in a sentence."""
+    """List the file name endings for pairs over time, or for links, in a sentence."""
     forms = [form for form in Format if form.suffixes and form.is_trajectory == trajectories]
     return " ".join(form.suffixes[0] for form in forms)
 
 
 def format_of(path: Path) -> Format:
-    """Return the format that the name of a file asks for.
+    """Return the format for a file name.
 
     Raises:
         UsageError: If it says nothing.

@@ -1,4 +1,4 @@
-"""All transforms that are known to an MCAP file: as tf2_msgs, or for Foxglove and Rerun."""
+"""All known transforms as an MCAP file: tf2_msgs, or for Foxglove and Rerun."""
 
 import os
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ def write_frames(
     force: bool = False,
     progress: Progress | None = None,
 ) -> int:
-    """Write what a buffer holds: statics first, then what moves, in the order of stamps.
+    """Write a buffer's contents: statics first, then moving links in order of stamps.
 
     Args:
         buffer: Whose transforms.
@@ -87,7 +87,7 @@ def _held(buffer: Buffer) -> "tuple[list[TransformStamped], Moving, int]":
 def _messages(
     statics: list[TransformStamped], moving: "Moving"
 ) -> Iterator[tuple[Stamp, list[TransformStamped]]]:
-    """The statics as one message at the beginning; then one for each stamp."""
+    """Yield the statics as one message, then a message for each stamp."""
     stamps = np.concatenate([one[1] for one in moving]) if moving else np.array([], np.int64)
     order = np.argsort(stamps, kind="stable")
     start = int(stamps[order[0]]) if len(order) else NANOSECONDS

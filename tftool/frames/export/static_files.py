@@ -1,4 +1,4 @@
-"""Static transforms to files that publish them again: URDF, launch files, a shell script."""
+"""Static transforms as files that publish them: URDF, launch files, a shell script."""
 
 import json
 import re
@@ -23,7 +23,7 @@ _PLAIN_WORD = re.compile(r"[^\s\"'$\\]+")
 
 @dataclass(frozen=True, slots=True)
 class FixedLink:
-    """One link as it is written: the pose of `child` in `parent`."""
+    """One link to write: the pose of `child` in `parent`."""
 
     parent: str
     child: str
@@ -34,7 +34,7 @@ class FixedLink:
 def fixed_links(
     buffer: Buffer, *, with_moving: bool = False, time: Stamp = LATEST, root: str | None = None
 ) -> list[FixedLink]:
-    """The links that hold at all times, in the order in which their frames came up.
+    """Return the static links in the order in which their frames were first seen.
 
     Args:
         buffer: Whose frames.
@@ -70,13 +70,13 @@ def fixed_links(
 
 
 def roots(links: Sequence[FixedLink]) -> list[str]:
-    """The frames that are a parent and no child, in the order in which they come up."""
+    """Return the frames that are a parent and no child, in order of appearance."""
     children = {one.child for one in links}
     return list(dict.fromkeys(one.parent for one in links if one.parent not in children))
 
 
 def urdf(links: Sequence[FixedLink], name: str) -> str:
-    """A robot description with a joint for every link.
+    """Return a robot description with a joint for every link.
 
     Args:
         links: What to write; those that move become floating joints, which
@@ -111,7 +111,7 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
 
 
 def shell(links: Sequence[FixedLink]) -> str:
-    """A script that runs a publisher for each link; Ctrl-C ends them all."""
+    """Return a script that runs a publisher for each link; Ctrl-C ends them all."""
     lines = ["#!/bin/sh", "# Publishes static transforms; Ctrl-C ends them all.", "set -e"]
     lines += [
         f"ros2 run tf2_ros {PUBLISHER} {shlex.join(_words(_whole_name(one)))} &" for one in links
@@ -120,7 +120,7 @@ def shell(links: Sequence[FixedLink]) -> str:
 
 
 def launch_python(links: Sequence[FixedLink]) -> str:
-    """A launch file in Python with a node for each link."""
+    """Return a Python launch file with a node for each link."""
     lines = [
         "from launch import LaunchDescription",
         "from launch_ros.actions import Node",
@@ -144,7 +144,7 @@ def launch_python(links: Sequence[FixedLink]) -> str:
 
 
 def launch_xml(links: Sequence[FixedLink]) -> str:
-    """A launch file in XML with a node for each link.
+    """Return an XML launch file with a node for each link.
 
     Raises:
         InputError: If a name would be read as something else there.
@@ -157,7 +157,7 @@ def launch_xml(links: Sequence[FixedLink]) -> str:
 
 
 def launch_yaml(links: Sequence[FixedLink]) -> str:
-    """A launch file in YAML with a node for each link.
+    """Return a YAML launch file with a node for each link.
 
     Raises:
         InputError: If a name would be read as something else there.
@@ -175,7 +175,7 @@ def launch_yaml(links: Sequence[FixedLink]) -> str:
 
 
 def _listed(words: Sequence[str]) -> list[str]:
-    """Options as Python strings, each with its value."""
+    """Format options as Python strings, each with its value."""
     texts = [json.dumps(word) for word in words]
     return [f"{name}, {value}" for name, value in zip(texts[::2], texts[1::2], strict=True)]
 
@@ -185,7 +185,7 @@ def _words(one: FixedLink) -> list[str]:
 
 
 def _whole_name(one: FixedLink) -> FixedLink:
-    """Refuse what no command line can carry."""
+    """Refuse a name that cannot be passed on a command line."""
     for name in (one.parent, one.child):
         if "\0" in name or _NOT_XML.search(name):
             raise InputError(f"The frame {name!r} has characters that cannot be written there.")
@@ -193,7 +193,7 @@ def _whole_name(one: FixedLink) -> FixedLink:
 
 
 def _plain(one: FixedLink) -> str:
-    """The words in one line, of names that a launch file leaves as they are."""
+    """Join words in one line; refuse names that a launch file would change."""
     for name in (one.parent, one.child):
         if not _PLAIN_WORD.fullmatch(name):
             raise InputError(

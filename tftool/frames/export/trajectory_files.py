@@ -1,4 +1,4 @@
-"""Trajectories to the files that others read: TUM, KITTI, EuRoC, CSV, npz, Parquet.
+"""Trajectory files: TUM, KITTI, EuRoC, CSV, npz, Parquet.
 
 Stamps are whole nanoseconds all the way, and written as such: a float of seconds steps by
 238 ns at today's date. A file is whole, or not there.
@@ -39,7 +39,7 @@ _BYTES_PER_ROW: Final = 110
 
 @contextmanager
 def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
-    """A file to write that comes to its name when it is whole, and else leaves nothing.
+    """Open a file that gets its name only when complete, and is removed otherwise.
 
     Raises:
         UsageError: If something has that name and `force` is not given.
@@ -55,7 +55,7 @@ def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
 
 @contextmanager
 def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
-    """Open several files that belong together: all of them come to their names, or none.
+    """Open files that get their names together when all are complete, or not at all.
 
     Args:
         paths: What they are called; the last is that by which the others are found.
@@ -93,7 +93,7 @@ The flag says Whether they may replace an existing file.
 def _write_tum(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """`sec.nnnnnnnnn x y z qx qy qz qw`, a line a pose."""
+    """Write `sec.nnnnnnnnn x y z qx qy qz qw`, one line per pose."""
     rows = found[0].answered()
     with whole_file(path, force=force) as file:
         write = _writer(file, rows, style.decimals, progress)
@@ -105,7 +105,7 @@ def _write_tum(
 def _write_kitti(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """The upper three rows of the matrix, a line a pose; the stamps in a file beside it.
+    """Write the upper three rows of each matrix in a line, and the stamps in a second file.
 
     Both come to their names together, the poses last.
     """
@@ -125,7 +125,7 @@ def _write_kitti(
 def _write_euroc(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """EuRoC's ground truth: whole nanoseconds, w first."""
+    """Write EuRoC's ground truth: whole nanoseconds, quaternion w first."""
     rows = found[0].answered()
     with whole_file(path, force=force) as file:
         file.write(EUROC_HEADER.encode())
@@ -138,7 +138,7 @@ def _write_euroc(
 def _write_csv(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """A table with a header; of several pairs each row begins with its target and source."""
+    """Write a table with a header; of several pairs each row begins with target and source."""
     with whole_file(path, force=force) as file:
         names = (*CSV_COLUMNS, *(RPY_COLUMNS if style.rpy else ()))
         several = len(found) > 1
@@ -158,7 +158,7 @@ def _write_csv(
 def _write_npz(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """NumPy's archive: stamps, translations, rotations (x y z w); no pickle in it.
+    """Write NumPy's archive without pickles: stamps, translations, rotations (x y z w).
 
     Of several pairs the rows lie behind each other, and `pair` says which is whose.
     """
@@ -182,7 +182,7 @@ def _write_npz(
 def _write_parquet(
     found: Sequence[Trajectory], path: Path, style: Style, force: bool, progress: Progress | None
 ) -> list[Path]:
-    """A Parquet table with the columns of the CSV; `stamp`, too, where stamps are dates.
+    """Write the CSV's columns as Parquet, and `stamp` if stamps are dates.
 
     Raises:
         UsageError: If the extra `parquet` is not installed.
@@ -255,7 +255,7 @@ def _writer(
     progress: Progress | None,
     before: bytes = b"",
 ) -> "Callable[..., None]":
-    """Return the writer of blocks of rows: as fast as the numbers allow, with progress."""
+    """Return the fastest writer of blocks that fits the numbers, with progress."""
     done = 0
 
     def write(

@@ -1,4 +1,4 @@
-"""One step of a PID controller, as a function from what it remembers to what it does."""
+"""One step of a PID controller, as a function of its state and the error."""
 
 import math
 from dataclasses import dataclass, replace
@@ -36,7 +36,7 @@ class Gains:
                 raise UsageError(f"{name} must be zero or more, not {limit}")
 
     def limited(self, output_limit: float | None) -> "Gains":
-        """Give the same gains with the tighter of two output limits."""
+        """Return the same gains with the tighter of two output limits."""
         if output_limit is None or (
             self.output_limit is not None and self.output_limit <= output_limit
         ):
@@ -46,7 +46,7 @@ class Gains:
 
 @dataclass(frozen=True, slots=True)
 class PidState:
-    """State of a controller between two steps.
+    """State of a controller between steps.
 
     Attributes:
         integral: Sum of error times time so far.
@@ -70,7 +70,7 @@ def step(
     setpoint: float = 0.0,
     angle: bool = False,
 ) -> tuple[float, PidState]:
-    """Answer one measurement.
+    """Update a controller with one measurement; return its output and new state.
 
     The derivative is taken on the measurement, so that a setpoint that jumps
     does not kick; before the second step it is 0.

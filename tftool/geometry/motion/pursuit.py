@@ -1,4 +1,4 @@
-"""Steering towards a goal as it is seen from oneself."""
+"""Pursuit of a goal given relative to the pursuer."""
 
 import math
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ _STOP = Twist2D()
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """Law from distance and bearing to speed and turn rate; the defaults are the tutorial's.
+    """Control law from distance and bearing to speed and turn rate; the tutorial's by default.
 
     Attributes:
         distance: Gains from distance in metres to speed in m/s.
@@ -45,7 +45,7 @@ class Law:
 
 @dataclass(frozen=True, slots=True)
 class PursuitState:
-    """State of the two controllers between two steps."""
+    """State of the two controllers between steps."""
 
     distance: pid.PidState = pid.FRESH
     bearing: pid.PidState = pid.FRESH
@@ -58,7 +58,7 @@ FRESH = PursuitState()
 def steer(
     law: Law, memory: PursuitState, x: float, y: float, interval: float
 ) -> tuple[Twist2D, PursuitState]:
-    """Turn a goal into a command.
+    """Return the velocity command towards a goal.
 
     Args:
         law: How to steer.

@@ -1,11 +1,11 @@
-"""A velocity in the plane."""
+"""Velocity in the plane."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Twist2D:
-    """Speed ahead and to the left in m/s, turn rate in rad/s."""
+    """Forward and leftward speed in m/s, turn rate in rad/s."""
 
     linear_x: float = 0.0
     angular_z: float = 0.0

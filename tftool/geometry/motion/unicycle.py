@@ -1,4 +1,4 @@
-"""One turtle's motion, step by step: turn, move, meet the wall.
+"""Motion of one turtle, update by update: turn, move, stop at the wall.
 
 The numbers are turtlesim's own, kept to the digit: a simulator that used the
 library's π or a field edge in double precision would print other poses.
@@ -47,7 +47,7 @@ _LARGEST = 3.4028234663852886e38
 
 
 class Placement(NamedTuple):
-    """Pose of a body in the plane: metres, and radians counter-clockwise from +x."""
+    """Pose in the plane: metres, and radians counter-clockwise from +x."""
 
     x: float
     y: float
@@ -71,7 +71,7 @@ class Turning(NamedTuple):
 
 
 def wrap(angle: float) -> float:
-    """Bring an angle into [-π, π), with turtlesim's eight-digit π; +π becomes -π."""
+    """Wrap an angle to [-π, π) with turtlesim's eight-digit π; +π becomes -π."""
     if not -_FAR < angle < _FAR:
         angle = math.fmod(angle, TWO_PI)
     wrapped = angle - TWO_PI * math.floor((angle + PI) / TWO_PI)
@@ -80,7 +80,7 @@ def wrap(angle: float) -> float:
 
 
 def advance(start: Placement, forward: float, sideways: float, turn: float) -> Placement:
-    """Turn first, then move along the new heading, for one update.
+    """Compute one update: turn first, then move along the new heading.
 
     Args:
         start: Where the body is.
@@ -102,17 +102,17 @@ def advance(start: Placement, forward: float, sideways: float, turn: float) -> P
 
 
 def inside(place: Placement) -> bool:
-    """Tell whether a place lies in the field, edges included."""
+    """Whether a position is in the field, edges included."""
     return 0.0 <= place.x <= FIELD and 0.0 <= place.y <= FIELD
 
 
 def clamp(place: Placement) -> Placement:
-    """Put a place that left the field back on its edge, each coordinate on its own."""
+    """Clamp a position outside the field to its edge, each coordinate separately."""
     return Placement(min(max(place.x, 0.0), FIELD), min(max(place.y, 0.0), FIELD), place.theta)
 
 
 def turn_towards(goal: float, start: float, theta: float) -> Turning:
-    """Decide one update of the rotate action.
+    """Compute one update of the rotate action.
 
     Args:
         goal: Heading to reach; any size.
@@ -128,7 +128,7 @@ def turn_towards(goal: float, start: float, theta: float) -> Turning:
 
 
 def float32(value: float) -> float:
-    """Round to the nearest 32-bit float, as a number does that travels in a message.
+    """Round to the nearest 32-bit float, as a message field does.
 
     Beyond the largest such float the result is infinite.
     """
@@ -137,7 +137,7 @@ def float32(value: float) -> float:
 
 
 def float32_finite(value: float, what: str) -> float:
-    """Round a number of a request to 32 bits, or refuse it.
+    """Round a request's number to 32 bits, or refuse it.
 
     Args:
         value: The number as it came in.

@@ -1,4 +1,4 @@
-"""Every notation of one rotation in numbers: how it is read and how it is written.
+"""Notations of a rotation: how each is read and written.
 
 To add one: its line in `NOTATIONS`. `convert` reads it with `--as`, writes it with `--into`
 and shows it in its table and its JSON.
@@ -28,7 +28,7 @@ Numbers: TypeAlias = Sequence[float]
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """One notation; its angles are radians here.
+    """One notation; angles are radians here.
 
     Attributes:
         title: What it is called beside its numbers.
@@ -54,11 +54,11 @@ class Notation:
 
     @property
     def is_quaternion(self) -> bool:
-        """Whether it has no angles."""
+        """Whether the notation has no angles."""
         return self.plain == self.count
 
     def scaled(self, numbers: Numbers, scale: Callable[[float], float]) -> list[float]:
-        """Return the numbers with `scale` applied to the angles."""
+        """Return the numbers with their angles multiplied by `scale`."""
         return [*numbers[: self.plain], *map(scale, numbers[self.plain :])]
 
 
@@ -167,5 +167,5 @@ NAMED_FORMS: Final = (*NOTATIONS, "matrix")
 
 
 def notation_of(form: str) -> Notation:
-    """Return the notation of a form that is no matrix."""
+    """Return the notation of a form other than a matrix."""
     return NOTATIONS.get(form) or EULER[form]

@@ -1,4 +1,4 @@
-"""Rotations and poses as people paste them: read from text in any program's notation.
+"""Rotations and poses parsed from pasted text in other programs' notations.
 
 A label (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) says what the numbers mean.
 Three or four bare numbers do not, and are refused unless the form is named.
@@ -65,7 +65,7 @@ _PUNCTUATION = frozenset("[](){}<>,;:=|$\"'°*-")
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """One transform that was read from a text.
+    """One transform read from a text.
 
     Attributes:
         transform: The pose; its quaternion of length 1.
@@ -81,7 +81,7 @@ class Written:
 
 
 def read(text: str, form: str | None = None, *, degrees: bool = False) -> Written:
-    """Read a rotation, or a pose, from pasted text.
+    """Parse a rotation or a pose from pasted text.
 
     Args:
         text: The pasted text.
@@ -111,7 +111,7 @@ def _listed() -> str:
 
 
 def _publisher(text: str, _degrees: bool) -> Written | None:
-    """A line of static_transform_publisher, of ROS 1 as well."""
+    """Parse a static_transform_publisher command, also of ROS 1."""
     if "static_transform_publisher" not in text and not re.search(
         r"(?<!\S)--(q?[xyz]|qw|roll|pitch|yaw|(child-)?frame-id)(?=[\s=])", text
     ):
@@ -125,7 +125,7 @@ def _publisher(text: str, _degrees: bool) -> Written | None:
 
 
 def _echoed(text: str, _degrees: bool) -> Written | None:
-    """A block that tf2_echo, or ROS 1's tf_echo, printed."""
+    """Parse a block printed by tf2_echo or ROS 1's tf_echo."""
     turn = re.search(rf"Rotation:\s*in Quaternion{_BRACKETED}", text)
     if turn is None:
         return None
@@ -138,7 +138,7 @@ def _echoed(text: str, _degrees: bool) -> Written | None:
 
 
 def _described(text: str, _degrees: bool) -> Written | None:
-    """The attributes of a URDF's or SDF's origin."""
+    """Parse the attributes of an origin in URDF or SDF."""
     turn = re.search(_ATTRIBUTE.format("rpy"), text)
     place = re.search(_ATTRIBUTE.format("xyz"), text)
     if turn is None and (place is None or "<origin" not in text):
@@ -153,7 +153,7 @@ def _described(text: str, _degrees: bool) -> Written | None:
 
 
 def _labelled(text: str, degrees: bool) -> Written | None:
-    """Numbers with their names: ROS's YAML, JSON, what Python prints of a message."""
+    """Parse named numbers: ROS's YAML, JSON, or Python's output of a message."""
     groups: list[dict[str, float]] = [{}]
     for match in _LABELLED.finditer(text):
         if match["heading"]:
@@ -197,7 +197,7 @@ def _says_degrees(text: str) -> bool:
 
 
 def _bare(text: str, form: str | None, degrees: bool) -> Written:
-    """Numbers in whatever brackets: of a matrix, or of a form that is named."""
+    """Parse numbers in any brackets: a matrix, or a form given by name."""
     numbers: list[float] = []
     in_radians: set[int] = set()
     named = None
@@ -237,7 +237,7 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
 
 
 def _ambiguous(count: int) -> UsageError:
-    """Return why `count` bare numbers need a form, or are no rotation in any."""
+    """Return why `count` numbers need a form, or fit no form."""
     if count == 4:
         return UsageError(
             "Four bare numbers can be x y z w or w x y z: say which with --as xyzw or --as wxyz."

@@ -1,4 +1,4 @@
-"""The words of static_transform_publisher: tf2's two styles of saying one transform."""
+"""Arguments of static_transform_publisher in tf2's two styles."""
 
 import math
 import re
@@ -32,7 +32,7 @@ Rotation = Literal["none", "euler", "quaternion"]
 
 @dataclass(frozen=True, slots=True)
 class StaticArguments:
-    """One static transform, as the command line says it.
+    """One static transform as given on the command line.
 
     Attributes:
         transform: The pose of `child` in `parent`; its quaternion exactly as it was given.
@@ -52,7 +52,7 @@ class StaticArguments:
 
 
 def parse(argv: Sequence[str]) -> StaticArguments | None:
-    """Read the words after the command's name.
+    """Parse the arguments after the command's name.
 
     `--x --y --z`, `--roll --pitch --yaw` or `--qx --qy --qz --qw`, `--frame-id` and
     `--child-frame-id`, in any order, each with its value as the next word; or eight
@@ -110,7 +110,7 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
 
 
 def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
-    """Read a whole line of a shell, of ROS 1's publisher as well.
+    """Parse a whole shell line, also of ROS 1's publisher.
 
     Args:
         line: Read behind the word "static_transform_publisher"; as a whole, if that is
@@ -152,7 +152,7 @@ def _is_number(word: str) -> bool:
 
 
 def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
-    """Part the words without an option from the values of the options."""
+    """Separate positional words from options with values."""
     words: list[str] = []
     given: dict[str, str] = {}
     asks_for_help = False
@@ -232,7 +232,7 @@ def _refusal(tf2_text: str, remedy: str) -> UsageError:
 
 
 def advice(said: StaticArguments) -> list[str]:
-    """Return what the author of these arguments may not have meant: one sentence each."""
+    """Return a sentence for each likely mistake in these arguments."""
     sentences = []
     if said.old_style:
         sentences.append("Old-style arguments are deprecated; see --help for new-style arguments.")

@@ -1,24 +1,24 @@
-"""One transform as the words others read: URDF's origin, static_transform_publisher's options."""
+"""One transform as text for others: URDF's origin, static_transform_publisher's options."""
 
 from tftool.geometry.conversions import precise_rpy_from_quaternion
 from tftool.geometry.rigid import Transform
 
 
 def exact(number: float) -> str:
-    """The shortest decimals that mean this number and no other; no minus before a zero."""
+    """Format a number with the fewest decimals that identify it, without "-0"."""
     text = repr(float(number) + 0.0)
     return text.removesuffix(".0")
 
 
 def urdf_origin(transform: Transform) -> str:
-    """Return URDF's element for it; reading it back gives the same rotation to 1e-12."""
+    """Return URDF's element; reading it back gives the same rotation to 1e-12."""
     xyz = " ".join(map(exact, transform.translation))
     rpy = " ".join(map(exact, precise_rpy_from_quaternion(transform.rotation)))
     return f'<origin xyz="{xyz}" rpy="{rpy}"/>'
 
 
 def publisher_words(transform: Transform) -> list[str]:
-    """static_transform_publisher's options for it, as a quaternion, which loses nothing."""
+    """Return static_transform_publisher's options, with the exact quaternion."""
     names = ("x", "y", "z", "qx", "qy", "qz", "qw")
     numbers = (*transform.translation, *transform.rotation)
     return [

@@ -1,4 +1,4 @@
-"""Changes of a recording, transform by transform and message by message."""
+"""Changes to a recording, by transform and by message."""
 
 import struct
 from collections import Counter
@@ -78,12 +78,12 @@ class Edits:
 
     @property
     def cuts(self) -> bool:
-        """Whether only a part of the time is kept."""
+        """Whether only part of the time span is kept."""
         return self.start is not None or self.end is not None
 
     @property
     def names(self) -> bool:
-        """Whether names of frames change."""
+        """Whether frame names change."""
         return bool(self.rename or self.prefix or self.strip_slash)
 
     @property
@@ -97,7 +97,7 @@ class Edits:
         return bool(self.drop or self.poses or self.reparent or self.names or self.stamps)
 
     def name(self, frame: str) -> str:
-        """A frame's name afterwards."""
+        """Return a frame's new name."""
         plain = stripped(frame)
         slash = frame[: len(frame) - len(plain)]
         plain = self.rename.get(plain, plain)
@@ -106,29 +106,29 @@ class Edits:
         return plain if self.strip_slash else slash + plain
 
     def stamp(self, stamp: Stamp, log_time: Stamp) -> Stamp:
-        """A stamp afterwards; 0 says that there is none, and stays."""
+        """Return a new stamp; 0 means none, and stays."""
         if self.restamp:
             return log_time + self.shift
         return stamp + self.shift if stamp else stamp
 
 
 def fits(link: LinkName, wanted: LinkName) -> bool:
-    """Whether a link is one that an option names."""
+    """Whether an option names this link."""
     return all(word in ("*", name) for name, word in zip(link, wanted, strict=True))
 
 
 def carries_transforms(channel: Channel) -> bool:
-    """Whether a channel's messages are lists of transforms that are edited here."""
+    """Whether a channel's messages are lists of transforms that can be edited here."""
     return short_type(channel.type) in TRANSFORM_TYPES and channel.encoding in LAYOUTS
 
 
 def carries_statics(channel: Channel) -> bool:
-    """Whether those hold at all times."""
+    """Whether a channel's transforms are static."""
     return carries_transforms(channel) and is_static(channel)
 
 
 class Window:
-    """Span of the moments that are kept.
+    """Time span to keep.
 
     Attributes:
         start: First log time of messages without a stamp of their own.
@@ -172,7 +172,7 @@ Reparenting = Callable[[LinkName, Stamp], Transform | None]
 
 
 class Changer:
-    """Changes messages one by one, and counts what it does.
+    """Editor of messages, with counts of its changes.
 
     Attributes:
         window: Which moments are kept; None for all.
@@ -203,7 +203,7 @@ class Changer:
         self.topics: frozenset[str] | None = None
 
     def touches(self, channel: Channel) -> bool:
-        """Whether messages of a channel may change, or be left out other than by a cut."""
+        """Whether a channel's messages may change or be dropped, apart from a cut."""
         if carries_transforms(channel):
             if self.topics is not None:
                 return channel.topic in self.topics
@@ -211,14 +211,14 @@ class Changer:
         return self._edits.everywhere and (self._edits.names or self._edits.stamps)
 
     def keeps_all(self, start: Stamp, end: Stamp) -> bool:
-        """Whether a cut leaves all messages of some log times in."""
+        """Whether a cut keeps all messages between two log times."""
         window = self.window
         return window is None or (
             window.stamps is None and window.start <= start and end <= window.end
         )
 
     def changed(self, message: Taken, channel: Channel) -> Taken | None:
-        """A message as it is afterwards; None where it is left out."""
+        """Return a message after the changes; None if it is dropped."""
         if carries_transforms(channel):
             return self._transforms(message, channel)
         if self.window is not None and not self._kept(message, channel):
@@ -246,7 +246,7 @@ class Changer:
     def _rewritten(
         self, before: TransformRows, after: Sequence[TransformRow | None]
     ) -> bytes | None:
-        """A message's bytes with other transforms in it; None where none is left."""
+        """Return a message with other transforms; None if none is left."""
         rows = [row for row in after if row is not None]
         if not rows and before.rows:
             self.counts["messages without a transform left"] += 1
@@ -258,7 +258,7 @@ class Changer:
     # Many messages at once
 
     def changed_table(self, table: MessageTable, channels: Mapping[int, Channel]) -> MessageTable:
-        """Messages as they are afterwards; the same table where none of them changes."""
+        """Return messages after the changes; the same table if none changes."""
         change = TableChange(table)
         for number in table.owners:
             channel = channels[number]
@@ -278,7 +278,7 @@ class Changer:
         return change.finished()
 
     def _by_kind(self, change: TableChange, which: Stamps, channel: Channel) -> Stamps:
-        """Change the transforms of messages of one kind at once; return the others."""
+        """Change the transforms of messages of one kind in bulk; return the other messages."""
         edits, static = self._edits, carries_statics(channel)
         if edits.stamps or edits.reparent:
             return which
@@ -317,7 +317,7 @@ class Changer:
     def _inside(
         self, kind: MessageKind, rows: Bytes, log_times: Stamps, *, static: bool
     ) -> npt.NDArray[np.bool_]:
-        """Tell which transforms of messages of a kind a cut keeps, shape (messages, transforms)."""
+        """Return a mask of the transforms that a cut keeps, shape (messages, transforms)."""
         window = self.window
         assert window is not None
         found = []
@@ -335,7 +335,7 @@ class Changer:
         return np.stack(found, axis=1)
 
     def _learned(self, payload: bytes, channel: Channel) -> "tuple[Result, Counter[str]]":
-        """Change one message, whatever a cut keeps of it, as an example of its kind."""
+        """Change one message, ignoring the cut, as an example of its kind."""
         layout, static = LAYOUTS[channel.encoding], carries_statics(channel)
         before, self.counts = self.counts, Counter()
         try:
@@ -352,7 +352,7 @@ class Changer:
             self.counts = before
 
     def row(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """A transform as it is afterwards; None where it is left out."""
+        """Return a transform after the changes; None if it is dropped."""
         edits = self._edits
         if self.window is not None:
             window = self.window
@@ -363,7 +363,7 @@ class Changer:
         return self.edited(old, log_time, static=static) if edits.links or self._replaced else old
 
     def edited(self, old: TransformRow, log_time: Stamp, *, static: bool) -> TransformRow | None:
-        """The same, whatever the time."""
+        """Return a transform after the changes, ignoring the cut."""
         edits = self._edits
         link = stripped(old.parent), stripped(old.child)
         if any(fits(link, wanted) for wanted in edits.drop):
@@ -427,7 +427,7 @@ class Changer:
         return found
 
     def _other(self, message: Taken, channel: Channel) -> Taken:
-        """A message that is no list of transforms, with its names and stamps changed."""
+        """Change names and stamps of a message that is not a list of transforms."""
         payload = message.payload
         if self._edits.stamps and self.has_header(channel):
             stamp = header_stamp(payload, channel.encoding)
@@ -458,7 +458,7 @@ class Changer:
 
 
 def header_stamp(payload: bytes, encoding: str) -> Stamp | None:
-    """The stamp of the header that a message begins with."""
+    """Return the stamp of the header that a message begins with."""
     if len(payload) < 12:
         return None
     order = ">" if encoding == "cdr" and payload[:2] == b"\x00\x00" else "<"
@@ -473,7 +473,7 @@ def _with_stamp(payload: bytes, encoding: str, stamp: Stamp) -> bytes:
 
 
 class Renamer:
-    """Changes the frame names in messages of one type, wherever they hold a header."""
+    """Editor of frame names in messages of one type, wherever they contain a header."""
 
     def __init__(self, codec: Codec, edits: Edits) -> None:
         self._codec = codec
@@ -484,7 +484,7 @@ class Renamer:
             self._marks = [name.encode() for name in edits.rename]
 
     def renamed(self, payload: bytes) -> bytes | None:
-        """The bytes with other names; None where none changes.
+        """Return the bytes with new names; None if none changes.
 
         Raises:
             MalformedMessage: If it is no message of the type.
@@ -515,7 +515,7 @@ _NAMES: Final = ("frame_id", "child_frame_id")
 
 
 def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
-    """Return the function that renames in a channel's messages; None if its type has no header.
+    """Return the function that renames frames in a channel's messages; None without headers.
 
     Raises:
         InputError: If its type is not known.
@@ -534,7 +534,7 @@ def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
 
 
 def _has_header(interfaces: Interfaces, full: str) -> bool:
-    """Whether a type holds a header anywhere."""
+    """Whether a type contains a header anywhere."""
     waiting, seen = [full], {full}
     while waiting:
         for one in interfaces.structure(waiting.pop()).fields:

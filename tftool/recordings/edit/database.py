@@ -1,4 +1,4 @@
-"""rosbag2's sqlite files edited as databases: copied whole, then changed where rows change.
+"""Editing of rosbag2's sqlite files: the file is copied, and changed rows are updated.
 
 Rows that are not touched keep their bytes, numbers and order, tables of others stay, and the
 file keeps the version of its schema. What makes new files of old ones (cuts, joins, statics in
@@ -32,11 +32,11 @@ Change = Callable[[MessageTable, Mapping[int, Channel]], MessageTable]
 
 
 class Unsound(Exception):
-    """The copy is no whole database: its rows must be read one by one."""
+    """Error for a damaged copy, whose rows must be read one by one."""
 
 
 class EditedDatabase:
-    """One database that is edited; beside `EditedFile`, which is written row by row.
+    """A database edited in place; see also `EditedFile`, which is written row by row.
 
     Attributes:
         path: Where it is written.
@@ -50,7 +50,7 @@ class EditedDatabase:
     container = "db3"
 
     def __init__(self, path: Path, tape: Sqlite) -> None:
-        """Copy the file, and read it back.
+        """Copy the file and verify the copy.
 
         Raises:
             OSError: If it cannot be written.
@@ -69,7 +69,7 @@ class EditedDatabase:
         self._base = sqlite3.connect(path, isolation_level=None)
 
     def change(self, change: Change, touched: list[int]) -> None:
-        """Change the messages of some topics, in one transaction.
+        """Change the messages of some topics in one transaction.
 
         Args:
             change: Changes messages of the file.
@@ -129,7 +129,7 @@ class EditedDatabase:
     def _rows(
         self, base: sqlite3.Connection, numbers: list[int]
     ) -> Iterator[tuple[list[int], MessageTable]]:
-        """The messages of some topics in parts, each behind the numbers of its rows.
+        """Yield the messages of some topics in parts, each with its row numbers.
 
         Raises:
             Unsound: If a timestamp is no whole number.
@@ -176,7 +176,7 @@ class EditedDatabase:
         self.end = max((high for _, _, _, high in found), default=0)
 
     def compare(self) -> None:
-        """Read the changed rows again.
+        """Verify the changed rows.
 
         Raises:
             InputError: If they differ from the intended ones.
@@ -190,16 +190,16 @@ class EditedDatabase:
             raise InputError(f"'{self.path}' was not written as it should be: its rows differ.")
 
     def finish(self) -> None:
-        """Close it: nothing waits to be written."""
+        """Close the database: nothing is left to write."""
         self._base.close()
 
     def abandon(self) -> None:
-        """Close it as it is."""
+        """Close the database unfinished."""
         self._base.close()
 
 
 def _is_damage(error: BaseException | None) -> bool:
-    """Whether an error of sqlite's speaks of the file's content, and not of the disk."""
+    """Whether an sqlite error is about the file's content, and not about the disk."""
     return isinstance(error, sqlite3.DatabaseError) and error.sqlite_errorcode in (
         sqlite3.SQLITE_CORRUPT,
         sqlite3.SQLITE_NOTADB,

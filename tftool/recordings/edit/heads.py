@@ -1,4 +1,4 @@
-"""The statics that a recording begins with, where it is a piece of another."""
+"""Static transforms written at the start of a recording's part."""
 
 import contextlib
 from collections import Counter
@@ -25,7 +25,7 @@ from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 
 @dataclass(slots=True)
 class _Static:
-    """One static transform as it was recorded."""
+    """One static transform as recorded."""
 
     source: int
     number: int
@@ -40,7 +40,7 @@ def _row_of(sample: TransformStamped) -> TransformRow:
 
 
 class StaticHeads:
-    """Statics at the beginning of every file of a result, for readers that start there.
+    """Static transforms at the start of every output file, for readers that start there.
 
     Attributes:
         wanted: Whether the files begin so; a recording that is only changed does not.
@@ -56,7 +56,7 @@ class StaticHeads:
         by_tape: bool,
         ros2: bool,
     ) -> None:
-        """Begin with none.
+        """Start without static transforms.
 
         Args:
             edits: The changes.
@@ -79,14 +79,14 @@ class StaticHeads:
 
     @property
     def topics(self) -> frozenset[str]:
-        """The topics that are latched because their state is written first."""
+        """Return the topics that are latched because their state is written at the start."""
         if not self.wanted:
             return frozenset()
         found = frozenset(one.channel.topic for one in self._statics)
         return found | {"/tf_static"} if self._edits.statics_from else found
 
     def collect(self) -> None:
-        """Read every static of the inputs, changed as the messages will be."""
+        """Read all static transforms of the inputs, with the edit's changes."""
         if not self.wanted:
             return
         edits = self._edits
@@ -119,7 +119,7 @@ class StaticHeads:
             ]
 
     def write(self, number: int, output: EditedFile, start: Stamp) -> None:
-        """Write the latest value of every static, in one message for each channel.
+        """Write the latest value of every static transform, one message per channel.
 
         Args:
             number: Which part of the result it is, from 0.
@@ -163,7 +163,7 @@ class StaticHeads:
         self._changer.counts["statics put first"] += len(chosen) + len(edits.statics_from)
 
     def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
-        """The statics of another recording, where this one has no topic for them."""
+        """Write statics of another recording for which this one has no topic."""
         from tftool.recordings.message_conversion import as_ros1
 
         channel = ros2_channel("/tf_static", TRANSFORMS, static=True)

@@ -1,4 +1,4 @@
-"""The input files of an edit, each as a tape."""
+"""Input files of an edit."""
 
 import contextlib
 import tempfile
@@ -17,7 +17,7 @@ from tftool.recordings.rosbag2.read import Sqlite
 
 @dataclass(slots=True)
 class EditedInput:
-    """One recording that is edited. Works in a `with`.
+    """One recording to edit; a context manager.
 
     Attributes:
         name: As it was given.
@@ -48,11 +48,11 @@ class EditedInput:
 
     @property
     def size(self) -> int:
-        """Bytes of all its files."""
+        """Size of all its files in bytes."""
         return sum(tape.size for tape in self.tapes)
 
     def close(self) -> None:
-        """Close its files, and remove unpacked copies."""
+        """Close its files, and remove decompressed copies."""
         for tape in self.tapes:
             tape.close()
         for folder in self._unpacked:
@@ -79,7 +79,7 @@ class EditedInput:
         self.paths.append(path)
 
     def add_poses(self, found: Found) -> None:
-        """Open a pose file, as the MCAP file of its messages.
+        """Open a pose file as an MCAP file of its messages.
 
         Raises:
             InputError: If it cannot be read.
@@ -93,7 +93,7 @@ class EditedInput:
 
 
 def open_input(name: str) -> EditedInput:
-    """Open a recording to edit it: a file, a folder of rosbag2's, or a glob of files.
+    """Open a recording to edit: a file, a rosbag2 folder, or a glob of files.
 
     Raises:
         InputError: If there is none, or it cannot be read.

@@ -1,4 +1,4 @@
-"""Outputs of an edit: a file of each container, or a folder of files."""
+"""Outputs of an edit: one file, or a folder of files."""
 
 import struct
 import zlib
@@ -37,7 +37,7 @@ _HEADS = np.dtype([("log_time", "<i8"), ("publish_time", "<u8"), ("sequence", "<
 
 
 class EditedFile:
-    """One file that is written, and facts for the comparison in the end.
+    """One output file, with the facts for the final comparison.
 
     Attributes:
         path: Where it is written.
@@ -61,7 +61,7 @@ class EditedFile:
         latched: "frozenset[str]" = frozenset(),
         first_free: int = 1,
     ) -> None:
-        """Begin it.
+        """Make an output that is not open yet.
 
         Args:
             path: Where it is written.
@@ -96,7 +96,7 @@ class EditedFile:
             self._chunks.first_free = first_free
 
     def _opened(self, tape: ContainerReader) -> McapWriter | Rosbag1Writer | SqliteWriter:
-        """Begin the file, as the first one that it is made from is written."""
+        """Create the file, in the format of its first input."""
         style: dict[str, Any] = tape.style if tape.container == self.container else {}
         if self.container == "mcap":
             chunked = style.get("chunked", True) or not getattr(tape, "is_indexed", True)
@@ -127,7 +127,7 @@ class EditedFile:
     def _conversion(
         self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> Conversion | None:
-        """Return the channel as it is written here; None where it cannot be."""
+        """Return the channel as written here; None if it cannot be converted."""
         key = source, number
         if key not in self._conversions:
             try:
@@ -157,7 +157,7 @@ class EditedFile:
     def _register(
         self, source: int, number: int, channel: Channel, tape: ContainerReader
     ) -> int | None:
-        """The number of a channel here."""
+        """Return a channel's number here."""
         key = source, number
         found = self._numbers.get(key)
         if found is not None:
@@ -181,7 +181,7 @@ class EditedFile:
         return found
 
     def channel(self, channel: Channel) -> int:
-        """Make a channel known that is not one of a tape's."""
+        """Register a channel that no input has."""
         found = self._extra.get(channel)
         if found is None:
             found = self._extra[channel] = self.writer.channel(channel)
@@ -189,7 +189,7 @@ class EditedFile:
         return found
 
     def _fits(self, source: int, tape: ContainerReader) -> bool:
-        """Whether a tape's numbers mean here what they mean there, so that chunks may be copied."""
+        """Whether an input's channel numbers mean the same here, so that chunks may be copied."""
         found = self._compatible.get(source)
         if found is None:
             found = tape.container == self.container and (
@@ -199,7 +199,7 @@ class EditedFile:
         return found and self._chunks is not None
 
     def _agrees(self, tape: ContainerReader) -> bool:
-        """Whether all numbers of a further tape are free here, or mean the same."""
+        """Whether all numbers of a further input are free here, or mean the same."""
         if self._chunks is None or self._extra or not isinstance(tape, ChunkedReader):
             return False
         channels = tape.channels.items()
@@ -209,7 +209,7 @@ class EditedFile:
     # Messages
 
     def write(self, source: int, message: Taken, channel: Channel, tape: ContainerReader) -> bool:
-        """Append a message of a tape's; whether the container takes it."""
+        """Append a message of an input; return whether the container accepts it."""
         number = self._register(source, message.channel, channel, tape)
         if number is None:
             return False
@@ -220,7 +220,7 @@ class EditedFile:
         return True
 
     def write_table(self, source: int, table: MessageTable, tape: ContainerReader) -> bool:
-        """Append messages of a tape's; whether the container takes any of them."""
+        """Append messages of an input; return whether the container accepts any."""
         numbers = np.full(len(table), -1, dtype=np.int64)
         change = TableChange(table)
         for own in table.owners:
@@ -249,7 +249,7 @@ class EditedFile:
     def _convert(
         self, change: TableChange, which: Stamps, channel: Channel, conversion: Conversion
     ) -> None:
-        """Convert messages of one channel, those of transforms at once."""
+        """Convert messages of one channel, transforms in bulk."""
         if carries_transforms(channel):
             kinds = self._kinds.get(channel)
             if kinds is None:
@@ -276,7 +276,7 @@ class EditedFile:
             change.put_one(row, conversion.payload(change.table.payload(row)))
 
     def _note_table(self, table: MessageTable) -> None:
-        """Note what messages hold, for the comparison."""
+        """Record messages for the comparison."""
         for number, count in Counter(table.channels.tolist()).items():
             self.counts[number] += count
         digest_table(self.digests, table, self.channels, self.container)
@@ -284,13 +284,13 @@ class EditedFile:
         self.end = max(self.end, int(table.log_times.max()))
 
     def append(self, number: int, message: Taken) -> None:
-        """Append a message as it is."""
+        """Append a message unchanged."""
         self.note(number, message)
         payload = message.payload if self._pack is None else self._pack(message.payload)
         self.writer.write(number, message.log_time, payload, message.publish_time, message.sequence)
 
     def note(self, number: int, message: Taken) -> None:
-        """Note what a message holds, for the comparison."""
+        """Record a message for the comparison."""
         channel = self.channels[number]
         key = channel.topic, channel.type
         self.counts[number] += 1
@@ -299,7 +299,7 @@ class EditedFile:
         self.end = max(self.end, message.log_time)
 
     def can_copy(self, source: int, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block may be copied as it is."""
+        """Whether a block may be copied unchanged."""
         if not (block.whole and isinstance(block, Chunk) and self._fits(source, tape)):
             return False
         for number in block.counts or ():
@@ -315,7 +315,7 @@ class EditedFile:
         )
 
     def copy(self, chunk: Chunk) -> None:
-        """Append a chunk as it is."""
+        """Append a chunk unchanged."""
         assert self._chunks is not None
         self._chunks.flush()
         self.copied[self._chunks.position] = chunk.raw().length
@@ -326,7 +326,7 @@ class EditedFile:
             self.end = max(self.end, chunk.end)
 
     def closed_block(self, block: Block) -> None:
-        """Close the chunk that a changed one has become, packed as that was."""
+        """Close a chunk with changed messages, with the original's compression."""
         if (
             self._chunks is not None
             and isinstance(block, Chunk)
@@ -350,7 +350,7 @@ class EditedFile:
 
 
 def digest(before: int, message: Taken, container: str) -> int:
-    """A checksum over messages, one more; over the parts that the container keeps."""
+    """Update a checksum with one message, over the parts that the container stores."""
     kept = container == "mcap"
     head = _HEAD.pack(
         message.log_time, message.publish_time if kept else 0, message.sequence if kept else 0
@@ -364,7 +364,7 @@ def digest_table(
     channels: Mapping[int, Channel],
     container: str,
 ) -> None:
-    """Go on with the checksum of each topic by messages; see `digest`."""
+    """Update each topic's checksum with some messages; see `digest`."""
     numbers: dict[tuple[str, str], list[int]] = {}
     for number in table.owners:
         channel = channels[number]
@@ -379,7 +379,7 @@ def digest_table(
 
 
 def _defined(channel: Channel) -> Channel:
-    """A channel of ROS 2 with its definition, where the recording brings none and we know it."""
+    """Return a ROS 2 channel with our definition if the recording has none."""
     try:
         text = ros2_definition(channel.type)
     except TftoolError:
@@ -396,7 +396,7 @@ def _defined(channel: Channel) -> Channel:
 
 
 def _latching(channel: Channel) -> Channel:
-    """A channel that offers its last message to late subscribers."""
+    """Return a channel that resends its last message to late subscribers."""
     metadata = dict(channel.metadata)
     if channel.encoding == "ros1":
         if metadata.get("latching") == "1":

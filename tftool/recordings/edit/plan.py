@@ -1,4 +1,4 @@
-"""Plan of an edit: its options applied to given recordings, once every name is known."""
+"""Plan of an edit: options checked against the recordings, after all names are known."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -21,7 +21,7 @@ from tftool.recordings.recording import Recording
 
 
 def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
-    """Make what changes the messages of these recordings.
+    """Return the editor for the messages of these recordings.
 
     Args:
         edits: What to change.
@@ -38,7 +38,7 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
 
 
 def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
-    """Refuse names of links and frames that were not recorded, or would be two frames'."""
+    """Refuse names of links and frames that were not recorded, or that would merge two frames."""
     wanted: list[LinkName] = [*edits.drop, *edits.poses, *edits.reparent]
     if not (wanted or edits.rename):
         return
@@ -60,7 +60,7 @@ def _check_names(edits: Edits, recordings: Sequence[Recording]) -> None:
 
 
 def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] | None:
-    """The topics of the links that are named; None where all links change."""
+    """Return the topics of the named links; None if all links change."""
     wanted = [*edits.drop, *edits.poses, *edits.reparent]
     if not wanted or edits.names or edits.stamps or edits.statics_from:
         return None
@@ -77,7 +77,7 @@ def _concerned(edits: Edits, recordings: Sequence[Recording]) -> frozenset[str] 
 
 
 def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
-    """Return the span that is kept; None for all of it."""
+    """Return the span to keep; None for everything."""
     if not edits.cuts:
         return None
     low = edits.start if edits.start is not None else 0
@@ -119,7 +119,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
 def _refuse_outside(
     edits: Edits, recordings: Sequence[Recording], moments: Sequence[Stamp]
 ) -> None:
-    """Refuse a cut that leaves nothing: one end of it is beyond all of these moments.
+    """Refuse a cut that keeps nothing: one of its ends is beyond all times.
 
     Args:
         edits: Whose cut.
@@ -145,7 +145,7 @@ def _refuse_outside(
 
 
 def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:
-    """Return the function for a frame's pose under its new parent; None where none gets one."""
+    """Return a function for a frame's pose under its new parent; None without --reparent."""
     if not edits.reparent:
         return None
     if len(recordings) > 1:
@@ -179,7 +179,7 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
 
 
 def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
-    """A span and one sample more at either end, so that both ends can be interpolated."""
+    """Extend a span by one sample at either end, so that both ends can be interpolated."""
     before, behind = moments[moments <= low], moments[moments >= high]
     first = int(before.max()) if len(before) else low
     last = int(behind.min()) if len(behind) else high
@@ -187,7 +187,7 @@ def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Sta
 
 
 def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
-    """A frame and all it ever hung from."""
+    """Return a frame and all its ancestors at any time."""
     found, waiting = {frame}, [frame]
     while waiting:
         for parent in parents.get(waiting.pop(), ()):
@@ -198,7 +198,7 @@ def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
 
 
 def _joined_by_statics(one: str, other: str, static: Mapping[str, str]) -> bool:
-    """Whether two frames never move against each other."""
+    """Whether two frames never move relative to each other."""
 
     def up(frame: str) -> list[str]:
         found = [frame]

@@ -1,4 +1,4 @@
-"""A recording rewritten with changes: what they do not touch stays as it was, byte for byte.
+"""Rewriting of a recording with changes; everything else stays byte for byte.
 
 Every piece is read once, copied where it may be, else taken apart and changed. Then the result
 is opened, and all of it compared with the intended content. Only then it gets its name.
@@ -40,7 +40,7 @@ _AHEAD: Final = 3  # chunks that are examined before they are wanted
 
 @dataclass(slots=True)
 class EditReport:
-    """Outcome of editing.
+    """Result of an edit.
 
     Attributes:
         messages: How many the result has.
@@ -94,7 +94,7 @@ def edit(
 
 
 def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
-    """Refuse to join a recording to itself: every message of it would be there twice.
+    """Refuse to join a recording to itself, which would duplicate its messages.
 
     Raises:
         UsageError: If a file is named twice, under whatever names.
@@ -111,7 +111,7 @@ def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
 
 
 def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
-    """Refuse to write onto an input, under whatever name.
+    """Refuse to overwrite an input, whatever its name.
 
     Raises:
         UsageError: If the output is an input.
@@ -130,7 +130,7 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
 
 
 class _Job:
-    """One run over some recordings."""
+    """One edit of some recordings."""
 
     def __init__(
         self,
@@ -184,7 +184,7 @@ class _Job:
     # The runs
 
     def tried(self) -> EditReport:
-        """Plan of an edit that is not made."""
+        """Return what the edit would do, without doing it."""
         self._heads.collect()
         done = 0
         for tape in self._tapes:
@@ -207,7 +207,7 @@ class _Job:
         return self.report
 
     def done(self, *, force: bool) -> EditReport:
-        """Do it."""
+        """Run the edit."""
         self._check_room()
         with Target(self._path, folder=self._is_folder, force=force) as target:
             try:
@@ -260,7 +260,7 @@ class _Job:
             output.finish(whose if self._by_tape or number == self._order[0] else [])
 
     def _examined_ahead(self, tape: ContainerReader) -> Iterator[Block]:
-        """A tape's pieces; pieces copied whole are examined while those before are written.
+        """Yield an input's blocks; blocks to copy are verified while earlier ones are written.
 
         To unpack a chunk and hold its CRC against it takes as long as to copy it, and both
         work without Python's lock.
@@ -281,7 +281,7 @@ class _Job:
                         examined.cancel()
 
     def _stays_unseen(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block stays as it is by what its index tells, if it is sound."""
+        """Whether a block stays unchanged by its index alone, if it is sound."""
         return (
             block.whole
             and bool(block.counts)
@@ -292,7 +292,7 @@ class _Job:
     # Databases
 
     def _changed_in_place(self) -> list[Sqlite]:
-        """The databases, if each becomes one that differs in some rows only; else none."""
+        """Return the databases if each changes in some rows only; else none."""
         tapes = [tape for tape in self._tapes if isinstance(tape, Sqlite)]
         alike = len(tapes) == len(self._tapes) and self._container == "db3"
         one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
@@ -324,7 +324,7 @@ class _Job:
         self._changer.counts = Counter()
 
     def _path_in(self, part: Path, number: int) -> Path:
-        """Place of a file of the result."""
+        """Return the path of an output file."""
         if not self._is_folder:
             return part
         suffix = container_named(self._container).suffix
@@ -363,7 +363,7 @@ class _Job:
             output.closed_block(block)
 
     def _table(self, block: Block, tape: ContainerReader) -> MessageTable | None:
-        """A chunk's messages as columns, if they are looked at and stay in one file."""
+        """Return a chunk's messages as columns, if they are examined and stay in one file."""
         if self._edits.split_every:
             return None
         if tape.container == self._container and self._stays_unseen(block, tape):
@@ -371,11 +371,11 @@ class _Job:
         return block.table()
 
     def _may_copy(self, chunk: Chunk) -> bool:
-        """Whether a chunk in which nothing changes may be copied as it is."""
+        """Whether a chunk without changes may be copied."""
         return not self._edits.links or self._changer.keeps_all(chunk.start, chunk.end)
 
     def _untouched(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether a block stays as it is, as far as it shows without a look inside, or with one."""
+        """Whether a block stays unchanged, found with or without decoding it."""
         if not block.whole or not block.counts:
             return False
         if not self._changer.keeps_all(block.start, block.end):
@@ -390,7 +390,7 @@ class _Job:
         return block.sound()
 
     def _keeps_each(self, block: Block, tape: ContainerReader) -> bool:
-        """Whether all messages of a block stay as they are."""
+        """Whether all messages of a block stay unchanged."""
         before = Counter(self._changer.counts)
         for message in block.messages():
             if self._changer.changed(message, tape.channels[message.channel]) is not message:
@@ -409,7 +409,7 @@ class _Job:
         return max(0, (log_time - self._start) // self._edits.split_every)
 
     def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
-        """The file of a part; when it is first asked for it begins with its statics, at `start`."""
+        """Return the output file of a part; a new one begins with its statics, at `start`."""
         found = self._outputs.get(number)
         if found is not None:
             return found
@@ -431,7 +431,7 @@ class _Job:
         return output
 
     def _first_free(self) -> int:
-        """The first number that none of the inputs uses."""
+        """Return the first channel number that no input uses."""
         used = [0]
         for tape in self._tapes:
             used += tape.channels
@@ -442,7 +442,7 @@ class _Job:
     # The end
 
     def _compare(self) -> None:
-        """Read the output, and compare it with the intended content.
+        """Read the output back, and compare it with the intended content.
 
         Raises:
             InputError: If it differs.
@@ -564,7 +564,7 @@ def _examined(block: Block, examined: "Future[bool] | None") -> Block:
 
 
 def _packed(path: Path) -> Path:
-    """A file compressed as a whole, in its place."""
+    """Recompress a file that was compressed as a whole."""
     from tftool.recordings.decompression import zstandard
 
     packed = path.with_name(path.name + PACKED_SUFFIX)

@@ -1,4 +1,4 @@
-"""Messages of one chunk as columns, and transforms in them changed all at once.
+"""Messages of one chunk as columns, and bulk changes of their transforms.
 
 A publisher sends the same frames again and again. One message of a kind is changed by itself;
 others that differ in stamps and numbers alone get the same new bytes, with their own stamps
@@ -25,7 +25,7 @@ _MOST_KINDS = 16
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """New bytes of the message by which a kind is learned.
+    """New bytes of the example message of a kind.
 
     Attributes:
         payload: The bytes; None where the message is left out.
@@ -42,7 +42,7 @@ class Result:
 
 @dataclass(slots=True)
 class MessageKind:
-    """Messages with the same frames, which differ in stamps and numbers alone.
+    """Messages with the same frames, which differ only in stamps and numbers.
 
     Attributes:
         places: Their transforms.
@@ -59,18 +59,18 @@ class MessageKind:
 
     @property
     def changes(self) -> bool:
-        """Whether they become other bytes."""
+        """Whether the messages' bytes change."""
         return not self.keeps_bytes or bool(self.result.given)
 
     def stamps(self, rows: Bytes, number: int) -> Stamps:
-        """The stamp of one transform in each of some rows, nanoseconds, shape (n,)."""
+        """Return the stamp of one transform in each row, nanoseconds, shape (n,)."""
         first = self.places[number].stamp - self.begin
         times = np.ascontiguousarray(rows[:, first : first + 8]).view(np.int32)
         found: Stamps = times[:, 0].astype(np.int64) * NANOSECONDS
         return found + np.ascontiguousarray(times[:, 1]).view(np.uint32)
 
     def changed(self, rows: Bytes, length: int) -> Bytes:
-        """The new bytes of messages of a length, shape (n, new length)."""
+        """Return the new bytes of messages of one length, shape (n, new length)."""
         payload = self.result.payload
         assert payload is not None
         new = np.frombuffer(payload, np.uint8)
@@ -88,12 +88,12 @@ class MessageKind:
 
 
 class Kinds:
-    """Kinds of messages of one channel, learned from the messages."""
+    """Kinds of one channel's messages, learned while reading."""
 
     def __init__(
         self, layout: Layout, learn: "Callable[[bytes], tuple[Result, Counter[str]]]"
     ) -> None:
-        """Begin with none.
+        """Start without kinds.
 
         Args:
             layout: How the channel's messages are written.
@@ -106,7 +106,7 @@ class Kinds:
     def groups(
         self, table: MessageTable, which: Stamps
     ) -> "tuple[list[tuple[MessageKind, Stamps, Bytes]], Stamps]":
-        """Sort messages by their kind.
+        """Group messages by kind.
 
         Args:
             table: The messages.
@@ -140,7 +140,7 @@ class Kinds:
         return found, np.concatenate(rest) if rest else which[:0]
 
     def _add(self, known: list[MessageKind], payload: bytes) -> bool:
-        """Learn the kind of a message; whether that is possible."""
+        """Learn a message's kind; return whether that is possible."""
         if len(known) >= _MOST_KINDS:
             return False
         try:
@@ -177,10 +177,10 @@ class Kinds:
 
 
 class TableChange:
-    """Messages of a table while they are changed."""
+    """Messages of a table during a change."""
 
     def __init__(self, table: MessageTable) -> None:
-        """Begin with all of them as they are."""
+        """Start with all messages unchanged."""
         self.table = table
         self.keep: npt.NDArray[np.bool_] = np.ones(len(table), dtype=np.bool_)
         self._starts, self._lengths = table.starts.copy(), table.lengths.copy()
@@ -188,7 +188,7 @@ class TableChange:
         self._end = len(table.data)
 
     def put(self, which: Stamps, payloads: Bytes) -> None:
-        """Give messages new bytes, shape (n, length)."""
+        """Replace the bytes of messages, shape (n, length)."""
         length = payloads.shape[1]
         self._starts[which] = self._end + np.arange(len(which)) * length
         self._lengths[which] = length
@@ -196,11 +196,11 @@ class TableChange:
         self._end += payloads.size
 
     def put_one(self, number: int, payload: bytes) -> None:
-        """Give one message new bytes."""
+        """Replace the bytes of one message."""
         self.put(np.array([number]), np.frombuffer(payload, np.uint8).reshape(1, -1))
 
     def finished(self) -> MessageTable:
-        """The messages afterwards; the same table if none has changed."""
+        """Return the messages after the change; the same table if none changed."""
         if len(self._pieces) == 1 and self.keep.all():
             return self.table
         after = replace(

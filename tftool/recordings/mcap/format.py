@@ -1,4 +1,4 @@
-"""Records of an MCAP file: their codes and limits, how they are packed and parsed.
+"""Records of an MCAP file: codes, limits, packing and parsing.
 
 Source: the MCAP format specification, version 0.
 """
@@ -72,10 +72,10 @@ _LARGEST_BATCH = 1 << 22  # and bytes of them
 
 
 class SingleMessages:
-    """Messages read one by one from their places in the file, until there are some."""
+    """Messages read one by one from the file, and collected into batches."""
 
     def __init__(self, file: File, chosen: Mapping[int, int], head: int | None) -> None:
-        """Begin with none.
+        """Start empty.
 
         Args:
             file: The file.
@@ -99,7 +99,7 @@ class SingleMessages:
 
     @property
     def is_full(self) -> bool:
-        """Whether they are to be taken before more are read."""
+        """Whether the batch should be taken before reading more."""
         return len(self) >= _MOST_SINGLY or self._bytes >= _LARGEST_BATCH
 
     def read(self, places: list[int], offset: int, end: int) -> None:
@@ -139,7 +139,7 @@ class SingleMessages:
         self._bytes += whole
 
     def taken(self) -> Batch:
-        """Return those read since the last call."""
+        """Return the messages read since the last call."""
         sizes = np.fromiter(map(len, self._pieces), dtype=np.int64, count=len(self))
         ends = np.cumsum(sizes)
         batch = Batch(
@@ -154,7 +154,7 @@ class SingleMessages:
 
 
 def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Offsets, lengths and log times of the payloads of a channel's messages.
+    """Return offsets, lengths and log times of the payloads of a channel's messages.
 
     Args:
         data: A chunk's records.
@@ -188,7 +188,7 @@ def indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, S
 
 
 def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """Every record's code, and where its body begins and ends.
+    """Yield every record's code, and the start and end of its body.
 
     Raises:
         InputError: At one that goes on behind the end.
@@ -207,7 +207,7 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
 
 
 class IndexEntry(NamedTuple):
-    """A chunk as the summary describes it.
+    """A chunk as described in the summary.
 
     Attributes:
         start: Log time of its first message.
@@ -233,11 +233,11 @@ class IndexEntry(NamedTuple):
 
     @property
     def place(self) -> int:
-        """Return where its messages begin, behind 49 bytes of head and the compression's name."""
+        """Offset of its messages, after 49 bytes of header and the compression's name."""
         return self.position + 49 + len(self.method.encode("utf-8", "surrogateescape"))
 
     def record(self) -> bytes:
-        """Its record in the summary."""
+        """Return its record in the summary."""
         head = struct.pack("<QQQQ", self.start, self.end, self.position, self.length)
         sizes = text(self.method) + _SIZES.pack(self.packed, self.size)
         body = head + entries(self.indexes) + U64.pack(self.indexes_length) + sizes
@@ -316,19 +316,19 @@ def text(words: str) -> bytes:
 
 
 def strings(values: Mapping[str, str]) -> bytes:
-    """Pack a map of texts behind its length."""
+    """Pack a map of texts, preceded by its length."""
     packed = b"".join(text(key) + text(value) for key, value in values.items())
     return U32.pack(len(packed)) + packed
 
 
 def entries(values: Mapping[int, int]) -> bytes:
-    """Pack a map of channels to numbers behind its length."""
+    """Pack a map of channels to numbers, preceded by its length."""
     packed = b"".join(struct.pack("<HQ", key, value) for key, value in values.items())
     return U32.pack(len(packed)) + packed
 
 
 def message_index(channel: int, index: "array[int]") -> bytes:
-    """Pack the record of a message index: log times and places by turns."""
+    """Pack a message index record: log times alternating with offsets."""
     pairs = index.tobytes()
     return (
         RECORD.pack(MESSAGE_INDEX, 6 + len(pairs)) + struct.pack("<HI", channel, len(pairs)) + pairs

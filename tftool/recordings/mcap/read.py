@@ -1,4 +1,4 @@
-"""MCAP read: by its index where there is one, else from front to back up to the damage.
+"""Reading MCAP: by index if there is one, else sequentially up to any damage.
 
 Source: the MCAP format specification, version 0.
 """
@@ -79,7 +79,7 @@ class Mcap(ChunkedReader):
     magic = MCAP_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open it and list its content.
+        """Open the file and list its contents.
 
         Args:
             path: Where it is.
@@ -114,7 +114,7 @@ class Mcap(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """List its content, by its index or without."""
+        """List the contents, by the index or without it."""
         if not self._by_index:
             self._read_style()
         complete = False
@@ -129,18 +129,18 @@ class Mcap(ChunkedReader):
 
     @property
     def bytes_read(self) -> int:
-        """Return the bytes of the file that have been read so far."""
+        """Return the number of bytes read from the file so far."""
         return self.read
 
     def origin(self, number: int) -> tuple[int, tuple[str, str, bytes] | None]:
-        """Return the number of a channel's schema, and the schema; see `McapWriter.adopt`."""
+        """Return a channel's schema number, and the schema; see `McapWriter.adopt`."""
         schema = self._schema_of[number]
         return schema, self.schemas[schema] if schema else None
 
     # Content
 
     def _read_style(self) -> None:
-        """Find out by its first records how it is written."""
+        """Detect from its first records how the file was written."""
         position = len(MCAP_MAGIC)
         try:
             while position + 9 <= self.size:
@@ -159,7 +159,7 @@ class Mcap(ChunkedReader):
             return
 
     def _read_summary(self) -> bool:
-        """Take what the summary tells; whether that is all there is to know.
+        """Read the summary; return whether it is complete.
 
         Raises:
             InputError: If it is damaged.
@@ -212,7 +212,7 @@ class Mcap(ChunkedReader):
         return True
 
     def _take_entry(self, summary: bytes, first: int, last: int) -> None:
-        """Take a chunk as the summary describes it."""
+        """Register a chunk as the summary describes it."""
         entry = index_entry(summary, first, last, self.size)
         self._chunks.append(
             Chunk(
@@ -229,7 +229,7 @@ class Mcap(ChunkedReader):
         )
 
     def _forget(self) -> None:
-        """Drop all knowledge, to begin again."""
+        """Drop everything known, to start again."""
         super()._forget()
         self.is_indexed = False
         self.schemas.clear()
@@ -237,7 +237,7 @@ class Mcap(ChunkedReader):
         self._schema_of.clear()
 
     def _describe(self, code: int, body: bytes) -> None:
-        """Take what a record tells of a schema or a channel."""
+        """Register a schema or channel of a record."""
         check_told(len(body))
         number, schema = struct.unpack_from("<HH", body)
         if code == SCHEMA:
@@ -261,7 +261,7 @@ class Mcap(ChunkedReader):
         self._learn(number, Channel(topic, name, encoding, kind, data, tuple(metadata.items())))
 
     def _count_indexed(self, chunk: Chunk) -> None:
-        """Count a chunk's messages by its message indexes' lengths."""
+        """Count a chunk's messages by the lengths of its message indexes."""
         for channel, place in chunk.indexes.items():
             if channel in self._numbers:
                 try:
@@ -272,7 +272,7 @@ class Mcap(ChunkedReader):
     # From front to back
 
     def _index(self) -> None:
-        """Make an index of a file that has none, up to its end or its damage.
+        """Build an index of a file without one, up to its end or its damage.
 
         Raises:
             InputError: If nothing of it can be read.
@@ -287,7 +287,7 @@ class Mcap(ChunkedReader):
             self.start, self.end = min(min(moments), LAST_STAMP), min(max(moments), LAST_STAMP)
 
     def _found_chunks(self) -> Iterator[Chunk]:
-        """Its chunks; the messages between them are noted."""
+        """Yield the chunks; messages between them are recorded."""
         for block in self._pieces():
             if isinstance(block, Chunk):
                 yield block
@@ -295,13 +295,15 @@ class Mcap(ChunkedReader):
                 self._loose.extend(block.found)
 
     def blocks(self) -> "Iterator[Chunk | Loose]":
-        """Its chunks, and the messages between them; other records go to `extras`."""
+        """Yield the chunks, and the messages between them; other records go to `extras`."""
         yield from self._pieces()
         if not self._ended:
             self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> "Iterator[Chunk | Loose]":
-        """Go through it record by record; where it ends, and whether it says so, is noted."""
+        """Walk through the file record by record; record where it ends, and whether it ends
+        properly.
+        """
         position, size = len(MCAP_MAGIC), self.size
         block, base, code = b"", 0, 0
         loose = Loose(self)
@@ -346,7 +348,7 @@ class Mcap(ChunkedReader):
             yield loose
 
     def _chunk_at(self, position: int, end: int) -> Chunk:
-        """The chunk whose record begins and ends there."""
+        """Return the chunk whose record begins and ends there."""
         stop = min(end, self.size)
         head = self.at(position, min(stop - position, 256))
         low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
@@ -384,7 +386,7 @@ class Mcap(ChunkedReader):
         return chunk
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Step over the message indexes behind a chunk, and note what they tell."""
+        """Skip the message indexes after a chunk, and record what they contain."""
         counts: dict[int, int] = {}
         position = chunk.behind
         while position + 15 <= self.size:
@@ -405,14 +407,14 @@ class Mcap(ChunkedReader):
             chunk.counts = counts
 
     def _take_extra(self, code: int, position: int, length: int) -> None:
-        """Take a record that is neither a message nor needed to read one."""
+        """Collect a record that is neither a message nor needed to read one."""
         if code == ATTACHMENT:
             self._take_attachment(position, length)
         elif code == METADATA:
             self.extras.metadata.append(self.at(position + 9, length))
 
     def _take_attachment(self, position: int, length: int) -> None:
-        """Note where an attachment is, which may be larger than memory."""
+        """Record where an attachment is; it may be larger than memory."""
         body = position + 9
         place = body + 16
         for _ in range(2):
@@ -431,7 +433,7 @@ class Mcap(ChunkedReader):
         self.extras.attachments.append(CopiedAttachment(whole, self.at(body, 16), names, size))
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """The messages among some records; see `ChunkedReader`."""
+        """Return the messages in some records; see `ChunkedReader`."""
         for code, first, last in records_in(data):
             if code == MESSAGE:
                 check_length(last - first)
@@ -441,7 +443,7 @@ class Mcap(ChunkedReader):
                 self._describe(code, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Return the facts in the indexes about a chunk's messages; see `ChunkedReader`."""
+        """Return the message facts in a chunk's indexes; see `ChunkedReader`."""
         for channel, place in chunk.indexes.items():
             pairs = self._pairs(channel, place)
             if len(pairs):
@@ -449,7 +451,7 @@ class Mcap(ChunkedReader):
                 yield channel, pairs[:, 1], starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Log times, publish times and sequences of messages; see `ChunkedReader`."""
+        """Return log times, publish times and sequences; see `ChunkedReader`."""
         log_times = np.minimum(words_at(data, starts - 16, "<u8"), LAST_STAMP).astype(np.int64)
         return log_times, words_at(data, starts - 8, "<u8"), words_at(data, starts - 20, "<u4")
 
@@ -458,7 +460,7 @@ class Mcap(ChunkedReader):
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """The messages of some streams; see `Container`."""
+        """Yield the messages of some streams; see `Container`."""
         chosen = self._chosen(wanted)
         singly = SingleMessages(self, chosen, head)
 
@@ -480,7 +482,7 @@ class Mcap(ChunkedReader):
     def _batch(
         self, chunk: Chunk, chosen: Mapping[int, int], singly: SingleMessages, ahead: Ahead
     ) -> Batch | None:
-        """A chunk's messages; None where there are none, or they were read singly."""
+        """Return a chunk's messages; None if there are none, or they were read one by one."""
         parts = []
         for channel, place in chunk.indexes.items():
             if channel in chosen:
@@ -505,7 +507,7 @@ class Mcap(ChunkedReader):
     def _loose_batches(
         self, chosen: Mapping[int, int], progress: Progress | None, head: int | None
     ) -> Iterator[Batch]:
-        """Messages outside chunks."""
+        """Yield the messages outside chunks."""
         singly = SingleMessages(self, chosen, head)
         for channel, start in zip(self._loose.channels, self._loose.starts, strict=True):
             if channel not in chosen:
@@ -523,7 +525,7 @@ class Mcap(ChunkedReader):
             yield singly.taken()
 
     def _pairs(self, channel: int, place: int) -> Stamps:
-        """Log time and place of each message that a message index tells, shape (n, 2)."""
+        """Return log time and offset of each message in a message index, shape (n, 2)."""
         # As a rule all of one at once: that of the chunk before was about as long.
         guess = self._index_sizes.get(channel, _INDEX_AT_ONCE)
         head = self.up_to(place, guess)
@@ -538,13 +540,13 @@ class Mcap(ChunkedReader):
 
 
 class Loose:
-    """Messages outside of chunks; see `Block`."""
+    """Messages outside chunks; see `Block`."""
 
     whole = False
     counts: Mapping[int, int] | None = None
 
     def __init__(self, reader: Mcap) -> None:
-        """Begin with none."""
+        """Start empty."""
         self.found = WalkedMessages()
         self._reader = reader
 
@@ -553,28 +555,28 @@ class Loose:
 
     @property
     def start(self) -> int:
-        """Log time of the first one."""
+        """Log time of the first message."""
         return self.found.span[0]
 
     @property
     def end(self) -> int:
-        """Log time of the last one."""
+        """Log time of the last message."""
         return self.found.span[1]
 
     def is_full(self, end: int) -> bool:
-        """Whether they are enough without the one that ends there."""
+        """Whether the batch is large enough before the message that ends there."""
         too_long = end - self.found.starts[0] > MOST_BYTES_HELD
         return too_long or len(self) >= _MOST_HELD
 
     def sound(self) -> bool:
-        """Whether they are as written; there is no proof of that."""
+        """Return True: outside chunks there is no checksum."""
         return True
 
     def table(self) -> None:
-        """Give no columns: they are read one by one."""
+        """Return None: these messages are read one by one."""
 
     def messages(self) -> list[Taken]:
-        """Read them."""
+        """Read the messages."""
         reader, found = self._reader, self.found
         begin = found.starts[0] - IN_CHUNK
         try:
@@ -593,7 +595,7 @@ class Loose:
 
 
 def check_length(length: int) -> None:
-    """Refuse a message's record that is shorter than its head.
+    """Refuse a message record shorter than its header.
 
     Raises:
         InputError: If it is.

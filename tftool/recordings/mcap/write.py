@@ -1,4 +1,4 @@
-"""MCAP written: chunks with their message indexes, CRCs, attachments, and the summary.
+"""Writing MCAP: chunks with message indexes, CRCs, attachments, and the summary.
 
 Source: the MCAP format specification, version 0.
 """
@@ -74,7 +74,7 @@ _NOTHING_YET: Final = 2**64 - 1
 
 
 class McapWriter:
-    """Writes an MCAP file; see `ContainerWriter`.
+    """Writer of an MCAP file; see `ContainerWriter`.
 
     Nothing of a chunk is in the file before it is closed, by its size or by `flush`; what is
     in the file can be read up to there, whatever happens then.
@@ -95,7 +95,7 @@ class McapWriter:
         chunk_size: int = CHUNK_SIZE,
         with_crc: bool = True,
     ) -> None:
-        """Begin the file, replacing an existing one.
+        """Create the file; an existing one is replaced.
 
         Args:
             path: Where it is.
@@ -146,17 +146,17 @@ class McapWriter:
 
     @property
     def size(self) -> int:
-        """Bytes written so far, those that wait in the chunk included."""
+        """Bytes written so far, those buffered for the chunk included."""
         return self.position + self._length
 
     @property
     def pending(self) -> int:
-        """Bytes of messages that wait in the chunk."""
+        """Bytes of messages buffered for the chunk."""
         return self._length
 
     @property
     def span(self) -> tuple[Stamp, Stamp]:
-        """First and last log time of the messages in the file; 0 where there is none."""
+        """First and last log time of the messages in the file; 0 if there are none."""
         return (0 if self._low == _NOTHING_YET else self._low), self._high
 
     # State
@@ -164,7 +164,7 @@ class McapWriter:
     def channel(
         self, channel: Channel, number: int | None = None, schema: int | None = None
     ) -> int:
-        """Make a stream known; the number by which `write` takes its messages.
+        """Register a stream; return its number for `write`.
 
         Args:
             channel: The stream; one that is known already has its number.
@@ -189,7 +189,7 @@ class McapWriter:
         return number
 
     def schema(self, name: str, encoding: str, data: bytes, number: int | None = None) -> int:
-        """Make a type known; its number."""
+        """Register a type; return its number."""
         key = name, encoding, data
         if number is None and key in self._schemas:
             return self._schemas[key]
@@ -201,7 +201,7 @@ class McapWriter:
         return number
 
     def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
-        """Whether the numbers of schemas are free here, or mean the same."""
+        """Whether the schema numbers are free here, or mean the same."""
         here = {number: key for key, number in self._schemas.items()}
         return all(
             here[number] == schema if number in here else number not in self._schema_records
@@ -211,7 +211,7 @@ class McapWriter:
     def add_channel(
         self, number: int, schema: int, topic: str, encoding: str, metadata: bytes
     ) -> None:
-        """Make a channel known by what its record holds; its metadata packed."""
+        """Register a channel from its record's contents; the metadata is packed."""
         self._schema_of[number] = schema
         self._channel_records[number] = record(
             CHANNEL, struct.pack("<HH", number, schema) + text(topic) + text(encoding) + metadata
@@ -228,7 +228,7 @@ class McapWriter:
         return number
 
     def _define(self, channel: int) -> None:
-        """Put a channel's record and its schema's in front of its first message."""
+        """Write the records of a channel and its schema before its first message."""
         self._defined.add(channel)
         schema = self._schema_of[channel]
         if schema:
@@ -275,7 +275,7 @@ class McapWriter:
             self.flush()
 
     def write_table(self, table: MessageTable) -> bool:
-        """Append messages at once; whether that was possible, else nothing is appended."""
+        """Append messages together; return whether that was possible, else nothing is appended."""
         channels = table.owners
         size = int(table.lengths.sum()) + 31 * len(table)
         known = self._defined.issuperset(channels)
@@ -301,7 +301,7 @@ class McapWriter:
         self._length += len(piece)
 
     def flush(self) -> None:
-        """Put the messages that wait into the file, as a chunk."""
+        """Write the buffered messages as a chunk."""
         if not self._length:
             return
         pieces, size = self._pieces, self._length
@@ -339,7 +339,7 @@ class McapWriter:
         self._chunks.append(entry.record())
 
     def end_block(self, chunk: Chunk) -> None:
-        """Close the chunk that a changed one has become, packed as that was."""
+        """Close a chunk with changed messages, with the original's compression."""
         before = self.method, self._pack, self._with_chunk_crc
         try:
             if chunk.method != self.method:
@@ -363,7 +363,7 @@ class McapWriter:
     def adopt(
         self, channel: Channel, number: int, origin: tuple[int, tuple[str, str, bytes] | None]
     ) -> None:
-        """Make a stream of another file known under the number that it has there.
+        """Register a stream of another file under its number there.
 
         Args:
             channel: The stream.
@@ -376,7 +376,7 @@ class McapWriter:
         self.channel(channel, number, schema)
 
     def copy_chunk(self, chunk: Chunk) -> None:
-        """Append a chunk and its message indexes as they are in another file."""
+        """Copy a chunk and its message indexes from another file."""
         self.flush()
         moved = self.position - chunk.position
         counts = chunk.counts or {}
@@ -403,7 +403,7 @@ class McapWriter:
         self.position = self._file.seek(self.position + piece.length)
 
     def copy_attachment(self, copied: CopiedAttachment) -> None:
-        """Append an attachment as it is in another file."""
+        """Copy an attachment from another file."""
         self.flush()
         place = struct.pack("<QQ", self.position, copied.piece.length)
         self._copy(copied.piece)
@@ -411,7 +411,7 @@ class McapWriter:
         self._attachments.append(record(ATTACHMENT_INDEX, told))
 
     def copy_metadata(self, body: bytes) -> None:
-        """Append a metadata record that is there already.
+        """Copy a metadata record.
 
         Raises:
             struct.error: If it is none.
@@ -428,7 +428,7 @@ class McapWriter:
     # The end
 
     def finish(self) -> None:
-        """Write the rest of the messages and the summary, and close the file."""
+        """Write buffered messages and the summary, and close the file."""
         try:
             self.flush()
             self._close()
@@ -441,11 +441,11 @@ class McapWriter:
         self._put(end + summary + MCAP_MAGIC)
 
     def abandon(self) -> None:
-        """Close the file as it is; its content can be read up to its end."""
+        """Close the file unfinished; its content can be read up to its end."""
         self._file.close()
 
     def rescue(self) -> bool:
-        """Close the file when the disk is full: up to its last whole chunk, with a summary.
+        """Close the file on a full disk: after its last whole chunk, with a summary.
 
         Returns:
             Whether there was room for the summary.
@@ -497,7 +497,7 @@ class McapWriter:
         return summary + U32.pack(zlib.crc32(summary))
 
     def _put(self, *pieces: bytes) -> None:
-        """Append to the file, all of it or none that counts."""
+        """Append to the file, or on failure remove the incomplete part."""
         for run in _runs(pieces):
             view = memoryview(run)
             while view:
@@ -509,7 +509,7 @@ class McapWriter:
 
 
 def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
-    """Small pieces joined, so that they are written at once; large ones as they are."""
+    """Join small pieces so that they are written together; keep large ones."""
     small: list[bytes] = []
     for piece in pieces:
         if len(piece) < _LARGE_PIECE:

@@ -1,4 +1,4 @@
-"""Readers of cameras' poses and of calibrations: COLMAP, nerfstudio, kalibr, EuRoC, KITTI."""
+"""Readers of camera poses and calibrations: COLMAP, nerfstudio, kalibr, EuRoC, KITTI."""
 
 import json
 import math
@@ -22,7 +22,7 @@ _CALIBRATED: Final = re.compile(r"P[0-9]|Tr(_[a-z_]+)?|R|T|R0_rect|R_rect")
 
 
 def read_colmap(file: PoseFile) -> list[PoseLink]:
-    """Read COLMAP's images.txt: two lines an image; the second holds points."""
+    """Read COLMAP's images.txt: two lines per image; the second holds points."""
     images: list[tuple[str, list[float]]] = []
     is_image = True
     for line in file.lines():
@@ -39,7 +39,7 @@ def read_colmap(file: PoseFile) -> list[PoseLink]:
 
 
 def read_nerfstudio(file: PoseFile) -> list[PoseLink]:
-    """Read nerfstudio's transforms.json: a matrix for each image."""
+    """Read nerfstudio's transforms.json: a matrix per image."""
     try:
         document = json.loads(_text(file))
         frames = document["frames"]
@@ -53,7 +53,7 @@ def read_nerfstudio(file: PoseFile) -> list[PoseLink]:
 
 
 def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -> list[PoseLink]:
-    """Make one moving camera of the images, in the order of their names, else a frame of each."""
+    """Make one moving camera of the images, in order of names, or a frame for each."""
     if file.options.pose_rate is not None:
         link = file.link(width)
         for _, numbers in sorted(images, key=lambda one: one[0]):
@@ -72,7 +72,7 @@ def _images(file: PoseFile, images: list[tuple[str, list[float]]], width: int) -
 
 
 def read_kalibr(file: PoseFile) -> list[PoseLink]:
-    """Read kalibr's camchain.yaml: each camera from the IMU, else from the camera before."""
+    """Read kalibr's camchain.yaml: each camera relative to the IMU or the previous camera."""
     document = _yaml(file)
     cameras = sorted((name for name in document if _is_camera(name)), key=lambda one: int(one[3:]))
     links = []
@@ -142,7 +142,7 @@ _IDENTITY: Final = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def _offset(projection: Sequence[float]) -> list[float]:
-    """Return the translation of a projection K [I | t]."""
+    """Return the translation in a projection K [I | t]."""
     fx, _, cx, px, _, fy, cy, py, _, _, _, z = projection
     if not fx or not fy:
         raise InputError("A projection of KITTI's calib.txt has the focal length 0.")
@@ -158,7 +158,7 @@ def _still(parent: str, child: str, numbers: Sequence[float]) -> PoseLink:
 
 
 def _one_pair(file: PoseFile, links: list[PoseLink]) -> list[PoseLink]:
-    """Rename the frames of the one link, as --frames says.
+    """Rename the frames of the single link, as --frames says.
 
     Raises:
         UsageError: If there are several links.
@@ -208,7 +208,7 @@ def _yaml(file: PoseFile) -> Mapping[Any, Any]:
 
 
 class _refused:  # noqa: N801 - used as a function
-    """A block whose mistakes are the file's."""
+    """Add the file's name to errors raised in this block."""
 
     def __init__(self, file: PoseFile, expected: str) -> None:
         self._file = file

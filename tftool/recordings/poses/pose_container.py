@@ -1,4 +1,4 @@
-"""A pose file as a container: its links as messages, so that everything reads it as a recording."""
+"""A pose file as a container: its links as messages, readable like a recording."""
 
 from collections.abc import Collection, Iterator
 from pathlib import Path
@@ -30,7 +30,7 @@ _NOT_ROTATION: Final = 1e-2
 
 
 class PoseContainer:
-    """The poses of one file as messages on /tf and /tf_static; see `Container`."""
+    """Poses of one file as messages on /tf and /tf_static; see `Container`."""
 
     def __init__(self, path: Path, form: PoseFormat, options: PoseOptions) -> None:
         """Read the file.
@@ -73,18 +73,18 @@ class PoseContainer:
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages of each stream."""
+        """Return the number of messages per stream."""
         found: list[int] = np.bincount(self._batch.senders, minlength=len(self.streams)).tolist()
         return found
 
     def expected(self, wanted: Collection[int]) -> int:
-        """About how many messages some streams have."""
+        """Return the approximate number of messages of some streams."""
         return sum(self.counts[number] for number in wanted)
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """The messages of some streams; see `Container`."""
+        """Yield the messages of some streams; see `Container`."""
         chosen = np.flatnonzero(np.isin(self._batch.senders, list(wanted)))
         if len(chosen):
             yield self._batch.chosen(chosen)
@@ -92,10 +92,10 @@ class PoseContainer:
             progress(self.size, self.size)
 
     def close(self) -> None:
-        """Do nothing: the file was read, and is closed."""
+        """Do nothing: the file is closed after reading."""
 
     def write_mcap(self, path: Path) -> None:
-        """Write the messages as an MCAP file, for what rewrites recordings."""
+        """Write the messages as an MCAP file, for editing."""
         writer = McapWriter(path, profile="ros2", library="tftool")
         numbers = [writer.channel(one) for one in self.channels]
         messages = self._batch
@@ -106,7 +106,7 @@ class PoseContainer:
 
 
 def open_poses(found: Found) -> PoseContainer:
-    """Read the pose file that was found, with the options for its name.
+    """Read a pose file, with the options for its name.
 
     Raises:
         InputError: If it cannot be read.
@@ -117,7 +117,7 @@ def open_poses(found: Found) -> PoseContainer:
 def _solved(
     link: PoseLink, form: PoseFormat, options: PoseOptions, file: PoseFile
 ) -> tuple[Stamps, Floats]:
-    """Give a link's stamps, shape (n,), and poses, shape (n, 7), as frames of ROS, by stamp."""
+    """Return a link's stamps, shape (n,), and poses, shape (n, 7), as ROS frames, by stamp."""
     stamps = np.array(link.stamps, dtype=np.int64)
     numbers = np.array(link.numbers, dtype=np.float64).reshape(-1, link.width)
     keep = np.asarray(np.isfinite(numbers).all(axis=1))
@@ -154,7 +154,7 @@ def _note(file: PoseFile, what: str, count: int) -> None:
 
 
 def _quaternions(matrices: Floats, file: PoseFile) -> Floats:
-    """Return the quaternions of rotation matrices, shape (n, 3, 3), as x y z w.
+    """Return the quaternions x y z w of rotation matrices, shape (n, 3, 3).
 
     Raises:
         InputError: If one is no rotation.
@@ -191,7 +191,7 @@ def _quaternions(matrices: Floats, file: PoseFile) -> Floats:
 
 
 def _messages(link: PoseLink, prefix: str, stamps: Stamps, poses: Floats) -> np.ndarray:
-    """Write one message for each pose, shape (n, bytes)."""
+    """Return one message per pose, shape (n, bytes)."""
     before = f"{prefix}/" if prefix else ""
     sample = TransformStamped(1, before + link.parent, before + link.child, Transform())
     template = np.frombuffer(encode_transforms((sample,)), dtype=np.uint8)
@@ -204,7 +204,7 @@ def _messages(link: PoseLink, prefix: str, stamps: Stamps, poses: Floats) -> np.
 
 
 def _joined(parts: "list[tuple[int, Stamps, np.ndarray]]") -> Batch:
-    """Put the messages of all links into one batch, in the order of time."""
+    """Merge all links' messages into one batch, in order of time."""
     lengths = np.concatenate([np.full(len(when), rows.shape[1]) for _, when, rows in parts])
     senders = np.concatenate([np.full(len(when), number) for number, when, _ in parts])
     log_times = np.concatenate([when for _, when, _ in parts])

@@ -1,4 +1,4 @@
-"""The table of pose files' formats: how each is recognised and read, and its convention.
+"""Table of pose file formats: recognition, reader and convention of each.
 
 To add a format: a function that recognises the first bytes, a reader, and one entry.
 """
@@ -25,7 +25,7 @@ class Head:
     """The first bytes of a file, as text, lines and words."""
 
     def __init__(self, data: bytes) -> None:
-        """Take the bytes; a last line that may be cut is left out where there are others."""
+        """Take the bytes; the last line is left out if it may be incomplete."""
         self.data = data
         self.text = data.decode("utf-8-sig", "replace")
         lines = self.text.splitlines()
@@ -33,12 +33,12 @@ class Head:
 
     @cached_property
     def row(self) -> str:
-        """The first line that is neither empty nor a comment."""
+        """First line that is neither empty nor a comment."""
         return next((one for one in map(str.strip, self.lines) if one and one[0] != "#"), "")
 
     @cached_property
     def numbers(self) -> list[float]:
-        """The numbers of that line; none if a word of it is no number."""
+        """Numbers of that line; empty if one of its words is not a number."""
         try:
             return [float(one) for one in self.row.replace(",", " ").split()]
         except ValueError:
@@ -51,18 +51,18 @@ class Head:
 
     @property
     def has_nanoseconds(self) -> bool:
-        """Whether the first word of that line is a whole number too large for seconds."""
+        """Whether the first word of that line is an integer too large for seconds."""
         word = self.row.partition(",")[0].strip()
         return word.isdigit() and len(word) < 20 and int(word) >= _FIRST_NANOSECONDS
 
     def has_line(self, pattern: str) -> bool:
-        """Whether a line begins with a pattern."""
+        """Whether a line matches a pattern at its beginning."""
         return re.search(rf"^(?:{pattern})", self.text, re.MULTILINE) is not None
 
 
 @dataclass(frozen=True, slots=True)
 class PoseFormat:
-    """One format.
+    """One format of pose files.
 
     Attributes:
         name: Name, as --pose-format takes it.
@@ -239,7 +239,7 @@ def format_named(name: str) -> PoseFormat:
 
 
 def recognised(data: bytes, name: str) -> PoseFormat | None:
-    """Return the format of a file that begins with these bytes; None if it is no pose file.
+    """Return the format of a file with these first bytes; None if it is no pose file.
 
     Raises:
         InputError: If it fits several formats.
@@ -253,7 +253,7 @@ def recognised(data: bytes, name: str) -> PoseFormat | None:
 
 
 def convention_of(word: str, path: Path) -> str:
-    """Return how the poses of a file are read, as a sentence."""
+    """Describe the convention of a file's poses in a sentence."""
     form, options = format_of_file(word, path)
     said = form.convention
     if options.inverted:
@@ -267,7 +267,7 @@ def convention_of(word: str, path: Path) -> str:
 
 
 def format_of_file(word: str, path: Path) -> tuple[PoseFormat, PoseOptions]:
-    """Return the format of a file, and the options for the word that names it.
+    """Return the format of a file, and its options.
 
     Raises:
         InputError: If it is no pose file.

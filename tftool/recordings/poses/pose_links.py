@@ -1,4 +1,4 @@
-"""Links of a pose file as its reader gives them: stamps and numbers, as they are written."""
+"""Links of a pose file as read: stamps and numbers in the file's convention."""
 
 from array import array
 from collections import Counter
@@ -28,7 +28,7 @@ _LONGEST_NUMBER: Final = 64
 
 @dataclass(slots=True)
 class PoseLink:
-    """One link: the pose of a child in its parent, once or over time.
+    """One link: pose of a child in its parent, once or over time.
 
     Attributes:
         parent: Name of the parent.
@@ -51,7 +51,7 @@ class PoseLink:
 
 
 class PoseFile:
-    """A pose file while it is read: its lines, options and the odd rows.
+    """A pose file during reading: lines, options, and unusual rows.
 
     Attributes:
         path: Where it is.
@@ -80,7 +80,7 @@ class PoseFile:
         return self.default if self.options.frames is None else self.options.pair()
 
     def link(self, width: int = 7) -> PoseLink:
-        """Begin the one link of a trajectory."""
+        """Make the single link of a trajectory."""
         return PoseLink(*self.frames, width=width)
 
     def open(self) -> BinaryIO:
@@ -98,7 +98,7 @@ class PoseFile:
         return file
 
     def lines(self, path: Path | None = None) -> Iterator[str]:
-        """Give every line of the file, or of one beside it, without its end."""
+        """Yield every line of the file, or of one beside it, without line ends."""
         name = path or self.path
         own = PoseFile(name, self.options, self.default)
         self._place = 0
@@ -111,13 +111,13 @@ class PoseFile:
                 yield text.removeprefix("\ufeff").strip() if self._place == 1 else text.strip()
 
     def rows(self, comments: str = "#", path: Path | None = None) -> Iterator[list[str]]:
-        """Give the words of every line that is neither empty nor a comment."""
+        """Yield the words of every line that is neither empty nor a comment."""
         for line in self.lines(path):
             if line and not line.startswith(comments):
                 yield line.replace(",", " ").split()
 
     def fail(self, expected: str, found: str, path: Path | None = None) -> NoReturn:
-        """Refuse the line that was given last.
+        """Raise an error about the current line.
 
         Raises:
             InputError: Always, with the file and the line.
@@ -127,7 +127,7 @@ class PoseFile:
         )
 
     def floats(self, words: list[str], expected: str) -> list[float]:
-        """Read numbers; words that are none are refused."""
+        """Parse numbers; refuse other words."""
         try:
             return [float(word) for word in words]
         except ValueError:
@@ -135,7 +135,7 @@ class PoseFile:
             self.fail(expected, f"'{bad[:40]}'")
 
     def seconds(self, word: str, expected: str, path: Path | None = None) -> Stamp:
-        """Read a stamp in seconds, exact to the nanosecond."""
+        """Parse a stamp in seconds, exact to the nanosecond."""
         whole, _, part = word.partition(".")
         is_short = word.isascii() and len(word) < 24 and len(part) <= 9
         if is_short and whole.isdigit() and (part.isdigit() or not part):
@@ -144,7 +144,7 @@ class PoseFile:
         return self._decimal(word, NANOSECONDS, expected, path)
 
     def nanoseconds(self, word: str, expected: str) -> Stamp:
-        """Read a stamp in nanoseconds."""
+        """Parse a stamp in nanoseconds."""
         if word.isascii() and word.isdigit() and len(word) < 24:
             return self._checked(int(word), word, expected, None)
         return self._decimal(word, 1, expected, None)
@@ -171,7 +171,7 @@ class PoseFile:
         return stamp
 
     def at_rate(self, link: PoseLink) -> None:
-        """Give the poses of a link stamps by --pose-rate, the first one a period after 0.
+        """Give a link's poses stamps by --pose-rate, the first one period after 0.
 
         Raises:
             InputError: If there is no rate.
@@ -184,7 +184,7 @@ class PoseFile:
         link.stamps = array("q", (round(place * 1e9 / rate) for place in range(1, count + 1)))
 
     def check_count(self, link: PoseLink) -> None:
-        """Refuse a file of more poses than are read.
+        """Refuse a file with more poses than the limit.
 
         Raises:
             InputError: If there are more.
@@ -193,7 +193,7 @@ class PoseFile:
             raise InputError(f"'{self.path}' has more than {MOST_POSES:,} poses: split it.")
 
     def name(self, word: str) -> str:
-        """Make a frame's name of a text that comes from the file.
+        """Make a frame name from a text in the file.
 
         Raises:
             InputError: If it is empty or too long.

@@ -1,4 +1,4 @@
-"""Options for reading pose files: frame names, rate, format, direction, axes of cameras."""
+"""Options for reading pose files: frame names, rate, format, direction, camera axes."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -16,7 +16,7 @@ AXES: Final = ("opencv", "opengl")
 
 @dataclass(frozen=True, slots=True)
 class PoseOptions:
-    """Options about how one pose file is read.
+    """Options for reading one pose file.
 
     Attributes:
         frames: Names of its frames, "PARENT:CHILD"; those of the format if None.
@@ -45,7 +45,7 @@ class PoseOptions:
             raise UsageError(f"--axes takes {' or '.join(AXES)}, not '{self.axes}'.")
 
     def pair(self) -> tuple[str, str]:
-        """Return the names of parent and child.
+        """Names of parent and child.
 
         Raises:
             UsageError: If they are not two different names with a colon between.
@@ -58,7 +58,7 @@ class PoseOptions:
         return parent, child
 
     def refuse(self, what: str) -> None:
-        """Refuse them for a FROM that is no pose file.
+        """Refuse these options if FROM is not a pose file.
 
         Args:
             what: What it is, as the beginning of a sentence.
@@ -77,7 +77,7 @@ class PoseOptions:
 
 @dataclass(frozen=True, slots=True)
 class ChosenOptions:
-    """Options for all pose files of one question, and for some of them by name.
+    """Options for all pose files of one command, and for some of them by name.
 
     Attributes:
         every: Options for files that have none of their own.
@@ -94,7 +94,7 @@ _NONE: Final = ChosenOptions()
 
 @contextmanager
 def pose_options(chosen: ChosenOptions) -> Iterator[None]:
-    """Read pose files with these options, in this context.
+    """Apply options to pose files read within this block.
 
     A recording is opened at many places by its name alone; each of them reads the same file with
     the same options.
@@ -107,13 +107,13 @@ def pose_options(chosen: ChosenOptions) -> Iterator[None]:
 
 
 def options_of(word: str) -> PoseOptions:
-    """Return the options for the file that a word names."""
+    """Return the options for a file."""
     chosen = _CHOSEN.get(_NONE)
     return chosen.by_name.get(word, chosen.every)
 
 
 def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
-    """Put options together, each for the file it follows.
+    """Collect options, each for the file before it.
 
     An option that follows no file is for every file.
 
@@ -132,12 +132,12 @@ def collect(given: "list[tuple[str | None, str, Any]]") -> ChosenOptions:
 
 
 def names_file(word: str) -> bool:
-    """Whether a word names a file, by itself or behind a prefix."""
+    """Whether a word is a file, with or without a prefix."""
     return path_behind_prefix(word)[1] is not None
 
 
 def path_behind_prefix(word: str) -> tuple[str, Path | None]:
-    """Return the prefix and the file of NAME=FILE; no prefix for a file's own name.
+    """Split NAME=FILE into prefix and file; no prefix if the whole word is a file.
 
     Returns:
         The prefix, and the file; None where there is no such file.

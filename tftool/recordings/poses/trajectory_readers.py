@@ -1,4 +1,4 @@
-"""Readers of trajectories: TUM, TUM with commas, EuRoC, KITTI, and the tables of `export`."""
+"""Readers of trajectories: TUM, TUM with commas, EuRoC, KITTI, and tables of `export`."""
 
 import csv
 from array import array
@@ -43,7 +43,7 @@ def read_euroc(file: PoseFile) -> list[PoseLink]:
 
 
 def read_kitti(file: PoseFile) -> list[PoseLink]:
-    """Read KITTI's poses; the stamps come from a file beside it, else from --pose-rate."""
+    """Read KITTI's poses; stamps come from a file beside it, else from --pose-rate."""
     link = file.link(width=12)
     for words in file.rows():
         if len(words) != 12:
@@ -74,7 +74,7 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
 
 
 def read_csv(file: PoseFile) -> list[PoseLink]:
-    """Read the CSV that `export` writes: named columns, of several pairs with their names."""
+    """Read the CSV of `export`: named columns, with names if there are several pairs."""
     links: dict[tuple[str, str], PoseLink] = {}
     columns: list[int] = []
     names: list[int] = []
@@ -104,7 +104,7 @@ def read_csv(file: PoseFile) -> list[PoseLink]:
 
 
 def read_npz(file: PoseFile) -> list[PoseLink]:
-    """Read the NumPy archive that `export` writes.
+    """Read the NumPy archive of `export`.
 
     Raises:
         InputError: If it has other arrays, or they do not fit together.
@@ -157,7 +157,7 @@ def read_npz(file: PoseFile) -> list[PoseLink]:
 
 
 def read_parquet(file: PoseFile) -> list[PoseLink]:
-    """Read the Parquet table that `export` writes.
+    """Read the Parquet table of `export`.
 
     Raises:
         InputError: If it has other columns.
@@ -215,7 +215,7 @@ def _link_of(
 
 
 def _named(file: PoseFile, links: list[PoseLink]) -> list[PoseLink]:
-    """Rename the frames of a file with names of its own, as --frames says.
+    """Rename the frames of a file that names them itself, as --frames says.
 
     Raises:
         UsageError: If it holds several pairs.

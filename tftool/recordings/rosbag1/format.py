@@ -1,4 +1,4 @@
-"""Records of a ROS 1 bag, and the messages in a chunk's index.
+"""Records of a ROS 1 bag, and the message entries of a chunk's index.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -38,7 +38,7 @@ _HEAD = 4096
 
 
 def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int]:
-    """A record's header, where its data begins, and how long that is.
+    """Parse a record's header; return it, its data's offset and length.
 
     Raises:
         InputError: If it announces too much, or the file does not have it.
@@ -55,7 +55,7 @@ def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int
 
 
 class ChunkInfo(NamedTuple):
-    """Chunk in a bag's index: its offset, its times, its messages by connection."""
+    """A chunk in a bag's index: offset, times, and messages per connection."""
 
     position: int
     start: Stamp
@@ -64,7 +64,7 @@ class ChunkInfo(NamedTuple):
 
 
 def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
-    """A bag's own header, where its index begins, and the index; 0 and b"" if it has none.
+    """Return a bag's header, its index's offset, and the index; 0 and b"" without one.
 
     Raises:
         InputError: If the header is missing, or the index is not in the file.
@@ -96,7 +96,7 @@ def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
 
 
 def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Offsets, lengths and log times of a connection's messages.
+    """Return offsets, lengths and log times of a connection's messages.
 
     Args:
         data: A chunk's records.
@@ -136,7 +136,7 @@ def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Sta
 
 
 def _within(places: Stamps, data: Bytes) -> Stamps:
-    """The numbers of four bytes at some places.
+    """Return the four-byte numbers at some offsets.
 
     Raises:
         InputError: If one is outside.
@@ -147,7 +147,7 @@ def _within(places: Stamps, data: Bytes) -> Stamps:
 
 
 def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes, bytes], int, int]]:
-    """Every record's header, and where its data begins and ends.
+    """Yield every record's header, and the start and end of its data.
 
     Args:
         data: Records.
@@ -175,7 +175,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
 
 
 def fields_of(header: bytes) -> dict[bytes, bytes]:
-    """The fields of a header, by name."""
+    """Return the fields of a header, by name."""
     found = {}
     position, size = 0, len(header)
     while position + 4 <= size:

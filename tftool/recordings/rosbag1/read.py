@@ -1,4 +1,4 @@
-"""ROS 1 bags of version 2.0 read: by their index, else chunk by chunk up to the damage.
+"""Reading ROS 1 bags of version 2.0: by index, else chunk by chunk up to any damage.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -49,7 +49,7 @@ class Rosbag1(ChunkedReader):
     magic = ROS1_MAGIC
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open it and list its content.
+        """Open the file and list its contents.
 
         Args:
             path: Where it is.
@@ -72,7 +72,7 @@ class Rosbag1(ChunkedReader):
             raise
 
     def _open(self) -> None:
-        """List its content, by its index or without."""
+        """List the contents, by the index or without it."""
         complete = False
         try:
             complete = self._read_index()
@@ -88,13 +88,13 @@ class Rosbag1(ChunkedReader):
             self.end = max((high for _, high in spans), default=0)
 
     def origin(self, number: int) -> tuple[bytes, bytes]:
-        """Return a connection's topic, and the header of its publisher, as recorded."""
+        """Return a connection's topic, and its publisher's header, as recorded."""
         return self._headers[number]
 
     # Content
 
     def _read_index(self) -> bool:
-        """Take what the index at the end tells; whether there is one.
+        """Read the index at the end; return whether there is one.
 
         Raises:
             InputError: If it is damaged; others of `FAULTS` likewise.
@@ -130,13 +130,13 @@ class Rosbag1(ChunkedReader):
         return True
 
     def _forget(self) -> None:
-        """Drop all knowledge, to begin again."""
+        """Drop everything known, to start again."""
         super()._forget()
         self._headers.clear()
         self._infos.clear()
 
     def _describe(self, header: Mapping[bytes, bytes], data: bytes) -> None:
-        """Take what a record tells of a connection."""
+        """Register a connection of a record."""
         check_told(len(data))
         (number,) = U32.unpack(header[b"conn"])
         if number in self.channels:
@@ -156,13 +156,15 @@ class Rosbag1(ChunkedReader):
     # From front to back
 
     def blocks(self) -> Iterator[Chunk]:
-        """Its chunks."""
+        """Yield its chunks."""
         yield from self._pieces()
         if not self._ended:
             self.note(f"The recording breaks off at byte {self._ended_at}.")
 
     def _pieces(self) -> Iterator[Chunk]:
-        """Go through it record by record; where it ends, and whether it says so, is noted."""
+        """Walk through the file record by record; record where it ends, and whether it ends
+        properly.
+        """
         position, size = len(ROS1_MAGIC), self.size
         while position < size:
             try:
@@ -193,7 +195,7 @@ class Rosbag1(ChunkedReader):
     def _chunk_at(
         self, position: int, header: Mapping[bytes, bytes], data: int, length: int
     ) -> Chunk:
-        """The chunk of a record."""
+        """Return the chunk of a record."""
         chunk = Chunk(self, position)
         self._look_at(chunk, header, data, length)
         style = self.style
@@ -202,7 +204,7 @@ class Rosbag1(ChunkedReader):
         return chunk
 
     def _look_at(self, chunk: Chunk, header: Mapping[bytes, bytes], data: int, length: int) -> None:
-        """Take what a chunk's header tells."""
+        """Parse a chunk's header."""
         if header.get(b"op") != CHUNK:
             raise InputError(f"no chunk is at byte {chunk.position}")
         chunk.cut = data + length > self.size
@@ -213,7 +215,7 @@ class Rosbag1(ChunkedReader):
         (chunk.size,) = U32.unpack(header[b"size"])
 
     def _read_indexes(self, chunk: Chunk) -> None:
-        """Step over the index behind a chunk, and note what it tells if the bag's own agrees."""
+        """Skip the index after a chunk, and use it if the bag's own index agrees."""
         counts: dict[int, int] = {}
         while chunk.behind < self.size:
             try:
@@ -231,7 +233,7 @@ class Rosbag1(ChunkedReader):
             chunk.whole = True
 
     def _heads(self, data: bytes, *, learns: bool) -> Iterator[MessageHead]:
-        """The messages among some records; see `ChunkedReader`."""
+        """Return the messages in some records; see `ChunkedReader`."""
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == MESSAGE:
@@ -242,7 +244,7 @@ class Rosbag1(ChunkedReader):
                 self._describe(header, data[first:last])
 
     def _parts(self, chunk: Chunk, data: Bytes) -> Iterator[tuple[int, Stamps, Stamps, Stamps]]:
-        """Return the facts in a chunk's index about its messages; see `ChunkedReader`."""
+        """Return the message facts in a chunk's index; see `ChunkedReader`."""
         for connection, entries in self._entries(chunk, self.channels):
             starts, lengths, _ = indexed(data, entries, connection)
             begins = entries[:, 2].astype(np.int64)
@@ -254,13 +256,13 @@ class Rosbag1(ChunkedReader):
             yield connection, begins, starts, lengths
 
     def _moments(self, data: Bytes, starts: Stamps) -> tuple[Stamps, Stamps, Stamps]:
-        """Log times, twice, and no sequences; see `ChunkedReader`."""
+        """Return log times, twice, and no sequences; see `ChunkedReader`."""
         sec, nanosec = (words_at(data, starts - n, "<u4").astype(np.int64) for n in (12, 8))
         log_times = sec * NANOSECONDS + nanosec
         return log_times, log_times, np.zeros(len(starts), dtype=np.int64)
 
     def taken(self, chunk: Chunk) -> list[Taken]:
-        """A chunk's messages; when it begins and ends shows in them alone."""
+        """Return a chunk's messages; only they show when the chunk begins and ends."""
         found = super().taken(chunk)
         chunk.start = min((one.log_time for one in found), default=0)
         chunk.end = max((one.log_time for one in found), default=0)
@@ -271,7 +273,7 @@ class Rosbag1(ChunkedReader):
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """The messages of some streams; see `Container`."""
+        """Yield the messages of some streams; see `Container`."""
         chosen = self._chosen(wanted)
 
         def batch_of(chunk: Chunk, ahead: Ahead) -> Batch | None:
@@ -298,12 +300,12 @@ class Rosbag1(ChunkedReader):
         )
 
     def _locate(self, chunk: Chunk) -> None:
-        """Find out where a chunk's data is, if that is not known."""
+        """Find a chunk's data, if its offset is unknown."""
         if not chunk.place:
             self._look_at(chunk, *record_head(self, chunk.position))
 
     def _entries(self, chunk: Chunk, chosen: Container[int]) -> list[tuple[int, Entries]]:
-        """The index records behind a chunk: chosen connections with messages, and their entries."""
+        """Return the index records after a chunk: chosen connections with messages, and entries."""
         counts = chunk.counts or {}
         expected = len(counts) * 64 + 12 * sum(counts.values()) + 64
         data = self.up_to(chunk.place + chunk.packed, expected)
@@ -323,7 +325,7 @@ class Rosbag1(ChunkedReader):
         return found
 
     def _ahead(self, chunk: Chunk) -> Packed | None:
-        """Return the part of a chunk that is unpacked ahead; None if it is read otherwise."""
+        """Return the part of a chunk to decompress ahead; None if it is read otherwise."""
         try:
             self._locate(chunk)
         except FAULTS:

@@ -1,4 +1,4 @@
-"""ROS 1 bags of version 2.0 written: chunks with their index, connections, and the end.
+"""Writing ROS 1 bags of version 2.0: chunks with index, connections, and the end.
 
 Source: wiki.ros.org/Bags/Format/2.0.
 """
@@ -55,7 +55,7 @@ _LATEST: Final = 2**32 * NANOSECONDS
 
 
 class Rosbag1Writer:
-    """Writes a ROS 1 bag; see `ContainerWriter`. A stream of its is a connection.
+    """Writer of a ROS 1 bag, whose streams are connections; see `ContainerWriter`.
 
     Attributes:
         position: Bytes in the file so far.
@@ -66,7 +66,7 @@ class Rosbag1Writer:
     def __init__(
         self, path: Path, *, compression: str = "none", chunk_size: int = CHUNK_SIZE
     ) -> None:
-        """Begin the file, replacing an existing file.
+        """Create the file; an existing one is replaced.
 
         Args:
             path: Where it is.
@@ -103,11 +103,11 @@ class Rosbag1Writer:
 
     @property
     def size(self) -> int:
-        """Bytes written so far, those that wait in the chunk included."""
+        """Bytes written so far, those buffered for the chunk included."""
         return self.position + self._length
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Make a connection known; the number by which `write` takes its messages."""
+        """Register a connection; return its number for `write`."""
         known = self._known.get(channel)
         if known is not None and number in (None, known):
             return known
@@ -129,7 +129,7 @@ class Rosbag1Writer:
         return number
 
     def _add_connection(self, number: int, topic: bytes, header: bytes) -> None:
-        """Make a connection known by the header its publisher sent."""
+        """Register a connection by the header from its publisher."""
         head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
         self._records[number] = record(head, header)
 
@@ -141,7 +141,7 @@ class Rosbag1Writer:
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message; the container has no place for the last two."""
+        """Append one message; the last two arguments are not stored."""
         if channel not in self._defined:
             self._defined.add(channel)
             self._keep(self._records[channel])
@@ -159,7 +159,7 @@ class Rosbag1Writer:
             self.flush()
 
     def write_table(self, table: MessageTable) -> bool:
-        """Append messages at once; whether that was possible, else nothing is appended."""
+        """Append messages together; return whether that was possible, else nothing is appended."""
         logs = table.log_times
         known = self._defined.issuperset(table.owners)
         if not known or not 0 <= int(logs.min()) <= int(logs.max()) < _LATEST:
@@ -197,7 +197,7 @@ class Rosbag1Writer:
         self._length += len(piece)
 
     def flush(self) -> None:
-        """Put the messages that wait into the file, as a chunk."""
+        """Write the buffered messages as a chunk."""
         if not self._length:
             return
         data = b"".join(self._pieces)
@@ -219,11 +219,11 @@ class Rosbag1Writer:
         self._put(b"".join(parts))
 
     def agrees(self, schemas: Mapping[int, object]) -> bool:
-        """Whether a bag's numbers of types may be used here; it has none."""
+        """Return True: bags have no type numbers that could collide."""
         return True
 
     def adopt(self, channel: Channel, number: int, origin: tuple[bytes, bytes]) -> None:
-        """Make a connection of another bag known under the number that it has there.
+        """Register a connection of another bag under its number there.
 
         Args:
             channel: The connection.
@@ -233,10 +233,10 @@ class Rosbag1Writer:
         self._add_connection(number, *origin)
 
     def end_block(self, chunk: Chunk) -> None:
-        """Do nothing: chunks of a bag are closed by their size."""
+        """Do nothing: a bag's chunks are closed by size."""
 
     def copy_chunk(self, chunk: Chunk) -> None:
-        """Append a chunk and its index as they are in another bag."""
+        """Copy a chunk and its index from another bag."""
         self.flush()
         self._note_chunk(chunk.start, chunk.end, chunk.counts or {})
         piece = chunk.raw()
@@ -258,7 +258,7 @@ class Rosbag1Writer:
         self._infos.append(record(described, data))
 
     def finish(self) -> None:
-        """Write the rest of the messages and the index, and close the file."""
+        """Write buffered messages and the index, and close the file."""
         try:
             self.flush()
             place = self.position
@@ -269,11 +269,11 @@ class Rosbag1Writer:
             self._file.close()
 
     def abandon(self) -> None:
-        """Close the file as it is; its content can be read up to its end."""
+        """Close the file unfinished; its content can be read up to its end."""
         self._file.close()
 
     def _head(self, place: int) -> bytes:
-        """The bag's own record, filled up to its size."""
+        """Pack the bag's header record, padded to its size."""
         fields = packed_fields(
             {
                 "op": BAG,
@@ -293,15 +293,15 @@ class Rosbag1Writer:
 
 
 class Ros1Messages(Rosbag1Writer):
-    """A ROS 1 bag that takes messages of ROS 2; see `ContainerWriter`."""
+    """Writer of ROS 2 messages into a ROS 1 bag; see `ContainerWriter`."""
 
     def __init__(self, path: Path, *, compression: str | None = None) -> None:
-        """Begin the file; see `Rosbag1Writer`."""
+        """Create the file; see `Rosbag1Writer`."""
         super().__init__(path, compression=compression or "none")
         self._payloads: dict[int, Callable[[bytes], bytes]] = {}
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Make a stream known.
+        """Register a stream.
 
         Raises:
             InputError: If ROS 1 has nothing like its type.
@@ -324,19 +324,19 @@ class Ros1Messages(Rosbag1Writer):
 
 
 def packed_fields(fields: Mapping[str, bytes]) -> bytes:
-    """Fields of a header: each behind its length, "name=value"."""
+    """Pack a header's fields: "name=value", each preceded by its length."""
     pairs = [name.encode() + b"=" + value for name, value in fields.items()]
     return b"".join(U32.pack(len(pair)) + pair for pair in pairs)
 
 
 def record(fields: Mapping[str, bytes], data: bytes) -> bytes:
-    """A record of a header and data."""
+    """Pack a record with header and data."""
     head = packed_fields(fields)
     return U32.pack(len(head)) + head + U32.pack(len(data)) + data
 
 
 def _message(number: int, sec: int, nanosec: int, length: int) -> bytes:
-    """A message's record up to its payload."""
+    """Pack a message's record without its payload."""
     # By hand, as there is one for each message.
     return b"".join(
         (

@@ -1,4 +1,4 @@
-"""Metadata that rosbag2 writes beside its files, and opening of any found recording.
+"""rosbag2's metadata, and opening of any found recording.
 
 The metadata is advice, never a gate: files are read as they are, whatever it says.
 """
@@ -34,7 +34,7 @@ _STEP: Final = 1 << 20
 
 
 def open_found(found: Found) -> Container:
-    """Open what a word was found to name.
+    """Open a found source.
 
     Raises:
         InputError: If it cannot be read, or is no recording.
@@ -61,13 +61,13 @@ def _open_file(path: Path) -> Container:
 
 
 def _open_folder(folder: Path) -> Container:
-    """The files of one rosbag2 recording."""
+    """Open the files of one rosbag2 recording."""
     damage: list[str] = []
     return _joined(files_of_folder(folder, damage), damage)
 
 
 def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
-    """The files of a rosbag2 recording, in order; oddities are added to `damage`.
+    """Return the files of a rosbag2 recording, in order; oddities are added to `damage`.
 
     Raises:
         InputError: If there is none.
@@ -100,7 +100,7 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
 
 
 def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) -> Container:
-    """Open files as one recording; those that cannot be read are told, unless none can.
+    """Open files as one recording; unreadable ones are reported, unless all are.
 
     Args:
         paths: The files.
@@ -129,7 +129,7 @@ def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) 
 
 
 def _listed(folder: Path, damage: list[str]) -> list[str]:
-    """The files that the metadata names, without the folder's name that some have in front."""
+    """Return the files in the metadata, without a folder name in front."""
     path = folder / METADATA
     if not path.exists():
         damage.append(f"There is no {METADATA}: the files are read as they are.")
@@ -145,7 +145,7 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
 
 
 def read_metadata(folder: Path) -> dict[str, Any]:
-    """Read what a folder's metadata.yaml says of its recording.
+    """Read a folder's metadata.yaml.
 
     Raises:
         OSError: If there is none, or it may not be read.
@@ -173,7 +173,7 @@ def read_metadata(folder: Path) -> dict[str, Any]:
 
 
 def _is_part(path: Path) -> bool:
-    """Whether a file of a folder is one of a recording's."""
+    """Whether a file in a folder is part of a recording."""
     if path.name == METADATA or path.name.endswith(BESIDE):
         return False
     try:
@@ -185,7 +185,7 @@ def _is_part(path: Path) -> bool:
 
 
 def _natural(path: Path) -> list[tuple[int, str]]:
-    """Sorts `run_2` before `run_10`."""
+    """Return a sort key that puts `run_2` before `run_10`."""
     words = re.split(r"(\d+)", path.name)
     return [(int(word), "") if word.isdigit() else (0, word) for word in words]
 
@@ -196,7 +196,7 @@ def _few(names: Sequence[str]) -> str:
 
 
 class _Unpacked:
-    """A file that is compressed as a whole, unpacked into a temporary one."""
+    """A compressed file, decompressed to a temporary one."""
 
     def __init__(self, path: Path) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="tftool-")
@@ -220,17 +220,17 @@ class _Unpacked:
 
     @property
     def counts(self) -> list[int]:
-        """Return the number of messages of each stream."""
+        """Return the number of messages per stream."""
         return self._inner.counts
 
     def close(self) -> None:
-        """Close the file and remove the unpacked file."""
+        """Close the file, and remove the decompressed one."""
         self._inner.close()
         self._folder.cleanup()
 
 
 def unpack_file(path: Path, target: Path) -> str:
-    """Unpack a file; return its damage as a sentence."""
+    """Decompress a file; return its damage as a sentence."""
     free = shutil.disk_usage(target.parent).free
     limit = min(_LARGEST_UNPACKED, free - (1 << 26))
     plausible = most_of(path.stat().st_size)

@@ -1,4 +1,4 @@
-"""A folder as rosbag2 records it: files of one kind, and what its metadata.yaml says of them."""
+"""Folders as rosbag2 records them: files of one kind, and metadata.yaml."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -17,7 +17,7 @@ VERSION: Final = 9
 
 @dataclass(frozen=True, slots=True)
 class FileFacts:
-    """Entry of one file in the metadata.
+    """Metadata of one file.
 
     Attributes:
         name: Its name in the folder.
@@ -40,7 +40,7 @@ def metadata_text(
     compression: tuple[str, str] = ("", ""),
     old: Mapping[str, Any] | None = None,
 ) -> str:
-    """Return the content of metadata.yaml.
+    """Return the contents of metadata.yaml.
 
     Args:
         storage: "mcap" or "sqlite3".
@@ -88,7 +88,7 @@ def metadata_text(
 
 
 def _listed(topics: Mapping[Channel, int], version: int) -> list[dict[str, Any]]:
-    """Each topic once, with the messages of all its channels."""
+    """Merge the channels of each topic."""
     listed: dict[tuple[str, str], dict[str, Any]] = {}
     for channel, count in topics.items():
         key = channel.topic, channel.type
@@ -117,7 +117,7 @@ def write_metadata(folder: Path, text: str) -> None:
 
 
 def _offers(text: str, version: int) -> Any:
-    """Offers of a topic as a version of the metadata has them: a text up to 8, then a list."""
+    """Return a topic's offered QoS in the metadata's version: text up to 8, then a list."""
     text = restyled(text, version)
     if version < VERSION:
         return text
@@ -137,10 +137,10 @@ def _offers(text: str, version: int) -> Any:
 
 
 class FolderWriter:
-    """A folder of one file and its metadata, as rosbag2 records it; see `ContainerWriter`."""
+    """A rosbag2 folder of one file and its metadata; see `ContainerWriter`."""
 
     def __init__(self, folder: Path, file: Path, storage: str, inner: ContainerWriter) -> None:
-        """Take the folder and what writes its file.
+        """Take the folder and the writer of its file.
 
         Args:
             folder: The folder.
@@ -159,11 +159,11 @@ class FolderWriter:
 
     @property
     def size(self) -> int:
-        """Bytes written so far, those that wait included."""
+        """Bytes written so far, buffered ones included."""
         return self._inner.size
 
     def channel(self, channel: Channel) -> int:
-        """Make a stream known."""
+        """Register a stream."""
         number = self._inner.channel(channel)
         self._channels.setdefault(number, channel)
         return number
@@ -190,5 +190,5 @@ class FolderWriter:
         write_metadata(self._folder, metadata_text(self._storage, [facts], topics))
 
     def abandon(self) -> None:
-        """Close the file as it is."""
+        """Close the file unfinished."""
         self._inner.abandon()

@@ -1,4 +1,4 @@
-"""rosbag2's messages straight from sqlite's pages: what sqlite hands over row by row, in bulk.
+"""Bulk reading of rosbag2's messages directly from sqlite's pages.
 
 Only plain pages are read so: at the first page or row that is not as expected it ends, and
 sqlite itself goes on behind the last row that was read.
@@ -36,11 +36,11 @@ _MOST_BYTES: Final = 64 << 20  # of messages that go on on other pages, in one b
 
 
 class _Odd(Exception):
-    """Something is for sqlite to judge."""
+    """Error for anything unusual, which is left to sqlite."""
 
 
 def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple[Batch, int]]:
-    """The messages of some topics, in the order of their rows.
+    """Yield the messages of some topics in order of their rows.
 
     Args:
         path: The file.
@@ -65,7 +65,7 @@ def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple
 
 
 class _Table:
-    """A file's pages."""
+    """Pages of a file."""
 
     def __init__(self, file: File) -> None:
         head = file.at(0, _HEAD)
@@ -96,7 +96,7 @@ class _Table:
                 yield self._batch(*self._read(pages[begin : begin + _AT_ONCE]), wanted)
 
     def _read(self, pages: Pages) -> tuple[Bytes, Pages]:
-        """Read pages; return them, and where each begins in the bytes read."""
+        """Read pages; return their bytes, and where each page begins in them."""
         first, apart = int(pages.min()), pages - pages.min()
         span = int(apart.max()) + 1
         if span <= _MOST_APART * len(pages):
@@ -113,7 +113,7 @@ class _Table:
         return found, np.arange(0, len(found), self._size, dtype=np.int64)
 
     def _leaves(self, root: int) -> Iterator[Pages]:
-        """The numbers of the pages with rows, in the order of the rows, in pieces."""
+        """Yield the numbers of the leaf pages in order of rows, in groups."""
         page = self._page(root)
         if page[0] == _LEAF:
             yield np.array([root])
@@ -147,7 +147,7 @@ class _Table:
         return found
 
     def _batch(self, pages: Bytes, places: Pages, wanted: Stamps) -> tuple[Batch, int]:
-        """The messages of some leaf pages, and the id of their last row."""
+        """Return the messages of some leaf pages, and the id of their last row."""
         columns = self._senders, *self._columns
         found = SCAN.rows(pages, places, wanted, *columns, self._size, self._usable, self._last)
         if found is None:
@@ -169,7 +169,7 @@ class _Table:
         return Batch(pages, starts, lengths, times, senders), self._last
 
     def _joined(self, raw: bytes, cell: int, length: int) -> bytes:
-        """The data of a row that goes on on other pages."""
+        """Return the data of a row that continues on other pages."""
         size, place = _varint(raw, cell)
         _, place = _varint(raw, place)
         usable = self._usable
@@ -195,7 +195,7 @@ class _Table:
 
 
 def _varint(data: bytes, place: int) -> tuple[int, int]:
-    """A number of up to nine bytes, seven bits in each, and where it ends."""
+    """Parse a varint: up to nine bytes with seven bits each; return it and its end."""
     found = 0
     for end in range(place, place + 8):
         found = found << 7 | data[end] & 0x7F

@@ -1,4 +1,4 @@
-"""Quality of service that a publisher offered, as rosbag2 writes it beside a topic."""
+"""A publisher's offered QoS in rosbag2's form."""
 
 import re
 from typing import Final
@@ -36,7 +36,7 @@ _POLICY = re.compile(
 
 
 def offers_text(static: bool) -> str:
-    """The offer of a publisher of transforms, in words.
+    """Return the QoS of a publisher of transforms as text.
 
     Args:
         static: Whether late subscribers get the last message too.
@@ -46,7 +46,7 @@ def offers_text(static: bool) -> str:
 
 
 def restyled(text: str, version: int) -> str:
-    """Offers with their policies as a version of rosbag2's metadata writes them."""
+    """Return offered QoS with policies in the form of a metadata version."""
 
     def policy(match: "re.Match[str]") -> str:
         before, name, value = match.groups()

@@ -1,4 +1,4 @@
-"""rosbag2's sqlite files read: without writing a byte beside them."""
+"""Reading rosbag2's sqlite files, without writing any file beside them."""
 
 import shutil
 import sqlite3
@@ -59,7 +59,7 @@ class Sqlite:
     container = "db3"
 
     def __init__(self, path: Path, *, by_index: bool = True) -> None:
-        """Open it and list its content.
+        """Open the file and list its contents.
 
         Args:
             path: Where it is.
@@ -149,14 +149,14 @@ class Sqlite:
             self.streams.append(shown)
 
     def _columns(self, table: str) -> set[str]:
-        """The columns that stand in a table; none of a view, which may never come to an end."""
+        """Return a table's columns; none of a view, which may be endless."""
         asked = "select count(*) from sqlite_master where lower(name) = ? and type = 'table'"
         if self._base.execute(asked, (table,)).fetchone() != (1,):
             return set()
         return {row[1] for row in self._base.execute(f"pragma table_info({table})")}
 
     def _definitions(self) -> dict[str, tuple[str, str]]:
-        """The form and the definition of each type, where they are recorded."""
+        """Return the encoding and definition of each type, where recorded."""
         found: dict[str, tuple[str, str]] = {}
         names = self._columns("message_definitions")
         if not names >= {"topic_type", _DEFINITION}:
@@ -185,7 +185,7 @@ class Sqlite:
 
     @cached_property
     def counts(self) -> list[int]:
-        """Return the number of messages of each stream."""
+        """Return the number of messages per stream."""
         found: dict[int, int] = {}
         try:
             found.update(
@@ -201,7 +201,7 @@ class Sqlite:
         return [found.get(number, 0) for number in self.topic_ids]
 
     def blocks(self) -> "Iterator[Rows]":
-        """Its rows, in the order they were recorded."""
+        """Yield its rows in the order of recording."""
         for batch in self.batches(list(self.channels)):
             if len(batch):
                 # Kept while further ones are read, into the same memory. No other container has
@@ -212,7 +212,7 @@ class Sqlite:
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:
-        """The messages of some streams; see `Container`."""
+        """Yield the messages of some streams; see `Container`."""
         if not wanted:
             return
         streams = {self.topic_ids[number]: number for number in wanted}
@@ -259,7 +259,7 @@ class Sqlite:
                 last, gap = min(max(last, 0) + gap, 2**63 - 1), gap * 2
 
     def _table(self) -> int:
-        """The page at which the tree of the messages begins; 0 where the table is another one."""
+        """Return the root page of the message table; 0 if the table has another form."""
         try:
             told = self._base.execute("pragma table_info(messages)")
             columns = [(name, kind, key) for _, name, kind, _, _, key in told]
@@ -272,7 +272,7 @@ class Sqlite:
         return int(root) if columns == _COLUMNS and not other else 0
 
     def expected(self, wanted: Collection[int]) -> int:
-        """About how many messages some streams have: to count them takes as long as to read."""
+        """Return the approximate number of messages: counting takes as long as reading."""
         return self._last_row()
 
     def _last_row(self) -> int:
@@ -297,18 +297,18 @@ class Rows:
     counts: Mapping[int, int] | None = None
 
     def __init__(self, batch: Batch, unpacks: bool) -> None:
-        """Take messages, and whether each is unpacked."""
+        """Take messages, and whether each was compressed."""
         self._batch = batch
         self._unpacks = unpacks
         self.start = int(batch.log_times.min())
         self.end = int(batch.log_times.max())
 
     def sound(self) -> bool:
-        """Whether they are as written; there is no proof of that."""
+        """Return True: there is no checksum."""
         return True
 
     def table(self) -> MessageTable | None:
-        """Its messages as columns; None where each is unpacked by itself."""
+        """Return its messages as columns; None if each was compressed by itself."""
         batch = self._batch
         if self._unpacks:
             return None
@@ -319,7 +319,7 @@ class Rows:
         )
 
     def messages(self) -> list[Taken]:
-        """Its messages."""
+        """Return its messages."""
         batch = self._batch
         found = []
         for number in range(len(batch)):
@@ -343,7 +343,7 @@ def _connected(uri: str) -> sqlite3.Connection:
 
 
 def _some(cursor: sqlite3.Cursor) -> list[Any]:
-    """The next rows, as many as are held at once; their data comes last."""
+    """Return the next rows, limited by memory; their data is the last column."""
     rows, held = [], 0
     for row in cursor:
         rows.append(row)

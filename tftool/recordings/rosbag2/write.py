@@ -1,4 +1,4 @@
-"""rosbag2's sqlite files written, as its schema 4 has them."""
+"""Writing rosbag2's sqlite files, in schema version 4."""
 
 import sqlite3
 from pathlib import Path
@@ -26,14 +26,14 @@ insert into schema values (4, '');
 
 
 class SqliteWriter:
-    """Writes a `.db3` file; see `ContainerWriter`. A stream of its is a topic.
+    """Writer of a `.db3` file, whose streams are topics; see `ContainerWriter`.
 
     Attributes:
         counts: Messages by topic.
     """
 
     def __init__(self, path: Path, *, compression: str | None = None) -> None:
-        """Begin the file, replacing an existing file.
+        """Create the file; an existing one is replaced.
 
         Args:
             path: Where it is.
@@ -68,7 +68,7 @@ class SqliteWriter:
         return self._bytes
 
     def channel(self, channel: Channel, number: int | None = None) -> int:
-        """Make a topic known; the number by which `write` takes its messages."""
+        """Register a topic; return its number for `write`."""
         key = channel.topic, channel.type
         known = self._topics.get(key)
         offers = channel.extra("offered_qos_profiles")
@@ -119,7 +119,7 @@ class SqliteWriter:
         publish_time: Stamp | None = None,
         sequence: int = 0,
     ) -> None:
-        """Append one message; the container has no place for the last two."""
+        """Append one message; the last two arguments are not stored."""
         self._rows.append((channel, log_time, payload))
         self._bytes += len(payload)
         self.counts[channel] = self.counts.get(channel, 0) + 1
@@ -127,7 +127,7 @@ class SqliteWriter:
             self.flush()
 
     def flush(self) -> None:
-        """Hand the messages that wait to the database."""
+        """Insert the buffered messages into the database."""
         rows, self._rows = self._rows, []
         with translated(self._path):
             self._base.executemany(
@@ -135,7 +135,7 @@ class SqliteWriter:
             )
 
     def finish(self) -> None:
-        """Write the rest of the messages and the index, and close the file."""
+        """Write buffered messages and the index, and close the file."""
         try:
             self.flush()
             with translated(self._path):
@@ -145,12 +145,12 @@ class SqliteWriter:
             self._base.close()
 
     def abandon(self) -> None:
-        """Close the file as it is."""
+        """Close the file unfinished."""
         self._base.close()
 
 
 class translated:  # noqa: N801 -- used as a function in a `with`
-    """sqlite's errors as what they mean to a file that is written."""
+    """Convert sqlite's errors to those of a written file."""
 
     def __init__(self, path: Path) -> None:
         self._path = path

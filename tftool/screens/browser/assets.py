@@ -1,4 +1,4 @@
-"""The page's files, as they lie in the package, and what a browser may do with them."""
+"""The page's files in the package, and the browser's security policy for them."""
 
 import gzip
 from collections.abc import Mapping
@@ -36,14 +36,14 @@ SAFETY: Mapping[str, str] = {
 
 @dataclass(frozen=True)
 class Asset:
-    """A file of the page and its media type."""
+    """A file of the page, with its media type."""
 
     kind: str
     content: bytes
 
     @cached_property
     def compressed(self) -> bytes:
-        """The content as gzip; packed once, with the same bytes every time."""
+        """The content as gzip, compressed once and reproducibly."""
         return gzip.compress(self.content, 6, mtime=0)
 
 

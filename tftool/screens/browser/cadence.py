@@ -1,4 +1,4 @@
-"""Pace of snapshots, so that many of them leave time for everything else."""
+"""Pacing of snapshots, which leaves time for everything else."""
 
 from tftool.base.stamps import Duration, Stamp, seconds
 
@@ -7,19 +7,19 @@ FORGIVEN = seconds(1)
 
 
 class Cadence:
-    """Turns at a steady rate, each at the earliest as long after the last as that took.
+    """Pace of a steady rate, with a pause after each turn at least as long as the turn.
 
     A turn that comes late moves none of those after it, as long as all of them are short: the
     average rate stays the requested one.
     """
 
     def __init__(self, period: Duration, start: Stamp) -> None:
-        """Begin at `start`, with a turn every `period`."""
+        """Start at `start`, with a turn every `period`."""
         self._period = period
         self._due = start
 
     def after(self, began: Stamp, ended: Stamp) -> Stamp:
-        """The moment of the next turn, when one began and ended at these moments."""
+        """Return the time of the next turn after one with this start and end."""
         self._due += self._period
         # Thousands of frames may take longer than a period: never more than half the time.
         earliest = ended + (ended - began)

@@ -1,4 +1,4 @@
-"""One open page, and the pictures it is sent."""
+"""One open page and its outgoing pictures."""
 
 import asyncio
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ IN_FLIGHT = 2
 
 @dataclass(frozen=True, slots=True)
 class TreeMessage:
-    """The names of one shape of the tree, as they are sent.
+    """The names of one state of the tree, as sent.
 
     Attributes:
         revision: Its number.
@@ -30,7 +30,7 @@ class TreeMessage:
 
 
 class Poses:
-    """One snapshot, written once for all pages but for the number each one counts by."""
+    """One snapshot, serialised once for all pages except for the sequence number."""
 
     def __init__(
         self, epoch: Stamp, revision: int, snapshot: Snapshot, frames: list[FrameInfo]
@@ -38,7 +38,7 @@ class Poses:
         self._written = protocol.encode_poses(epoch, 0, revision, snapshot, frames)
 
     def __call__(self, sequence: int) -> bytes:
-        """The bytes for a page that has been sent `sequence` − 1 pictures."""
+        """Return the bytes for a page that has received `sequence` − 1 pictures."""
         start = len(protocol.MAGIC)
         number = (sequence & 0xFFFFFFFF).to_bytes(4, "little")
         return self._written[:start] + number + self._written[start + 4 :]
@@ -46,7 +46,7 @@ class Poses:
 
 @dataclass(frozen=True, slots=True)
 class SharedMoment:
-    """Data sent to all pages that look at the same moment."""
+    """Data for all pages that show the same time."""
 
     snapshot: Snapshot
     tree: TreeMessage
@@ -54,7 +54,7 @@ class SharedMoment:
 
 
 class PageClient:
-    """One open page: what it looks at, and what it is sent next.
+    """One open page: what it shows, and what it receives next.
 
     Attributes:
         at: The moment it looks at; None follows the present.
@@ -79,7 +79,7 @@ class PageClient:
         self._wake = asyncio.Event()
 
     def hear(self, said: protocol.Show | protocol.PairRequest | protocol.Got, epoch: Stamp) -> None:
-        """Take in what the page said."""
+        """Handle a message from the page."""
         if isinstance(said, protocol.Got):
             self._drawn = max(self._drawn, min(said.sequence, self.sent))
             self._wake.set()
@@ -91,12 +91,12 @@ class PageClient:
             self._asked = True
 
     def wants(self) -> bool:
-        """Whether poses are to be made for it; asking about the past is answered once."""
+        """Whether the page needs new poses; a request about the past is answered once."""
         asked, self._asked = self._asked, False
         return asked or self.at is None
 
     def offer(self, tree: TreeMessage, pair: str | None, poses: Poses) -> None:
-        """Put up the newest picture; one that was not taken yet is dropped."""
+        """Offer the newest picture; an earlier unsent one is dropped."""
         if self._next:
             self.skipped += 1
         self._next = [] if self._revision == tree.revision else [tree.text]
@@ -107,22 +107,22 @@ class PageClient:
         self._wake.set()
 
     def tell(self, text: str) -> None:
-        """Put up a word that is no picture; one that was not taken yet is dropped."""
+        """Offer a message other than a picture; an earlier unsent one is dropped."""
         self._word = text
         self._wake.set()
 
     def show_robot(self, text: str) -> None:
-        """Put up what the robot is; the last that was put up is sent."""
+        """Offer the robot; only the last one is sent."""
         self._robot = text
         self._wake.set()
 
     def show_displays(self, blocks: Mapping[str, bytes]) -> None:
-        """Put up messages that are drawn, by topic; of each topic the last is sent."""
+        """Offer messages to draw, by topic; of each topic the last is sent."""
         self._displays.update(blocks)
         self._wake.set()
 
     async def feed(self) -> None:
-        """Send offered data whenever the page is ready for it; ends with the connection."""
+        """Send offered data whenever the page is ready; ends with the connection."""
         while True:
             await self._wake.wait()
             self._wake.clear()

@@ -1,4 +1,4 @@
-"""The messages of a running session that are drawn: the last of each topic, as they come."""
+"""Drawable messages of a running session: the last of each topic."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -31,7 +31,7 @@ _MOST_FAULTS: Final = 10
 
 @dataclass(slots=True)
 class _HeardTopic:
-    """One topic that is listened to.
+    """One subscribed topic.
 
     Attributes:
         drawn: Its drawing on the page; its one message is the last one.
@@ -57,10 +57,10 @@ class _HeardTopic:
 
 
 class LiveDisplays:
-    """Listens to the topics of a world whose messages are drawn; those that come later, too."""
+    """Subscriber to the drawable topics of a world, including later ones."""
 
     def __init__(self, world: World, limits: Limits = Limits()) -> None:  # noqa: B008 - is frozen
-        """Begin to listen."""
+        """Subscribe."""
         self._world = world
         self._limits = limits
         self._heard: dict[str, _HeardTopic] = {}
@@ -69,7 +69,7 @@ class LiveDisplays:
         self._look()
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self._stop_watching()
         for one in self._heard.values():
             one.stop()
@@ -77,11 +77,11 @@ class LiveDisplays:
 
     @property
     def blocks(self) -> dict[str, bytes]:
-        """Return the last message of every topic, for a page that opens."""
+        """Return the last message of every topic, for a newly opened page."""
         return {topic: one.block for topic, one in self._heard.items() if one.block}
 
     def latest(self, most: int) -> list[DrawnTopic]:
-        """The last message of every topic, to be kept, thinned out to at most `most` points."""
+        """Return the last message of every topic for storage, thinned to at most `most` points."""
         found: list[DrawnTopic] = []
         for one in self._heard.values():
             self._draw(one)
@@ -91,7 +91,7 @@ class LiveDisplays:
         return found
 
     def round(self) -> dict[str, bytes]:
-        """The blocks of topics with news; some of many large ones wait for the next.
+        """Return the blocks of topics with new messages; many large ones are spread over rounds.
 
         Called at the rate at which pages are told.
         """
@@ -151,7 +151,7 @@ class LiveDisplays:
             del self._heard[topic]
 
     def _is_due(self, one: _HeardTopic) -> bool:
-        """Whether there is news of a topic, with its message drawn and placed."""
+        """Whether a topic has a new message that is drawn and placed."""
         self._draw(one)
         if one.waiting is not None:
             one.rounds += 1
@@ -184,7 +184,7 @@ class LiveDisplays:
 
 
 def _is_known(one: DrawnMessage, buffer: Buffer) -> bool:
-    """Whether it is known where a message's frame was at its stamp."""
+    """Whether the pose of a message's frame at its stamp is known."""
     root, frames = one.frame, buffer.frames()
     if root not in frames:
         return False
@@ -201,4 +201,4 @@ def _is_known(one: DrawnMessage, buffer: Buffer) -> bool:
 
 
 def _nothing() -> None:
-    """End a subscription that is not there."""
+    """Do nothing, in place of ending a subscription."""

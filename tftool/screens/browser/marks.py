@@ -1,4 +1,4 @@
-"""Marks on the page's ruler of time: links without data, and the doctor's findings."""
+"""Marks on the page's timeline: links without data, and the doctor's findings."""
 
 from math import degrees
 from typing import Any, Final
@@ -20,7 +20,7 @@ MOST_FINDINGS: Final = 200
 
 
 def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
-    """Gaps and findings as a message for the page; moments in seconds since the epoch.
+    """Return gaps and findings as a message for the page; times in seconds since the epoch.
 
     Args:
         buffer: The judged source; it keeps no log times, so checks that need them are left out.
@@ -56,7 +56,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
 
 
 def _step(step: LocalisationStep, epoch: Stamp) -> dict[str, Any]:
-    """Return a step of a localiser as a mark."""
+    """Return a localiser's jump as a mark."""
     parent, child = step.edge
     at = since(epoch, step.stamp)
     message = f"{child} in {parent} steps {step.moved * 1e3:.0f} mm, {degrees(step.turned):.1f}°"

@@ -1,4 +1,4 @@
-"""Frames over the whole of their time as one block of bytes, for a page that has no server.
+"""Frames over their whole time span as one block of bytes, for a page without a server.
 
 A block, before it is deflated: `MAGIC`, the length of a header in 32 bits, the header as JSON,
 padded so that what follows begins at a multiple of eight; then the sections the header points at,
@@ -41,14 +41,14 @@ Progress = Callable[[int, int], object]
 
 
 class TooLarge(Exception):
-    """The packed data is larger than allowed."""
+    """Error for packed data beyond the size limit."""
 
 
 class PackedBlock:
-    """A block under construction: sections one by one, columns that are equal once."""
+    """A block being built: sections one by one, equal columns stored once."""
 
     def __init__(self, *, is_rounded: bool = False) -> None:
-        """Begin an empty one.
+        """Start an empty block.
 
         Args:
             is_rounded: Whether numbers may lose digits beyond `METRES` and `QUATERNION`.
@@ -59,7 +59,7 @@ class PackedBlock:
         self._known: dict[bytes, dict[str, Any]] = {}
 
     def section(self, content: bytes) -> list[int]:
-        """Add bytes; where they are."""
+        """Append bytes; return where they are."""
         where = [self._length, len(content)]
         padded = content + bytes(-len(content) % 8)
         self._sections.append(padded)
@@ -67,13 +67,13 @@ class PackedBlock:
         return where
 
     def wholes(self, numbers: npt.NDArray[np.int64], step: float = 1.0) -> dict[str, Any]:
-        """Add whole numbers as a column; of two orders of differences the smaller one."""
+        """Append integers as a column: first or second differences, whichever is smaller."""
         if len(numbers) and (numbers == numbers[0]).all():
             return {"value": float(numbers[0]) * step}
         return self._once(numbers, lambda: self._differences(numbers, step))
 
     def doubles(self, numbers: npt.NDArray[np.float64], step: float) -> dict[str, Any]:
-        """Add doubles as a column: every bit of them, or rounded to `step`."""
+        """Append doubles as a column: exact, or rounded to `step`."""
         numbers = np.ascontiguousarray(numbers, dtype=np.float64)
         bits = numbers.view(np.uint64)
         if len(bits) and (bits == bits[0]).all():
@@ -108,7 +108,7 @@ class PackedBlock:
         return known
 
     def plain(self, header: object) -> bytes:
-        """The whole block as it is, for data that is not kept; `header` is written in front."""
+        """Return the whole block uncompressed, for temporary data; `header` comes first."""
         return b"".join([_head(header), *self._sections])
 
     def deflated(
@@ -119,7 +119,7 @@ class PackedBlock:
         progress: Progress | None = None,
         level: int = 9,
     ) -> bytes:
-        """The whole block, deflated as zlib does it.
+        """Return the whole block, compressed with zlib.
 
         Args:
             header: JSON in front of it.
@@ -155,7 +155,7 @@ def _head(header: object) -> bytes:
 
 
 def _planes(words: npt.NDArray[Any]) -> bytes:
-    """The first byte of every word, then the second of every word, up to the eighth."""
+    """Reorder bytes: the first of every word, then the second, up to the eighth."""
     little = np.ascontiguousarray(words).astype("<u8", copy=False)
     return np.ascontiguousarray(little.view(np.uint8).reshape(-1, 8).T).tobytes()
 

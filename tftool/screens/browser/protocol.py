@@ -79,28 +79,28 @@ ARROWS = ("up", "down", "left", "right")
 
 @dataclass(frozen=True, slots=True)
 class Show:
-    """Show a moment: seconds since the epoch, or None for the present."""
+    """Request to show a time: seconds since the epoch, or None for the present."""
 
     at: float | None
 
 
 @dataclass(frozen=True, slots=True)
 class PairRequest:
-    """Tell the transform of this pair from now on; None ends it."""
+    """Request for a pair's transform from now on; None ends it."""
 
     frames: tuple[str, str] | None
 
 
 @dataclass(frozen=True, slots=True)
 class Got:
-    """The page has drawn the poses of this sequence number."""
+    """Acknowledgement that the page has drawn the poses of this sequence number."""
 
     sequence: int
 
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Put a joint elsewhere: radians or metres."""
+    """Request to move a joint: radians or metres."""
 
     joint: str
     position: float
@@ -108,19 +108,19 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class KeyPressed:
-    """A key that drives a turtle: "up", "down", "left" or "right"."""
+    """Key press that drives a turtle: "up", "down", "left" or "right"."""
 
     key: str
 
 
 @dataclass(frozen=True, slots=True)
 class Past:
-    """Send poses from all over the buffer once."""
+    """Request for poses over the whole buffer, once."""
 
 
 @dataclass(frozen=True, slots=True)
 class SeriesRequest:
-    """Tell a pair's transform at `count` moments from `first` to `last`, in seconds."""
+    """Request for a pair's transform at `count` times from `first` to `last`, in seconds."""
 
     target: str
     source: str
@@ -131,7 +131,7 @@ class SeriesRequest:
 
 @dataclass(frozen=True, slots=True)
 class TrailsRequest:
-    """Tell where frames were at `count` moments from `first` to `last`, in seconds."""
+    """Request for frames' positions at `count` times from `first` to `last`, in seconds."""
 
     fixed: str
     frames: tuple[str, ...]
@@ -142,7 +142,7 @@ class TrailsRequest:
 
 @dataclass(frozen=True, slots=True)
 class MarksRequest:
-    """Tell the gaps, and what the doctor finds."""
+    """Request for gaps and the doctor's findings."""
 
 
 Said: TypeAlias = (
@@ -159,7 +159,7 @@ Said: TypeAlias = (
 
 
 def parse(message: str | bytes) -> Said:
-    """Read what a page sent.
+    """Parse a message from a page.
 
     Raises:
         InputError: If it is none of the nine messages; names the mistake.
@@ -227,7 +227,7 @@ def _trails(said: dict[str, Any]) -> TrailsRequest:
 
 
 def _span(said: dict[str, Any]) -> tuple[float, float, int]:
-    """First and last moment, and how many of them."""
+    """Parse first and last time, and their number."""
     count = said.get("count")
     if not isinstance(count, int) or not 2 <= count <= MOST_MOMENTS:
         raise InputError(f"a series has from 2 to {MOST_MOMENTS} moments")
@@ -250,17 +250,17 @@ def _moment(value: Any) -> float | None:
 
 
 def since(epoch: Stamp, stamp: Stamp) -> float:
-    """Turn a stamp into seconds since the epoch."""
+    """Convert a stamp to seconds since the epoch."""
     return (stamp - epoch) / NANOSECONDS
 
 
 def stamp_at(epoch: Stamp, moment: float) -> Stamp:
-    """Turn seconds since the epoch into a stamp; never 0, which would mean the latest."""
+    """Convert seconds since the epoch to a stamp; never 0, which would mean the latest."""
     return min(max(1, epoch + round(moment * NANOSECONDS)), LAST_STAMP)
 
 
 def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
-    """Tell the oldest and newest moment any link remembers; None when all are static."""
+    """Return the oldest and newest stamp of any link; None if all are static."""
     oldest = newest = 0
     for frame in frames:
         if frame.parent is not None and not frame.is_static and frame.samples:
@@ -270,7 +270,7 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
 
 
 def chosen(snapshot: Snapshot) -> list[int]:
-    """Choose the frames to show when there are too many: those nearest to their roots."""
+    """Choose frames to show if there are too many: those nearest to their roots."""
     if len(snapshot.frames) <= MOST_FRAMES:
         return list(range(len(snapshot.frames)))
     kept = grow(snapshot, most=MOST_FRAMES).children
@@ -278,7 +278,7 @@ def chosen(snapshot: Snapshot) -> list[int]:
 
 
 def moments(frames: Sequence[FrameInfo]) -> list[Stamp]:
-    """Choose moments spread evenly over what the links remember, oldest first."""
+    """Return evenly spread times over all samples, oldest first."""
     span = reach(frames)
     if span is None or span[0] == span[1]:
         return []
@@ -295,7 +295,7 @@ def encode_names(
     rate: float,
     begin: Stamp | None = None,
 ) -> str:
-    """Write what of a snapshot seldom changes.
+    """Serialise the parts of a snapshot that seldom change.
 
     Args:
         epoch: The clock's.
@@ -327,7 +327,7 @@ def encode_names(
 def encode_poses(
     epoch: Stamp, sequence: int, revision: int, snapshot: Snapshot, frames: Sequence[FrameInfo]
 ) -> bytes:
-    """Write every frame's pose in its parent, and the facts that change with every sample."""
+    """Serialise every frame's pose in its parent, and the facts that change with every sample."""
     span = reach(snapshot.frames)
     oldest, newest = span or (snapshot.now, snapshot.now)
     head = HEADER.pack(
@@ -362,7 +362,7 @@ _NO_POSE = (math.nan,) * 7
 
 
 def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
-    """Write how far the buffer reaches now."""
+    """Serialise the buffer's present time span."""
     oldest, newest = reach(snapshot.frames) or (snapshot.now, snapshot.now)
     return json.dumps(
         {
@@ -375,7 +375,7 @@ def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
 
 
 def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stamp) -> str:
-    """Write the transform of `source` in `target`, the very numbers `tftool echo` prints."""
+    """Serialise the transform of `source` in `target`, with the exact numbers of `tftool echo`."""
     answer: dict[str, Any] = {"type": "pair", "target": target, "source": source}
     try:
         found = buffer.lookup_transform(target, source, at)
@@ -396,7 +396,7 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
 
 
 def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
-    """Write a pair's transform at evenly spread moments, null where there is none."""
+    """Serialise a pair's transform at evenly spread times, null where there is none."""
     stamps = _stamps(epoch, asked)
     answer: dict[str, Any] = {
         "type": "series",
@@ -421,7 +421,7 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
 
 
 def encode_trails(buffer: Buffer, epoch: Stamp, asked: TrailsRequest) -> str:
-    """Write where frames were at evenly spread moments, null where that is not known."""
+    """Serialise frames' positions at evenly spread times, null where unknown."""
     stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
     places: dict[str, list[list[float] | None]] = {}
     for frame in asked.frames:
@@ -445,7 +445,7 @@ _TRAIL_DIGITS = 5
 
 
 def _stamps(epoch: Stamp, asked: SeriesRequest | TrailsRequest) -> list[Stamp]:
-    """Moments spread evenly over the requested span."""
+    """Return evenly spread times over the requested span."""
     first, last = stamp_at(epoch, asked.first), stamp_at(epoch, asked.last)
     steps = asked.count - 1
     return [first + (last - first) * step // steps for step in range(asked.count)]
@@ -461,5 +461,5 @@ def _finite(values: Iterable[float]) -> list[float | None]:
 
 
 def names_key(frames: Sequence[FrameInfo]) -> tuple[tuple[str, str | None, bool, str | None], ...]:
-    """Return a key that changes whenever the names have to be sent again."""
+    """Return a key that changes whenever the names must be sent again."""
     return tuple((frame.frame, frame.parent, frame.is_static, frame.authority) for frame in frames)

@@ -1,4 +1,4 @@
-"""The messages of a recording that are drawn, topic by topic and within limits."""
+"""Drawable messages of a recording, topic by topic and within limits."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -31,7 +31,7 @@ MILLIMETRE: Final = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Limits of drawing.
+    """Limits of what is drawn.
 
     Attributes:
         points: Points of one message.
@@ -49,7 +49,7 @@ IN_A_FILE: Final = Limits(20_000, 600_000)
 
 @dataclass(slots=True)
 class DrawnTopic:
-    """The messages of one topic.
+    """Messages of one topic.
 
     Attributes:
         topic: Its name.
@@ -69,7 +69,7 @@ class DrawnTopic:
 
 
 def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
-    """Return the tracks of a recording that are drawn."""
+    """Return a recording's drawable topics."""
     found: list[DrawnTopic] = []
     for topic in recording.topics:
         name = topic.type.replace("/msg/", "/").replace("/", "/msg/", 1)
@@ -82,7 +82,7 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
 
 
 def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
-    """Return the drawn tracks of a recording, opened for it: callable from any thread."""
+    """Return a recording's drawable topics in their own opened file; callable from any thread."""
     with open_recording(name) as recording:
         return recorded_tracks(recording, limits)
 
@@ -110,7 +110,7 @@ def _fill(track: DrawnTopic, recording: Recording, draw: Draw, limits: Limits) -
 def pack_tracks(
     block: PackedBlock, tracks: Sequence[DrawnTopic], buffer: Buffer, epoch: Stamp
 ) -> list[dict[str, Any]]:
-    """Put tracks into a block; what its header says of them.
+    """Pack topics into a block; return their header.
 
     Each message goes with where its frame was at its own stamp, in the root of its tree.
     """
@@ -141,7 +141,7 @@ def _packed(block: PackedBlock, one: DrawnMessage, buffer: Buffer, epoch: Stamp)
 
 
 def _placed(one: DrawnMessage, buffer: Buffer) -> tuple[str | None, list[float] | None]:
-    """The root a message's frame hung from at its stamp, and where it was in it."""
+    """Return the root above a message's frame at its stamp, and the frame's pose in it."""
     root: str = one.frame
     try:
         for _ in range(len(buffer.frames())):

@@ -1,4 +1,4 @@
-"""A robot for the page: its shapes, its joints, and what became of its meshes."""
+"""A robot for the page: shapes, joints, and the state of its meshes."""
 
 import json
 from collections.abc import Collection, Mapping
@@ -26,7 +26,7 @@ MOST_SHAPES = 5000
 
 @dataclass(slots=True)
 class ShownRobot:
-    """A robot in the page.
+    """A robot on the page.
 
     Attributes:
         robot: What it is.
@@ -43,7 +43,7 @@ class ShownRobot:
     rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
-        """Find out the prefix of its links' names; whether that has changed."""
+        """Determine the prefix of its links' names; return whether that changed."""
         prefix = prefix_of(self.robot, frames)
         changed = prefix != self.prefix
         self.prefix = prefix
@@ -56,7 +56,7 @@ class ShownRobot:
         return found
 
     def as_text(self) -> str:
-        """Everything the page draws of it, as a message."""
+        """Return everything the page draws of it, as a message."""
         missing: list[str] = []
         count = 0
         links = []
@@ -105,7 +105,7 @@ class ShownRobot:
         ]
 
     def _motion(self) -> list[dict[str, Any]]:
-        """Return the data a page needs to move the joints by itself; see `page/kinematics.js`."""
+        """Return the data for the page's own joint motion; see `page/kinematics.js`."""
         if self.rest is None:
             return []
         told: list[dict[str, Any]] = []

@@ -77,17 +77,17 @@ class ShownWorld(Protocol):
 
     @property
     def clock(self) -> Clock:
-        """Return the clock of the frames."""
+        """The clock of the frames."""
         ...
 
     @property
     def buffer(self) -> Buffer:
-        """Return the buffer of the frames."""
+        """The buffer of the frames."""
         ...
 
 
 class PageServer:
-    """Serves the page until it is closed; use as `async with`, and `await run()` inside.
+    """Server of the page; use `async with`, and `await run()` inside.
 
     Attributes:
         port: Where it listens.
@@ -106,7 +106,7 @@ class PageServer:
         secret: str | None = None,
         begin: Stamp | None = None,
     ) -> None:
-        """Prepare to serve.
+        """Prepare the server without opening a port.
 
         Args:
             source: Whose frames to show.
@@ -142,21 +142,21 @@ class PageServer:
         """Set to give up the file that is being written; None while none is."""
 
     def show_robot(self, robot: ShownRobot) -> None:
-        """Show a robot from now on, in place of the one before."""
+        """Show a robot from now on, in place of the previous one."""
         self._robot = robot
         robot.place(frozenset(self.source.buffer.frames()))
         self._tell_robot()
 
     def show_tracks(self, read: Callable[[Limits], Sequence[DrawnTopic]]) -> None:
-        """Draw messages beside the frames, which are read when a page is first opened."""
+        """Draw recorded messages besides the frames; they are read when a page first opens."""
         self._read_tracks = read
 
     def show_live(self, displays: LiveDisplays) -> None:
-        """Draw messages beside the frames as they come."""
+        """Draw live messages besides the frames."""
         self._live = displays
 
     def take_keys(self, press: Callable[[str], object]) -> None:
-        """Hand the arrow keys of pages to `press`, as "up", "down", "left" and "right"."""
+        """Pass the page's arrow keys to `press`, as "up", "down", "left" and "right"."""
         self._press = press
 
     def _tell_robot(self) -> None:
@@ -166,7 +166,7 @@ class PageServer:
                 client.show_robot(self._robot_text)
 
     def _move(self, said: protocol.Move) -> None:
-        """Put a joint elsewhere; other names are passed over."""
+        """Move a joint; ignore unknown names."""
         robot = self._robot
         if robot is not None and robot.mover is not None and robot.robot.takes(said.joint):
             lower, upper = slide_range(robot.robot.joints[said.joint])
@@ -181,15 +181,15 @@ class PageServer:
 
     @property
     def url(self) -> str:
-        """Return the address of the page; it holds the secret, so no log may have it."""
+        """Address of the page; it contains the secret, so it must not be logged."""
         return self.address("/")
 
     def address(self, path: str) -> str:
-        """Return where a path is served, with the secret."""
+        """Return the address of a path, with the secret."""
         return f"{self.origin}{path}?token={self._secret}"
 
     async def __aenter__(self) -> "PageServer":
-        """Start to listen.
+        """Start listening.
 
         Raises:
             TftoolError: If no port near the one asked for is free.
@@ -225,7 +225,7 @@ class PageServer:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Tell every page that this was it, and close."""
+        """Tell every page that the session is over, and close."""
         if self._writing is not None:
             self._writing.set()
         if self._server is not None:
@@ -233,7 +233,7 @@ class PageServer:
             await self._server.wait_closed()
 
     def _note(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        """Say once that no more connections can be taken, where asyncio says it again and again."""
+        """Report once that no more connections can be accepted; asyncio would repeat it."""
         error = context.get("exception")
         if not isinstance(error, OSError) or error.errno not in (errno.EMFILE, errno.ENFILE):
             loop.default_exception_handler(context)
@@ -242,7 +242,7 @@ class PageServer:
             self._tell("no more pages can be served: too few file descriptors (ulimit -n)")
 
     async def run(self) -> None:
-        """Take snapshots and offer them to the pages, for ever."""
+        """Send snapshots to the pages until cancelled."""
         clock = pace_of(self.source.clock)
         due = displays_due = clock.now()
         cadence = Cadence(self._period, due)
@@ -269,7 +269,7 @@ class PageServer:
                 client.tell(protocol.encode_range(self.source.clock.epoch, following.snapshot))
 
     def _tell_displays(self, displays: LiveDisplays, clock: Clock) -> Stamp:
-        """Offer the messages that are drawn to the pages; when to do it next."""
+        """Offer drawn messages to the pages; return when to do it next."""
         began = clock.now()
         blocks = displays.round()
         for client in self.clients:
@@ -288,7 +288,7 @@ class PageServer:
         )
 
     def _tree(self, snapshot: Snapshot) -> TreeMessage:
-        """The names as they were sent before, if the tree had that shape before."""
+        """Return the names as sent before, if the tree is the same as at some earlier time."""
         key = protocol.names_key(snapshot.frames)
         tree = self._trees.get(key)
         if tree is None:
@@ -381,7 +381,7 @@ class PageServer:
         return _answer(HTTPStatus.OK, served.kind, served.content)
 
     async def _packed_tracks(self) -> bytes:
-        """The messages that are drawn, packed once for all pages, beside the loop."""
+        """Return the drawn messages, packed once for all pages in another thread."""
 
         def packed() -> bytes:
             assert self._read_tracks is not None
@@ -395,7 +395,7 @@ class PageServer:
         return await asyncio.shield(self._tracks)
 
     async def _standalone(self, connection: ServerConnection, query: str) -> Response:
-        """Answer with all that is remembered now as a file of its own, which begins with a view.
+        """Return everything in the buffer as a standalone page, with the present view.
 
         One is written at a time; it is given up when its asker leaves or the server stops.
         """
@@ -487,7 +487,7 @@ class PageServer:
             await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _tell_past(self, socket: ServerConnection) -> None:
-        """Send poses from all over the buffer, in no hurry: they are for trails."""
+        """Send poses from the whole buffer at low priority: they are for trails."""
         clock, now = pace_of(self.source.clock), self.source.clock.now()
         for moment in protocol.moments(self.source.buffer.snapshot(now).frames):
             began = clock.now()
@@ -495,7 +495,7 @@ class PageServer:
             await clock.sleep(self._period // 8 + 2 * (clock.now() - began), Phase.WATCH)
 
     async def _tell_marks(self, socket: ServerConnection) -> None:
-        """Send what the doctor finds, who is asked beside the loop."""
+        """Send the doctor's findings, computed in another thread."""
         told = await asyncio.get_running_loop().run_in_executor(
             None, marks_of, self.source.buffer, self.source.clock.epoch
         )

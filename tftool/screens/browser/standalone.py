@@ -1,4 +1,4 @@
-"""The page of `tftool view` with all of its data in one file, which opens without a server.
+"""The page of `tftool view` with its data in one file, which works without a server.
 
 What the page's server would be asked is answered by `page/lookups.js` from the packed samples,
 with the same numbers. The file asks no other for anything, and its content security policy
@@ -74,7 +74,7 @@ class StandalonePage:
 def standalone_page(
     data: StandaloneData, *, most: int = MOST_BYTES, progress: Progress | None = None
 ) -> StandalonePage:
-    """Make the file.
+    """Build the file.
 
     Args:
         data: What it shows.
@@ -99,7 +99,7 @@ def standalone_page(
 
 @dataclass(frozen=True, slots=True)
 class _Frame:
-    """The HTML before and behind the packed data."""
+    """HTML before and after the packed data."""
 
     head: bytes
     tail: bytes
@@ -144,7 +144,7 @@ def _digest(script: str) -> str:
 
 
 def _inert(text: str) -> str:
-    """Return a text that cannot end the element it is put into."""
+    """Escape a text so that it cannot end the HTML element around it."""
     assert not re.search(r"</(script|style)|<!--", text, re.IGNORECASE)
     return text
 
@@ -216,7 +216,7 @@ def _frames(
 def _robot(
     robot: ShownRobot | None, shown: Iterable[FrameInfo], block: PackedBlock
 ) -> tuple[dict[str, Any] | None, list[dict[str, Any]]]:
-    """The robot's message, and the files it names with those that they name."""
+    """Return the robot's message, its files, and the files that those refer to."""
     if robot is None:
         return None, []
     if robot.mover is not None:
@@ -251,7 +251,7 @@ def _robot(
 
 
 def _named_in(address: str, content: bytes) -> list[str]:
-    """The files that a mesh names, relative to itself; inside of its folders they are read."""
+    """Return the files that a mesh refers to by relative names, read inside its folders only."""
     kind = address[address.rfind(".") :].lower()
     if len(content) > _LARGEST_REFERENCE:
         return []

@@ -1,4 +1,4 @@
-"""Frames seen from a fixed one, by lookup: where they are at one moment, and the ways they went."""
+"""Picture of frames relative to a fixed one, computed by lookups: positions and trails."""
 
 from bisect import bisect_right
 from collections import deque
@@ -20,7 +20,7 @@ Lookup = Callable[[str, str], Transform | None]
 
 
 def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
-    """The frame a picture is drawn in unless another is chosen.
+    """Return the default fixed frame of a picture.
 
     That is the root of the tree in which both frames of the pair are; where no tree has
     both, the root of the largest one. Empty where there are no frames.
@@ -38,7 +38,7 @@ def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
 
 
 def in_snapshot(snapshot: Snapshot) -> Lookup:
-    """A lookup that asks the snapshot alone."""
+    """Return a lookup limited to the snapshot."""
 
     def lookup(target: str, source: str) -> Transform | None:
         if target not in snapshot or source not in snapshot:
@@ -56,7 +56,7 @@ def in_snapshot(snapshot: Snapshot) -> Lookup:
 
 
 def moving(snapshot: Snapshot, fixed: str) -> list[str]:
-    """The frames that may move as seen from `fixed`, without those bolted to one of them."""
+    """Return the frames that may move relative to `fixed`, one of each rigid group."""
     moves: dict[str, bool] = {}
     for info in snapshot.frames:
         chain: list[FrameInfo] = []
@@ -88,7 +88,7 @@ def pictured(
     ages: Mapping[str, float],
     turtles: frozenset[str] = frozenset(),
 ) -> PlanePicture:
-    """Draw the tree of `fixed`, every frame by a lookup in it; the other trees apart.
+    """Draw the tree of `fixed` by looking up every frame in it; other trees separately.
 
     Args:
         snapshot: Which frames there are.
@@ -172,7 +172,7 @@ GAP = seconds(1.0)
 
 
 class FrameTrails:
-    """Follows frames in one fixed frame by looking them up.
+    """Trails of frames in one fixed frame, by repeated lookups.
 
     Args:
         buffer: Whose frames.
@@ -195,7 +195,7 @@ class FrameTrails:
         self._shown: list[Stroke] = []
 
     def follow(self, fixed: str, frames: Iterable[str], now: Stamp) -> Drawn:
-        """Look the frames up since the last time, and give all of their trails up to now.
+        """Look the frames up since the last time, and return all trails up to now.
 
         Args:
             fixed: What they are looked up in; another one starts all trails again.
@@ -216,7 +216,7 @@ class FrameTrails:
         return Drawn(self._shown, 0, self._edition, self._box)
 
     def _fade(self, now: Stamp) -> None:
-        """Give every part the colour of its age; that is another drawing."""
+        """Recolour every part by its age, as a new drawing."""
         self._shown = [
             _of_age(stroke, now - stamp)
             for stamp, stroke in zip(self._stamps, self._strokes, strict=True)
@@ -225,7 +225,7 @@ class FrameTrails:
         self._faded = now
 
     def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> Drawn:
-        """All trails up to an earlier moment, looked up as far back as the buffer reaches."""
+        """Return all trails up to an earlier time, as far back as the buffer reaches."""
         start = at - REACH
         found: list[tuple[Stamp, Stroke]] = []
         for frame in islice(frames, MOST_FRAMES):
@@ -253,7 +253,7 @@ class FrameTrails:
         self._box = None
 
     def _forget(self, before: Stamp) -> None:
-        """Drop old parts; the rest is another drawing."""
+        """Drop old parts; the rest is a new drawing."""
         while self._stamps and self._stamps[0] < before:
             self._stamps.popleft()
             self._strokes.popleft()
@@ -310,7 +310,7 @@ class FrameTrails:
 
 
 def _of_age(stroke: Stroke, age: Duration) -> Stroke:
-    """Give a part of a trail the colour of its age."""
+    """Return a part of a trail in the colour of its age."""
     x0, y0, x1, y1, color, width = stroke
     share = min(1.0, max(0.0, age / REACH))
     return x0, y0, x1, y1, theme.blend(color, FADED, 0.9 * share), width

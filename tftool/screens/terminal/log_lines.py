@@ -1,4 +1,4 @@
-"""The log as a person wants to read it."""
+"""The log condensed for a person."""
 
 import re
 from collections import deque
@@ -14,7 +14,7 @@ from tftool.world.log import PROBLEMS, LogRecord
 
 @dataclass(slots=True)
 class _Entry:
-    """A line, and when it was said: of many times only the newest, and how many there were."""
+    """A line with the times it was logged: the newest ones, and their number."""
 
     record: LogRecord
     kind: str
@@ -22,17 +22,17 @@ class _Entry:
     forgotten: int = 0
 
     def times(self, until: Stamp) -> int:
-        """Return how often it had been logged by a moment."""
+        """Return how often it had been logged by a time."""
         later = sum(1 for stamp in self.stamps if stamp > until)
         return 0 if later == len(self.stamps) else self.forgotten + len(self.stamps) - later
 
     def last(self, until: Stamp) -> Stamp:
-        """Return when it had been logged last by a moment."""
+        """Return when it had last been logged by a time."""
         return max((stamp for stamp in self.stamps if stamp <= until), default=0)
 
 
 class Journal:
-    """The log as a person wants it: what repeats is one line with a count."""
+    """Log that shows repeated lines once, with a count."""
 
     KEPT = 300
     STAMPS = 400
@@ -46,7 +46,7 @@ class Journal:
             self.add(record)
 
     def add(self, record: LogRecord) -> None:
-        """Take in a line of the world's log."""
+        """Add a line of the world's log."""
         self.revision += 1
         warns = record.level in PROBLEMS
         text = self._NUMBERS.sub("#", record.text) if warns else record.text
@@ -65,7 +65,7 @@ class Journal:
     def lines(
         self, until: Stamp, start: Stamp, width: int, height: int, look: Look, *, back: int = 0
     ) -> list[Text]:
-        """Show the newest lines up to a moment, the newest at the bottom.
+        """Return the newest lines up to a time, the newest at the bottom.
 
         Args:
             until: The moment shown.
@@ -88,7 +88,7 @@ class Journal:
         return shown
 
     def strip(self, until: Stamp, start: Stamp, width: int, look: Look) -> Text:
-        """The newest line up to a moment in one row, and how to see more.
+        """Return the newest line up to a time in one row, with a hint how to see more.
 
         Args:
             until: The moment shown.
@@ -112,7 +112,7 @@ class Journal:
         return line
 
     def _told(self, until: Stamp) -> list[_Entry]:
-        """Return the lines logged by a moment, in the order of each one's last time."""
+        """Return the lines logged by a time, in order of each line's last time."""
         told = [entry for entry in self._entries if entry.times(until)]
         return sorted(told, key=lambda entry: entry.last(until))
 

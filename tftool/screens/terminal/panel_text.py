@@ -1,4 +1,4 @@
-"""The text in the panels of the terminal app, from a moment to lines of a width, and its keys."""
+"""Text in the panels of the terminal app, and its keys."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -22,14 +22,14 @@ from tftool.screens.terminal.text_style import Look, wrapped
 
 
 class Row(NamedTuple):
-    """A frame's place in the tree: the drawing before its name."""
+    """A frame's row in the tree: the guides before its name."""
 
     guide: str
     info: FrameInfo
 
 
 def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
-    """List all trees from top to bottom, one after the other.
+    """Return the rows of all trees, one after the other.
 
     Frames in a loop, which no root reaches, come last.
     """
@@ -53,7 +53,7 @@ def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
 
 
 def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
-    """The rows that `tree` shows below its heading, the cursor's among them."""
+    """Return the rows visible below `tree`'s heading, including the cursor's."""
     at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
     space = max(1, height - 1)
     if len(listed) > space > 2:
@@ -66,7 +66,7 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
 def tree(
     moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
-    """Show every link with its rate and age: amber when it is stale, then red.
+    """Return every link with rate and age; stale ones in amber, then red.
 
     Args:
         moment: What to show.
@@ -113,7 +113,7 @@ def tree(
 
 
 def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
-    """Return the picture's subject and its frame: "Frames in world"."""
+    """Return the picture's title: "Frames in world"."""
     fixed = moment.picture.fixed
     if not fixed:
         return "Field"
@@ -121,7 +121,7 @@ def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
 
 
 class _Columns(NamedTuple):
-    """Widths of the tree's columns; the sender's is 0 where there is no room."""
+    """Widths of the tree's columns; the publisher's is 0 if there is no room."""
 
     name: int
     rate: int
@@ -137,7 +137,7 @@ class _Columns(NamedTuple):
 
 
 def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
-    """Rate and age of a link, as wide as their columns."""
+    """Format rate and age of a link at the width of their columns."""
     width = columns.rate + columns.age
     if info.root is None:
         return f"{'in a loop':>{width}}"
@@ -154,7 +154,7 @@ def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
 
 
 def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
-    """Say where the source is in the target: shortly, or with room in every notation.
+    """Format the pair's transform: briefly, or in every notation if there is room.
 
     Columns are as wide for a number above nothing as for one below: nothing shifts.
     """
@@ -201,7 +201,7 @@ def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tupl
 
 
 def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
-    """The angles in radians, and the rows of the matrix."""
+    """Format angles in radians, and the matrix."""
     radians = rpy_from_quaternion(found.transform.rotation)
     matrix = found.transform.matrix()
     rows = [("mat" if not place else "", _numbers(row, 3, 8)) for place, row in enumerate(matrix)]
@@ -209,7 +209,7 @@ def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
 
 
 def _away(x: float, y: float, z: float, look: Look) -> str:
-    """Say how far that is, and in which direction from straight ahead."""
+    """Describe distance and direction relative to straight ahead."""
     away, bearing = math.hypot(x, y, z), math.degrees(math.atan2(y, x))
     if away < 0.001:
         return f"{away:.3f} m"
@@ -226,7 +226,7 @@ def _number(value: float, digits: int) -> str:
 
 
 def _numbers(values: Iterable[float], digits: int, width: int) -> str:
-    """Numbers in columns of `width`, a blank in front of each; a long one takes what it needs."""
+    """Format numbers in columns of `width` after a blank; a long one takes more."""
     return "".join(f" {_number(value, digits):>{width - 1}}" for value in values)
 
 
@@ -237,7 +237,7 @@ def _degree(look: Look) -> str:
 def scenarios(
     offered: Sequence[tuple[str, str]], cursor: int, width: int, height: int, look: Look
 ) -> list[Text]:
-    """List what can be shown: a name and what it is about, the cursor on one of them."""
+    """List the scenarios with descriptions, and a cursor."""
     first = max(0, min(cursor - height // 2, len(offered) - height))
     wide = max((cell_len(name) for name, _ in offered), default=0) + 2
     dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
@@ -257,7 +257,7 @@ def scenarios(
 
 
 def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:
-    """One line: what runs, what time it is there, and whether that is now."""
+    """Return a header line: what runs, its time, and whether that is the present."""
     palette = look.palette
     clock = f"{as_seconds(moment.elapsed):.1f} s"
     if moment.behind:
@@ -271,7 +271,7 @@ def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look)
 
 
 def title_bar(title: str, elapsed: float, width: int, look: Look) -> Text:
-    """One line above a live picture: its title, and seconds since it began."""
+    """Return a line above a live picture: its title, and seconds since the start."""
     state = "* live" if look.ascii_only else "● live"
     return _bar(title, f"{elapsed:.1f} s", (state, look.palette.accent), width, look)
 
@@ -286,14 +286,14 @@ def _bar(title: str, clock: str, state: tuple[str, Color], width: int, look: Loo
 
 
 class Hint(NamedTuple):
-    """A key and what it does; the footer shows as many hints as it has room for."""
+    """A key and its action; the footer shows as many hints as fit."""
 
     keys: str
     does: str
 
 
 def footer(hints: Sequence[Hint], width: int, look: Look) -> Text:
-    """One line of key help: the first hints that fit, and always the last."""
+    """Return one line of key help: the first hints that fit, and always the last."""
     strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
 
     def written(hint: Hint) -> Text:
@@ -351,7 +351,7 @@ LEAVING = """\
 
 
 def told(*, drives: bool, chooses: bool) -> str:
-    """Say what every key does, a line each; none that does nothing here.
+    """Return every key that works here and its action, a line each.
 
     Args:
         drives: Whether something can be driven.
@@ -363,7 +363,7 @@ def told(*, drives: bool, chooses: bool) -> str:
 def hints(
     panel: str, *, drives: bool, past: bool, ascii_only: bool, chooses: bool = False
 ) -> Sequence[Hint]:
-    """List the keys that matter now, in the order in which a narrow line keeps them.
+    """Return the keys that matter now; a narrow line keeps the first ones.
 
     Args:
         panel: The panel that has the keys.
@@ -403,7 +403,7 @@ SPAN = seconds(10.0)
 
 
 class PairPlot:
-    """Draws a pair's distance and yaw, and where in it the moment shown lies."""
+    """Plot of a pair's distance and yaw, with a mark at the shown time."""
 
     def __init__(self) -> None:
         self._key: object = None
@@ -412,7 +412,7 @@ class PairPlot:
     def lines(
         self, moment: SceneMoment, scene: Scene, width: int, height: int, look: Look
     ) -> list[Text]:
-        """Look the pair up over the last seconds, or round an earlier moment.
+        """Look the pair up over the last seconds, or around an earlier time.
 
         Args:
             moment: The shown state.

@@ -1,4 +1,4 @@
-"""The picture of frames in a panel: its part of the plane, and small pictures of trees apart."""
+"""Picture of frames in a panel: its part of the plane, and insets of other trees."""
 
 from rich.segment import Segment
 
@@ -19,7 +19,7 @@ ROOMY = 0.4
 
 
 class Camera:
-    """Keeps a view of the plane from look to look.
+    """Keeps the view of the plane steady between pictures.
 
     Fitted, it grows at once with what there is, and shrinks only when most of it is empty:
     a picture that breathes cannot be read.
@@ -33,7 +33,7 @@ class Camera:
         self._shown = Viewport(0.0, 0.0, 1.0)
 
     def view(self, picture: PlanePicture, columns: int, rows: int) -> Viewport:
-        """The view of a picture in columns × rows of cells."""
+        """Return the view for a picture of columns × rows of cells."""
         if picture.fixed != self._fixed:
             # What a person zoomed into is elsewhere in another frame.
             self._fixed, self._box, self._own = picture.fixed, None, None
@@ -47,7 +47,7 @@ class Camera:
         return self._shown
 
     def zoom(self, steps: int, at: tuple[float, float] | None = None) -> None:
-        """Come nearer by some steps, or go back by fewer than none.
+        """Zoom in by some steps; out if negative.
 
         Args:
             steps: How many.
@@ -64,14 +64,14 @@ class Camera:
         self._look_at(x + (middle_x - x) * share, y + (middle_y - y) * share, nearer)
 
     def pan(self, columns: float, rows: float) -> None:
-        """Move the view by a number of cells, right and down."""
+        """Pan by some cells, right and down."""
         left, bottom, per_row = self._shown
         x = left + 0.25 * self._size[0] * per_row - 0.5 * columns * per_row
         y = bottom + 0.5 * self._size[1] * per_row + rows * per_row
         self._look_at(x, y, per_row)
 
     def fit(self) -> None:
-        """Show all there is again."""
+        """Fit everything again."""
         self._own = self._box = None
 
     def _look_at(self, x: float, y: float, per_row: float) -> None:
@@ -142,11 +142,11 @@ class PlaneView:
         return [*lines, *notes]
 
     def cell(self, x: int, y: int) -> tuple[float, float]:
-        """The column and row of the main picture under a cell of the panel."""
+        """Return the main picture's column and row under a cell of the panel."""
         return x - self._gutter + 0.5, y + 0.5
 
     def frame_at(self, picture: PlanePicture, x: int, y: int) -> str | None:
-        """The frame nearest to a cell of the panel, within three cells of it."""
+        """Return the frame nearest to a cell of the panel, at most three cells away."""
         main = self._canvases.get(("", 0))
         column, row = self.cell(x, y)
         best = None
@@ -175,7 +175,7 @@ class PlaneView:
     def _insets(
         self, picture: PlanePicture, width: int, height: int, look: Look, colors: bool
     ) -> list[Line]:
-        """The first trees apart, side by side, each under its own heading."""
+        """Draw the first of the other trees side by side, each under its heading."""
         count = min(len(picture.apart), max(1, width // INSET_WIDTH))
         wide = width // count
         warning = look.ink(look.palette.warning)
@@ -195,7 +195,7 @@ class PlaneView:
         return rows
 
     def _notes(self, picture: PlanePicture, width: int, height: int, look: Look) -> list[Line]:
-        """Return notes about everything that is out of sight."""
+        """Return notes about everything out of view."""
         words = []
         shown = max(1, width // INSET_WIDTH) if height >= WITH_INSETS else 0
         hidden = picture.apart[shown:]

@@ -1,4 +1,4 @@
-"""The pair of frames and the moment that a screen shows of its scene."""
+"""The pair and the time that a screen shows."""
 
 from dataclasses import replace
 
@@ -11,7 +11,7 @@ PATIENCE = seconds(4.0)
 
 
 class SceneQuestion:
-    """Question that is kept while the user moves through frames and time.
+    """Pair and time that stay selected while the user moves through frames and time.
 
     Args:
         scene: Who is asked.
@@ -35,18 +35,18 @@ class SceneQuestion:
         self._first_link_at: Duration | None = None
 
     def ask(self) -> SceneMoment:
-        """Look at the world again."""
+        """Look the pair up again."""
         self.moment = self._answer()
         return self.moment
 
     def wait(self, moment: SceneMoment) -> SceneMoment:
-        """Let time go by before a kept moment: it lies farther behind, nothing else changes."""
+        """Update the age of a fixed time; nothing else changes."""
         now = self.scene.world.clock.now()
         self.moment = replace(moment, behind=now - moment.stamp)
         return self.moment
 
     def pick(self, step: int) -> bool:
-        """Move the cursor through the tree by `step` rows; whether there is one to move."""
+        """Move the cursor through the tree by `step` rows; return whether there is a row."""
         if self.moment is None:
             return False
         names = [row.info.frame for row in panels.rows(self.moment.snapshot)]
@@ -58,25 +58,25 @@ class SceneQuestion:
         return True
 
     def measure(self) -> None:
-        """Make the frame under the cursor the one that is measured in."""
+        """Make the frame under the cursor the pair's target."""
         self.target, self._picked = self.source, True
 
     def choose(self, frame: str) -> bool:
-        """Move the cursor to a frame; whether it was elsewhere."""
+        """Move the cursor to a frame; return whether it moved."""
         changed = frame != self.source
         self.source, self._picked = frame, True
         return changed
 
     def fix(self) -> None:
-        """Draw the picture in the frame under the cursor; where it is already, in the root."""
+        """Draw the picture in the frame under the cursor; if it already is, in the root."""
         self.fixed = "" if self.fixed == self.source else self.source
 
     def swap(self) -> None:
-        """Ask the other way round."""
+        """Swap target and source."""
         self.target, self.source, self._picked = self.source, self.target, True
 
     def travel(self, step: Duration) -> None:
-        """Go to an earlier moment, or a later one; past now is live."""
+        """Go to an earlier or later time; past the present it is live."""
         now = self.scene.world.clock.now()
         there = (now if self.at is None else self.at) + step
         self.at = None if there >= now else max(there, self.scene.oldest())
@@ -93,7 +93,7 @@ class SceneQuestion:
         return found
 
     def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
-        """The pair asked for; while its frames are overdue and no other was picked, another."""
+        """Return the pair; another one if its frames stopped and the user chose none."""
         asked, snapshot = (self.target, self.source), moment.snapshot
         if not self._picked and all(name in snapshot for name in self._wished):
             # They came late.

@@ -1,4 +1,4 @@
-"""The screen of `tftool robot`: a slider for each joint, the pose of a link, the robot in space."""
+"""Screen of `tftool robot`: a slider for each joint, a link's pose, a 3-D picture."""
 
 from collections.abc import Callable, Sequence
 from typing import ClassVar
@@ -57,7 +57,7 @@ KEYS = f"""\
 
 
 class RobotApp(PanelApp):
-    """The screen of `tftool robot`.
+    """Screen of `tftool robot`.
 
     Args:
         world: Where the robot's frames are.
@@ -128,11 +128,11 @@ class RobotApp(PanelApp):
     # Building
 
     def keys_told(self) -> str:
-        """Say what the keys do."""
+        """Return the key help."""
         return KEYS
 
     def compose(self) -> ComposeResult:
-        """Make the panels."""
+        """Create the panels."""
         yield Panel("header", can_focus=False)
         with Container(id="body"):
             with Container(id="side"):
@@ -143,7 +143,7 @@ class RobotApp(PanelApp):
         yield Panel("keys", "Keys", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start looking."""
+        """Start the updates."""
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.redraw)
 
     def on_resize(self, event: events.Resize) -> None:
@@ -152,7 +152,7 @@ class RobotApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self) -> None:
-        """Give the picture its room: beside the joints, or below them."""
+        """Place the picture beside the joints, or below them."""
         width, height = self.size
         space = self.query_one("#space", SpacePanel)
         space.in_space = self._wants_space and (width >= BESIDE or height >= BELOW)
@@ -167,7 +167,7 @@ class RobotApp(PanelApp):
     # Looking
 
     def redraw(self) -> None:
-        """Draw everything that changed, now."""
+        """Redraw everything that changed."""
         self.guarded(self._draw)
 
     def _draw(self) -> None:
@@ -268,7 +268,7 @@ class RobotApp(PanelApp):
         return [heading, Text(place), Text(turn), self._joint(width)]
 
     def _joint(self, width: int) -> Text:
-        """Say what the joint under the cursor is, and how far it goes."""
+        """Describe the joint under the cursor and its limits."""
         joint, look = self.sliders.chosen, self.look
         if joint is None:
             return Text()
@@ -305,7 +305,7 @@ class RobotApp(PanelApp):
     # Keys
 
     def on_key(self, event: events.Key) -> None:
-        """Take the digits of a position, in the order in which they are typed."""
+        """Take the digits of a position in typing order."""
         sliders, sign = self.sliders, event.character or ""
         if event.key == "enter":
             sliders.enter()
@@ -327,18 +327,18 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_step(self, direction: int) -> None:
-        """Slide the chosen joint."""
+        """Move the chosen joint by a step."""
         self.sliders.step(direction)
         self.redraw()
 
     def action_cancel(self) -> None:
-        """Type nothing after all, and hide the key help."""
+        """Discard typed digits, and hide the key help."""
         self.panel("keys").display = False
         self.sliders.entry = self.sliders.refusal = ""
         self.redraw()
 
     def action_everything(self, what: str) -> None:
-        """Put all joints at zero, in the middle, or anywhere."""
+        """Set all joints to zero, to the middle, or at random."""
         self._put(what, all_of_them=True)
 
     def action_one(self, what: str) -> None:
@@ -355,13 +355,13 @@ class RobotApp(PanelApp):
         self.redraw()
 
     def action_picture(self) -> None:
-        """Show the robot in space, or the joints alone."""
+        """Show the robot in 3-D, or only the joints."""
         self._wants_space = not self._wants_space
         self._arrange()
         self.call_after_refresh(self.redraw)
 
     def action_space(self, key: str) -> None:
-        """Turn the picture."""
+        """Orbit the picture."""
         self.query_one("#space", SpacePanel).press(key, self._chosen_frame())
 
     def action_link(self, step: int) -> None:
@@ -372,7 +372,7 @@ class RobotApp(PanelApp):
 
 
 def _bar(one: Slider, width: int, look: Look) -> str:
-    """A slider, `width` cells wide."""
+    """Draw a slider, `width` cells wide."""
     left, right, track, knob = "[]-o" if look.ascii_only else "├┤─●"
     room = max(3, width - 2)
     share = one.share

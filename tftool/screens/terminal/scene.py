@@ -1,4 +1,4 @@
-"""State of a world at one moment, now or as far back as the buffer reaches."""
+"""State of a world at one time, now or as far back as the buffer reaches."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -32,7 +32,7 @@ FLASH = seconds(0.4)
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two frames, and where the source is in the target, or why that cannot be said."""
+    """Two frames, and the transform between them, or why there is none."""
 
     target: str
     source: str
@@ -42,7 +42,7 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class SceneMoment:
-    """Everything on a screen, frozen.
+    """Everything on a screen at one time, immutable.
 
     Attributes:
         stamp: The moment shown.
@@ -64,30 +64,30 @@ class SceneMoment:
 
 
 class SimulatedTurtle(Protocol):
-    """A turtle as far as it is drawn."""
+    """A turtle's facts needed for drawing."""
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The turtle's name."""
 
     @property
     def pose(self) -> Any:
-        """Its last Pose message: where it is."""
+        """Its last Pose message."""
 
     @property
     def wall_hits(self) -> int:
-        """Return how often it met the wall."""
+        """Return how often it hit the wall."""
 
 
 class Simulator(Protocol):
-    """Source of turtles: the simulator itself, or one elsewhere as it is seen."""
+    """Source of turtles: the simulator, or another process's as observed."""
 
     trail: Trail
     revision: int
 
     @property
     def turtles(self) -> Mapping[str, SimulatedTurtle]:
-        """Every turtle by its name."""
+        """Return every turtle by name."""
 
     @property
     def background(self) -> Color:
@@ -95,7 +95,7 @@ class Simulator(Protocol):
 
 
 class _SeenTurtle(NamedTuple):
-    """Place of a turtle on the field: metres, radians."""
+    """A turtle's position on the field: metres, radians."""
 
     name: str
     x: float
@@ -105,7 +105,7 @@ class _SeenTurtle(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """Facts only the simulator knows of the field at `stamp`: the trail by its length."""
+    """Facts known only to the simulator at `stamp`; a trail by its length."""
 
     stamp: Stamp
     turtles: tuple[_SeenTurtle, ...]
@@ -116,7 +116,7 @@ class _Seen:
 
 
 class Scene:
-    """Looks at a world on request, and remembers what only a simulator knows.
+    """Observer of a world, which keeps a history of what only a simulator knows.
 
     Args:
         world: The world to look at.
@@ -141,7 +141,7 @@ class Scene:
         self._field_frame = ""
 
     def look(self) -> None:
-        """Remember how things stand; called a few dozen times a second."""
+        """Record the present state; called a few dozen times a second."""
         now = self.world.clock.now()
         simulator = self.simulator
         if simulator is None or not (simulator.turtles or self._seen):
@@ -172,14 +172,14 @@ class Scene:
             del self._wiped[wipes]
 
     def oldest(self) -> Stamp:
-        """The earliest moment that can be gone back to."""
+        """Return the earliest available time."""
         now = self.world.clock.now()
         snapshot = self.world.buffer.snapshot(now)
         held = [info.oldest for info in snapshot.frames if info.oldest and not info.is_static]
         return min(max(min(held, default=now), now - self.world.buffer.cache_time), now)
 
     def moment(self, at: Stamp | None, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Everything at one moment.
+        """Return everything at one time.
 
         Args:
             at: Which; the present if None.
@@ -205,14 +205,14 @@ class Scene:
         )
 
     def newest(self, target: str, source: str) -> Stamp | None:
-        """The newest moment at which a pair can be told; None where it never can, or always."""
+        """Return the newest time at which a pair is known; None if never, or always."""
         try:
             return self.world.buffer.get_latest_common_time(target, source) or None
         except TransformException:
             return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
-        """Return this moment with another pair; it need not be in the buffer any more."""
+        """Return this moment with another pair; it may have left the buffer."""
         snapshot, pair = moment.snapshot, (target, source)
         wanted = self._fixed(snapshot, pair, fixed)
         if moment.picture.fixed != wanted:
@@ -242,7 +242,7 @@ class Scene:
         return Pair(target, source, found)
 
     def _as_of(self, info: FrameInfo, at: Stamp) -> FrameInfo:
-        """A link as it was known at an earlier moment: no sample of later counts."""
+        """Return a link as it was known at an earlier time, without later samples."""
         if info.parent is None or info.is_static or info.newest <= at:
             return info
         stamps = self.world.buffer.samples(info.frame).stamps
@@ -260,7 +260,7 @@ class Scene:
         )
 
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
-        """Give the age of every frame as rviz counts it: since its stamp last changed.
+        """Return every frame's age as in rviz: since its stamp last changed.
 
         In the past what counts is the stamp itself: its time of arrival is not recorded.
         """
@@ -311,7 +311,7 @@ class Scene:
         return picture if seen is None else self._with_field(picture, snapshot, lookup, seen, at)
 
     def _latest(self, snapshot: Snapshot, fixed: str) -> Lookup:
-        """A lookup of the latest there is: the snapshot has it, but for frames between two."""
+        """Return a lookup of the latest, from the snapshot where possible."""
         inside = in_snapshot(snapshot)
         if fixed in snapshot and snapshot.frame(fixed).parent is None:
             return inside
@@ -332,7 +332,7 @@ class Scene:
         seen: _Seen,
         at: Stamp | None,
     ) -> PlanePicture:
-        """Lay the turtles' field into the picture where the parent of their frames lies."""
+        """Place the turtles' field in the picture, at the parent of their frames."""
         parents = [
             parent
             for turtle in seen.turtles
@@ -376,7 +376,7 @@ def _sides(x: float, y: float) -> list[str]:
 
 
 def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
-    """A turtle whose frame was not broadcast: it stands where its simulator says."""
+    """Return a turtle without a broadcast frame, at its simulator's position."""
     there = pose @ transform_from_pose(turtle.x, turtle.y, turtle.theta)
     ahead = there.rotate((1.0, 0.0, 0.0))[:2]
     return PlaneFrame(

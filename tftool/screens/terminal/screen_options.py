@@ -1,4 +1,4 @@
-"""Options of a screen, abilities of its terminal, and the division of its room."""
+"""Options of a screen, abilities of its terminal, and its layout."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -36,7 +36,7 @@ class Setting:
 
 
 def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting) -> Setting:
-    """Complete `wanted` by what the environment says of the terminal.
+    """Complete `wanted` with what the environment says about the terminal.
 
     Args:
         environment: Its TERM, NO_COLOR, COLORFGBG and LC_ALL count.
@@ -82,7 +82,7 @@ SCALE = 5
 
 @dataclass(frozen=True, slots=True)
 class ScreenLayout:
-    """Sizes with their borders, in cells; 0 for whatever is left.
+    """Sizes with borders, in cells; 0 for the remaining space.
 
     Attributes:
         small: Whether there is room for nothing.
@@ -104,7 +104,7 @@ class ScreenLayout:
 
 
 def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
-    """Share a screen out.
+    """Divide a screen among its panels.
 
     Args:
         width: Its columns.

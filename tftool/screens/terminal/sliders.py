@@ -1,4 +1,4 @@
-"""The joints of a robot as sliders: which is chosen, where each is, and what keys change."""
+"""A robot's joints as sliders: the chosen one, positions, and changes by keys."""
 
 import math
 import random
@@ -18,19 +18,19 @@ FINE = 10
 
 
 class Positions(Protocol):
-    """Positions of joints, and their setter: `nodes.joints.JointStatePublisher`."""
+    """Positions of joints, and how to set them: `nodes.joints.JointStatePublisher`."""
 
     @property
     def positions(self) -> Mapping[str, float]:
-        """By joint, those that mimic included."""
+        """Positions by joint, including mimics."""
 
     def move(self, joint: str, position: float) -> None:
-        """Put a joint elsewhere."""
+        """Move a joint."""
 
 
 @dataclass(frozen=True, slots=True)
 class Slider:
-    """One joint as it is shown.
+    """One joint as shown.
 
     Attributes:
         joint: The joint.
@@ -48,7 +48,7 @@ class Slider:
 
     @property
     def share(self) -> float | None:
-        """Return its place between its limits, from 0 to 1; None where that means nothing."""
+        """Position between its limits, from 0 to 1; None without limits."""
         lower, upper = self.range
         if self.position is None or upper <= lower:
             return None
@@ -56,7 +56,7 @@ class Slider:
 
 
 class Sliders:
-    """The joints of a robot that move, one of them chosen.
+    """A robot's movable joints, one of them chosen.
 
     Attributes:
         robot: The robot.
@@ -65,7 +65,7 @@ class Sliders:
     """
 
     def __init__(self, robot: Robot, mover: Positions | None, *, seed: int = 0) -> None:
-        """Begin with the first joint.
+        """Choose the first joint.
 
         Args:
             robot: The robot.
@@ -88,12 +88,12 @@ class Sliders:
 
     @property
     def chosen(self) -> RobotJoint | None:
-        """The joint that keys move; None for a robot without any."""
+        """The joint that keys move; None for a robot without joints."""
         return self._joints[self._chosen] if self._joints else None
 
     @property
     def sliders(self) -> Sequence[Slider]:
-        """All of them, in the order of the description."""
+        """Return all sliders, in the description's order."""
         known = self._heard if self._mover is None else self._mover.positions
         return [
             Slider(
@@ -107,7 +107,7 @@ class Sliders:
         ]
 
     def hear(self, positions: Mapping[str, float]) -> None:
-        """Take in what others say about the joints."""
+        """Update positions from other publishers."""
         for name, position in positions.items():
             if self.robot.takes(name) and math.isfinite(position):
                 self._heard[name] = position
@@ -115,7 +115,7 @@ class Sliders:
     # What keys do
 
     def choose(self, step: int) -> None:
-        """Choose the next joint, or the one before, past those that follow others."""
+        """Choose the next or previous joint, without mimics."""
         self.entry = self.refusal = ""
         count = len(self._joints)
         place = self._chosen
@@ -126,7 +126,7 @@ class Sliders:
                 return
 
     def step(self, direction: int, *, fine: bool = False) -> None:
-        """Slide the chosen joint a step towards one of its limits."""
+        """Move the chosen joint a step towards a limit."""
         joint = self.chosen
         if joint is None or self._mover is None:
             return
@@ -136,7 +136,7 @@ class Sliders:
         self._move(joint, min(upper, max(lower, position)))
 
     def type(self, sign: str) -> None:
-        """Add a sign to the typed text: a digit, ".", "-", or a backspace, which takes one away."""
+        """Add a typed character: a digit, ".", "-", or a backspace, which removes one."""
         self.refusal = ""
         if sign == "\b":
             self.entry = self.entry[:-1]
@@ -161,19 +161,19 @@ class Sliders:
         self._move(joint, position)
 
     def zero(self, *, all_of_them: bool = True) -> None:
-        """Put joints at zero, or as near to it as their limits allow."""
+        """Set joints to zero, or to the nearest position within limits."""
         for joint in self._meant(all_of_them):
             lower, upper = joint.limits or (0.0, 0.0)
             self._move(joint, min(upper, max(lower, 0.0)))
 
     def centre(self, *, all_of_them: bool = True) -> None:
-        """Put joints in the middle of their limits."""
+        """Set joints to the middle of their limits."""
         for joint in self._meant(all_of_them):
             lower, upper = slide_range(joint)
             self._move(joint, (lower + upper) / 2.0)
 
     def scatter(self, *, all_of_them: bool = True) -> None:
-        """Put joints anywhere between their limits."""
+        """Set joints to random positions within their limits."""
         for joint in self._meant(all_of_them):
             lower, upper = slide_range(joint)
             self._move(joint, self._random.uniform(lower, max(lower, upper)))
@@ -198,12 +198,12 @@ class Sliders:
 
 
 def slide_range(joint: RobotJoint) -> tuple[float, float]:
-    """The least and greatest position a joint is slid to: its limits, else a turn."""
+    """Return a slider's minimum and maximum: the joint's limits, else a full turn."""
     return joint.limits or (-math.pi, math.pi)
 
 
 def tip_of(robot: Robot) -> str:
-    """The link that is farthest from the root, the first of several: a hand, most often.
+    """Return the link farthest from the root, usually a hand; the first if there are several.
 
     Links behind a floating joint have no frame here, and do not count.
     """

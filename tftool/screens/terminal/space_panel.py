@@ -1,4 +1,4 @@
-"""The panel that shows frames in space, and the keys and the mouse that turn them."""
+"""Panel with frames in 3-D, orbited with keys and mouse."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -55,7 +55,7 @@ ORBIT_BINDINGS = [
 
 
 class SpacePanel(Panel):
-    """Frames in space.
+    """Frames in 3-D.
 
     Attributes:
         camera: From where they are seen.
@@ -108,13 +108,13 @@ class SpacePanel(Panel):
         return setting is None or bool(setting.colors)
 
     def frame_at(self, x: int, y: int) -> str | None:
-        """Return the frame nearest to a cell of the panel, within three cells of it."""
+        """Return the frame nearest to a cell of the panel, at most three cells away."""
         return None if self._canvas is None else self._canvas.frame_at(x, y)
 
     # Keys and the mouse
 
     def press(self, key: str, chosen: str = "") -> bool:
-        """Take a key; return whether it means something here.
+        """Handle a key; return whether it has a meaning here.
 
         Args:
             key: Its name.
@@ -132,12 +132,12 @@ class SpacePanel(Panel):
         return True
 
     def on_mouse_down(self, event: events.MouseDown) -> None:
-        """Begin to drag."""
+        """Start a drag."""
         if self.in_space:
             self._dragged = event.screen_x, event.screen_y
 
     def on_mouse_move(self, event: events.MouseMove) -> None:
-        """Turn with the left button, move with another one."""
+        """Orbit with the left button, pan with another one."""
         if self._dragged is None or not self.in_space:
             return
         event.stop()
@@ -153,15 +153,15 @@ class SpacePanel(Panel):
         self._paint()
 
     def on_mouse_up(self) -> None:
-        """End dragging."""
+        """End a drag."""
         self._dragged = None
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Come nearer."""
+        """Zoom in."""
         self._wheel(event, 1)
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Go back."""
+        """Zoom out."""
         self._wheel(event, -1)
 
     def _wheel(self, event: events.MouseEvent, steps: int) -> None:
@@ -177,7 +177,7 @@ def frames_in_space(
     ages: Mapping[str, float] | None = None,
     lookup: Lookup | None = None,
 ) -> tuple[SpaceFrame, ...]:
-    """Return the frames of the tree of `fixed`, as seen from there.
+    """Return the frames of the tree of `fixed`, relative to it.
 
     Args:
         snapshot: The frames.
@@ -197,7 +197,7 @@ def frames_in_space(
 
 
 def is_tall(frames: tuple[SpaceFrame, ...]) -> bool:
-    """Whether frames are farther apart upwards than a view from above can show."""
+    """Whether frames differ in height so much that a top view hides it."""
     if len(frames) < 2:
         return False
     across, along, up = (

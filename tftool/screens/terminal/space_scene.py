@@ -1,4 +1,4 @@
-"""Moments of a scene as pictures in space."""
+"""3-D pictures of a scene's moments."""
 
 from tftool.drawing import theme
 from tftool.drawing.space import Line3, SpacePicture
@@ -10,7 +10,7 @@ MOST_STROKES = 3000
 
 
 def space_picture(moment: SceneMoment) -> SpacePicture:
-    """Return the frames of a moment in space, with the turtles' field and drawing."""
+    """Return a moment's frames in 3-D, with the turtles' field and trails."""
     plane = moment.picture
     frames = frames_in_space(moment.snapshot, plane.fixed, moment.ages)
     lines: list[Line3] = []
@@ -25,7 +25,7 @@ def space_picture(moment: SceneMoment) -> SpacePicture:
 
 
 def opens_in_space(moment: SceneMoment) -> bool:
-    """Whether a view from above would put frames that do not move over each other."""
+    """Whether a top view would show static frames on top of each other."""
     moves = any(not info.is_static and info.parent for info in moment.snapshot.frames)
     if moves or moment.picture.field is not None:
         return False

@@ -1,4 +1,4 @@
-"""Painting of a screen's text, and breaking into lines."""
+"""Styles of a screen's text, and wrapping."""
 
 from typing import NamedTuple
 
@@ -19,22 +19,22 @@ class Look(NamedTuple):
 
     @property
     def more(self) -> str:
-        """Return the sign for text that was left out."""
+        """Return the sign for omitted text."""
         return "~" if self.ascii_only else "…"
 
     def ink(self, color: Color, *, bold: bool = False) -> Style:
-        """A style with this ink."""
+        """Return a style with this colour."""
         return theme.ink(color, bold=bold)
 
     def of_name(self, name: str) -> Color:
-        """A name's colour, dark enough to be read on a light panel."""
+        """Return a name's colour, dark enough for a light panel."""
         return theme.readable(theme.of_name(name), self.palette)
 
 
 def wrapped(
     words: str, width: int, style: Style | None = None, *, first: int | None = None
 ) -> list[Text]:
-    """Break a sentence into lines, at blanks where there are any.
+    """Wrap a sentence into lines, at blanks where possible.
 
     Args:
         words: The sentence; it may hold strangers' names.

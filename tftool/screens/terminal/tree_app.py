@@ -1,4 +1,4 @@
-"""The screen of `tftool tree --watch`: the tree as it changes, scrolled, sorted and filtered."""
+"""Screen of `tftool tree --watch`: a live tree, scrolled, sorted and filtered."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ Marks = Mapping[str, Sequence[str]]
 
 @dataclass(slots=True)
 class TreeWindow:
-    """Visible part of a tree: its root, the order, the frames.
+    """Visible part of a tree: its root, order, and frames.
 
     Attributes:
         first: The row at the top.
@@ -55,7 +55,7 @@ class TreeWindow:
         ascii_only: bool,
         history: TrafficHistory = NO_HISTORY,
     ) -> list[Text]:
-        """So many lines: the heading, the rows there is room for, and how many there are more."""
+        """Return lines: the heading, the rows that fit, and the number of others."""
         if not snapshot.frames:
             return [Text(NOTHING)][:height]
         found = compact(
@@ -87,7 +87,7 @@ class TreeWindow:
         return Text("   ".join(parts), style="bold")
 
     def sort(self) -> None:
-        """Take the next order."""
+        """Change to the next order."""
         orders = list(TreeOrder)
         self.order = orders[(orders.index(self.order) + 1) % len(orders)]
         self.first = 0
@@ -108,7 +108,7 @@ KEYS = f"""\
 
 
 class TreeWatch(PanelApp, inherit_bindings=False):
-    """The screen of `tftool tree --watch`.
+    """Screen of `tftool tree --watch`.
 
     Args:
         world: Whose frames.
@@ -164,18 +164,18 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     # Building
 
     def keys_told(self) -> str:
-        """Say what the keys do."""
+        """Return the key help."""
         return KEYS
 
     def compose(self) -> ComposeResult:
-        """Make the panels."""
+        """Create the panels."""
         yield Panel("header", can_focus=False)
         yield SpacePanel("rows", "Frames", can_focus=False)
         yield Panel("footer", can_focus=False)
         yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start looking."""
+        """Start the updates."""
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
         self.call_after_refresh(self.look_again)
 
@@ -193,7 +193,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self._shown(self._look)
 
     def redraw(self) -> None:
-        """Draw the state read last, with the present options."""
+        """Draw the last state with the present options."""
         self._shown(self._draw)
 
     def _shown(self, work: Callable[[], None]) -> None:
@@ -279,7 +279,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     # Keys
 
     def on_key(self, event: events.Key) -> None:
-        """Scroll, sort, filter or leave."""
+        """Handle a key: scroll, sort, filter or leave."""
         event.stop()
         self.news = ""
         rows = self.query_one("#rows", SpacePanel)
@@ -308,7 +308,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.redraw()
 
     def _next_followed(self, rows: SpacePanel) -> str:
-        """Return the frame after the one that is followed; none after the last."""
+        """Return the frame after the followed one; none after the last."""
         names = [info.frame for info in self._seen[0].frames] if self._seen else []
         names.append("")
         follows = rows.camera.follows
@@ -334,11 +334,11 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.window.first = max(0, self.window.first + steps.get(key, 0))
 
     def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
-        """Scroll."""
+        """Scroll down."""
         self.window.first += 3
         self.redraw()
 
     def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
-        """Scroll back."""
+        """Scroll up."""
         self.window.first = max(0, self.window.first - 3)
         self.redraw()

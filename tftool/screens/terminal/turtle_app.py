@@ -1,4 +1,4 @@
-"""The terminal app: the field, the tree, a pair of frames, the log; keys drive turtle1.
+"""Terminal app: field, tree, a pair of frames, log; keys drive turtle1.
 
 It looks at a world and never changes it, but for the keys it hands to `press`.
 Time in it is the world's; how often it looks is real time, so that a world at
@@ -46,7 +46,7 @@ Press = Callable[[str], object]
 
 
 class TurtleApp(PanelApp):
-    """The screen of `tftool demo` and `tftool teleop`.
+    """Screen of `tftool demo` and `tftool teleop`.
 
     Args:
         scene: Where to look.
@@ -150,14 +150,14 @@ class TurtleApp(PanelApp):
         scene.world.log.listen(self._journal.add, "screen")
 
     def begin(self, stamp: Stamp) -> None:
-        """Count time from now on: the world begins to live. A complete source began before."""
+        """Count time from now on, when the world starts. A complete source started before."""
         if self.setting.at is None:
             self.scene.start = stamp
 
     # Building
 
     def compose(self) -> ComposeResult:
-        """Make the panels; `_arrange` gives them their sizes."""
+        """Create the panels; `_arrange` sets their sizes."""
         yield Panel("header", can_focus=False)
         yield Panel("banner", can_focus=False)
         with Container(id="body"):
@@ -173,7 +173,7 @@ class TurtleApp(PanelApp):
         yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
     def on_mount(self) -> None:
-        """Start looking."""
+        """Start the updates."""
         self.screen.set_class(not self.setting.colors, "mono")
         self.panel("field").focus()
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
@@ -216,7 +216,7 @@ class TurtleApp(PanelApp):
     # Looking
 
     def look_again(self) -> None:
-        """Draw what there is by now, unless the last time took so long that it is too soon."""
+        """Draw the present state, unless the last drawing took too long for another so soon."""
         loop = asyncio.get_running_loop()
         if loop.time() < self._rest_until:
             return
@@ -234,13 +234,13 @@ class TurtleApp(PanelApp):
         self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
 
     def keys_told(self) -> str:
-        """Say what the keys do that do something here."""
+        """Return the help for keys that work here."""
         return keys.told(
             drives=self.press_key is not None, chooses=self.setting.scenarios is not None
         )
 
     def redraw(self) -> None:
-        """Draw everything that changed, now."""
+        """Redraw everything that changed."""
         self._stale = True
         self.guarded(lambda: self._draw(panels_too=True))
 
@@ -295,7 +295,7 @@ class TurtleApp(PanelApp):
 
     @property
     def field(self) -> SpacePanel:
-        """The panel of the picture."""
+        """Return the picture's panel."""
         return self.query_one("#field", SpacePanel)
 
     def _draw_panels(self, moment: SceneMoment) -> None:
@@ -329,7 +329,7 @@ class TurtleApp(PanelApp):
         plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
 
     def _draw_log(self, moment: SceneMoment) -> None:
-        """The newest line in a strip; where the log has the keys, all there is room for."""
+        """Return the newest log line; with the log focused, as many as fit."""
         log, look = self.panel("log"), self.look
         if log.has_focus:
             lines = self._journal.lines(
@@ -360,7 +360,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def on_mouse_down(self, event: events.MouseDown) -> None:
-        """Pick the frame under the pointer, or begin to drag the picture."""
+        """Choose the frame under the pointer, or start dragging the picture."""
         name, x, y = self._under(event)
         moment = self._question.moment
         if moment is None:
@@ -391,11 +391,11 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def on_mouse_up(self) -> None:
-        """Let the picture go."""
+        """End a drag."""
         self._dragged = None
 
     def _under(self, event: events.MouseEvent) -> tuple[str, int, int]:
-        """The panel under the pointer, and the cell in it."""
+        """Return the panel under the pointer, and the cell in it."""
         for name in ("field", "tree", "pair", "log"):
             panel = self.panel(name)
             inside = panel.content_region
@@ -406,13 +406,13 @@ class TurtleApp(PanelApp):
     # Keys
 
     async def on_event(self, event: events.Event) -> None:
-        """Note that a person is there."""
+        """Record that a person is present."""
         if isinstance(event, events.Key | events.MouseDown) and self._idle is not None:
             self._idle.touch()
         await super().on_event(event)
 
     def _is_over(self) -> bool:
-        """Whether keys or scenarios lie over the picture."""
+        """Whether the key help or the scenarios cover the picture."""
         return bool(self.panel("keys").display or self.panel("scenarios").display)
 
     def _keys_go_to(self) -> str:
@@ -421,7 +421,7 @@ class TurtleApp(PanelApp):
         return (self.focused.id or "") if self.focused else ""
 
     def action_drive(self, key: str) -> None:
-        """Hand a key to the teleop node."""
+        """Pass a key to the teleop node."""
         if self.press_key is not None:
             try:
                 self.press_key(key)
@@ -429,7 +429,7 @@ class TurtleApp(PanelApp):
                 self.scene.world.log.warn("screen", str(refusal))
 
     def action_steer(self, key: str) -> None:
-        """Drive; or, in a panel of text, move there."""
+        """Drive; in a text panel, move the cursor."""
         focused = self._keys_go_to()
         step = {"up": -1, "down": 1}.get(key, 0)
         if focused == "scenarios":
@@ -445,11 +445,11 @@ class TurtleApp(PanelApp):
             self.action_drive(key)
 
     def _scroll(self, lines: int) -> None:
-        """Show earlier lines of the log, or later ones."""
+        """Scroll the log."""
         self._back = max(0, min(self._back + lines, len(self.scene.world.log.records)))
 
     def action_panel(self, step: int) -> None:
-        """Give the keys to the next panel."""
+        """Focus the next panel."""
         if step > 0:
             self.screen.focus_next()
         else:
@@ -457,12 +457,12 @@ class TurtleApp(PanelApp):
         self.call_after_refresh(self.redraw)
 
     def action_log(self) -> None:
-        """Open the log, or close it."""
+        """Open or close the log."""
         log = self.panel("log")
         (self.panel("field") if log.has_focus else log).focus()
 
     def on_descendant_focus(self) -> None:
-        """Fit the panels: the log is open while it has the keys."""
+        """Arrange the panels: the log is open while focused."""
         self._fit_panels()
 
     def _fit_panels(self) -> None:
@@ -476,7 +476,7 @@ class TurtleApp(PanelApp):
             self.redraw()
 
     def action_measure(self) -> None:
-        """Make the frame under the cursor the one that is measured in."""
+        """Make the frame under the cursor the pair's target."""
         if self.panel("scenarios").display:
             self.chosen = self._offered[self._offer][0]
             self.exit()
@@ -485,7 +485,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_fix(self) -> None:
-        """Draw the picture in the frame under the cursor, or again in the root of its tree."""
+        """Draw the picture in the frame under the cursor, or again in its tree's root."""
         if self.setting.drive_only:
             # Teleop has no cursor: there the letter is what it is in either case.
             self.action_drive("f")
@@ -494,12 +494,12 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_zoom(self, steps: int) -> None:
-        """Come nearer, or go back."""
+        """Zoom in or out."""
         (self.field.camera if self.field.in_space else self._plane.camera).zoom(steps)
         self.redraw()
 
     def action_pan(self, columns: int, rows: int) -> None:
-        """Move the picture; turn around it in space."""
+        """Pan the picture; orbit it in 3-D."""
         if self.field.in_space:
             self.field.camera.turn(-columns / 6, rows / 3)
         else:
@@ -507,27 +507,27 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_picture(self) -> None:
-        """Show the frames in space, or from above."""
+        """Switch between 3-D and top view."""
         if not self.setting.drive_only:
             self._is_decided, self.field.in_space = True, not self.field.in_space
             self.redraw()
 
     def action_space(self, key: str) -> None:
-        """Turn the frames in space."""
+        """Orbit the 3-D picture."""
         self.field.press(key, self._question.source)
 
     def action_fit(self) -> None:
-        """Show all there is again."""
+        """Fit everything again."""
         (self.field.camera if self.field.in_space else self._plane.camera).fit()
         self.redraw()
 
     def action_swap(self) -> None:
-        """Ask the other way round."""
+        """Swap target and source."""
         self._question.swap()
         self.redraw()
 
     def action_travel(self, step: Duration) -> None:
-        """Show an earlier moment, or a later one; past now is live."""
+        """Show an earlier or later time; past the present it is live."""
         self._question.travel(step)
         self.redraw()
 
@@ -544,7 +544,7 @@ class TurtleApp(PanelApp):
         self.redraw()
 
     def action_scenarios(self) -> None:
-        """Show what else there is to be seen, or hide it."""
+        """Show or hide the list of scenarios."""
         if self.setting.scenarios is None:
             return
         panel = self.panel("scenarios")

@@ -1,4 +1,4 @@
-"""Every screen over a world: a textual app of panels that reads keys, fails and ends in one way."""
+"""Base of all screens over a world: a textual app of panels with common keys and errors."""
 
 import asyncio
 import os
@@ -27,7 +27,7 @@ from tftool.world.stopper import leave_screen
 
 
 def input_events(sent: str) -> Iterable[Message]:
-    """Return a terminal's input as the keys and mouse moves that Textual makes of it.
+    """Return the keys and mouse moves that Textual parses from a terminal's input.
 
     The one place that knows where Textual keeps its parser, which it does not promise: where a
     version has moved it, nothing is made.
@@ -40,7 +40,7 @@ def input_events(sent: str) -> Iterable[Message]:
 
 
 def tolerant(driver: type[Driver]) -> type[Driver]:
-    """A driver that reads on after bytes that are no UTF-8, where it reads bytes itself.
+    """Return a driver that ignores bytes which are not UTF-8, if it reads bytes itself.
 
     Textual's own takes them for a failure of the app: a terminal of another encoding, or a
     cat on the keyboard, would end it with a traceback.
@@ -68,7 +68,7 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
 
 
 class Panel(Widget):
-    """Lines of text that repaints only those that changed."""
+    """Text lines that repaint only where they changed."""
 
     def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
         super().__init__(id=name)
@@ -78,7 +78,7 @@ class Panel(Widget):
         self._strips: list[Strip] = []
 
     def on_mount(self) -> None:
-        """Stand under its title."""
+        """Set the title."""
         if self._title:
             self.border_title = self._title
 
@@ -98,18 +98,18 @@ class Panel(Widget):
                 self.refresh(Region(0, y, width, 1))
 
     def on_resize(self) -> None:
-        """Cut the lines to the new size: they may have come before the panel had any."""
+        """Cut the lines to the new size; they may be older than the panel's first size."""
         self.show(self._lines)
 
     def render_line(self, y: int) -> Strip:
-        """Give one line to textual."""
+        """Return one line to textual."""
         if y < len(self._strips):
             return self._strips[y]
         return Strip.blank(self.size.width, self.rich_style)
 
 
 def themes() -> list[Theme]:
-    """Give `theme`'s two palettes to textual, as tftool-dark and tftool-light."""
+    """Register `theme`'s two palettes with textual, as tftool-dark and tftool-light."""
     return [
         Theme(
             name=name,
@@ -127,7 +127,7 @@ def themes() -> list[Theme]:
 
 
 class WorldApp(App[None]):
-    """A screen that shows a world, until it is left, interrupted or fails.
+    """Screen that shows a world until it is left, interrupted or fails.
 
     Attributes:
         world: The world.
@@ -163,14 +163,14 @@ class WorldApp(App[None]):
         self.interrupted = False
 
     def begin(self, stamp: Stamp) -> None:
-        """The world begins to live; what counts time from then says so."""
+        """Note that the world starts; subclasses start their clocks here."""
 
     def get_driver_class(self) -> type[Driver]:
-        """Give what reads the keys."""
+        """Return the driver that reads keys."""
         return tolerant(super().get_driver_class())
 
     def on_mount(self) -> None:
-        """Let the world's nodes run, and say when the first picture is there."""
+        """Start the world's nodes, and report when the first picture is shown."""
         # textual makes new tasks start eagerly where Python can; the nodes of the world on
         # this loop are to run in the order they always run in.
         asyncio.get_running_loop().set_task_factory(None)
@@ -179,7 +179,7 @@ class WorldApp(App[None]):
         self.call_after_refresh(self.ready.set)
 
     def guarded(self, work: Callable[[], None]) -> None:
-        """Do some drawing; if it raises, that is kept and the screen ends."""
+        """Run a drawing; if it raises, keep the error and end the screen."""
         try:
             work()
         except Exception as error:
@@ -187,17 +187,17 @@ class WorldApp(App[None]):
             self.exit()
 
     def action_leave(self) -> None:
-        """End."""
+        """End the screen."""
         self.exit()
 
     def action_interrupt(self) -> None:
-        """End as an interrupt does: in raw mode Ctrl-C comes as a key."""
+        """End as on an interrupt: in raw mode Ctrl-C arrives as a key."""
         self.interrupted = True
         self.exit()
 
 
 class PanelApp(WorldApp):
-    """A screen of panels in tftool's own colours, light or dark, with one that tells the keys."""
+    """Screen of panels in tftool's colours, light or dark, with a panel of key help."""
 
     KEYS_WIDTH: ClassVar[int]
     """Cells that the panel of the keys takes."""
@@ -215,44 +215,44 @@ class PanelApp(WorldApp):
         self._light = self.setting.light
 
     def on_mount(self) -> None:
-        """Put on the colours."""
+        """Apply the colours."""
         for one in themes():
             self.register_theme(one)
         self._shade()
         self.screen.set_class(self.setting.ascii_only, "ascii")
 
     def panel(self, name: str) -> Panel:
-        """One of the panels, by its id."""
+        """Return a panel by its id."""
         return self.query_one(f"#{name}", Panel)
 
     @property
     def look(self) -> Look:
-        """Return the style of the panels."""
+        """Style of the panels."""
         palette = theme.LIGHT if self._light else theme.DARK
         return Look(palette, self.setting.ascii_only)
 
     def redraw(self) -> None:
-        """Draw everything that changed, now."""
+        """Redraw everything that changed."""
         raise NotImplementedError
 
     def action_shade(self) -> None:
-        """Change between light and dark."""
+        """Switch between light and dark."""
         self._light = not self._light
         self._shade()
         self.redraw()
 
     def action_keys(self) -> None:
-        """Show or hide what every key does."""
+        """Show or hide the key help."""
         panel = self.panel("keys")
         panel.display = not panel.display
         self._place_keys(self.size)
 
     def on_resize(self, event: events.Resize) -> None:
-        """Keep the keys in the middle."""
+        """Keep the key help in the middle."""
         self._place_keys(event.size)
 
     def keys_told(self) -> str:
-        """Say what the keys do, a line each."""
+        """Return the key help, a line per key."""
         raise NotImplementedError
 
     def _place_keys(self, size: Size) -> None:
@@ -274,7 +274,7 @@ class PanelApp(WorldApp):
 
 
 async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
-    """Put the app on the terminal while its world lives, until one of them ends.
+    """Run the app on the terminal beside its world, until one of them ends.
 
     Whatever ends it, the terminal is restored before this returns or raises.
 

@@ -1,4 +1,4 @@
-"""A recording's other topics on their way out: bytes as they were recorded, when they are due."""
+"""Playback of a recording's other topics: recorded bytes, sent when due."""
 
 import heapq
 from collections.abc import Callable, Iterator
@@ -27,7 +27,7 @@ MOST_WAITING_BYTES: Final = 256_000_000
 
 
 class TopicFeed:
-    """Sends the messages of every topic that carries no transforms, and whose type is known.
+    """Sends the messages of every topic without transforms and with a known type.
 
     Attributes:
         topics: Names of those that are sent.
@@ -35,7 +35,7 @@ class TopicFeed:
     """
 
     def __init__(self, link: Link, source: Source, clock: PlayClock, node: str) -> None:
-        """Show what will be published.
+        """Announce the topics to publish.
 
         Args:
             link: By which the messages go out.
@@ -70,7 +70,7 @@ class TopicFeed:
         self._read_to: Stamp | None = 0
 
     def seek(self, moment: Stamp) -> None:
-        """Continue from a moment; the file is read again."""
+        """Continue from a time; the file is read again."""
         self._messages = self._source.messages(self.topics) if self.topics else iter(())
         self._waiting.clear()
         self._bytes, self._read_to = 0, 0
@@ -80,7 +80,7 @@ class TopicFeed:
             self._read(moment)
 
     def send_until(self, moment: Stamp) -> None:
-        """Send everything due up to a moment."""
+        """Send everything due up to a time."""
         self._read(moment)
         while self._waiting and self._waiting[0][0] <= moment:
             message = self._take()
@@ -88,11 +88,11 @@ class TopicFeed:
             self._read(moment)
 
     def next_due(self) -> Stamp | None:
-        """The moment of the next message; None where there is none any more."""
+        """Return the time of the next message; None at the end."""
         return self._waiting[0][0] if self._waiting else None
 
     def close(self) -> None:
-        """Send no more."""
+        """Close the publishers."""
         for sender in self._senders.values():
             sender.close()
 
@@ -102,7 +102,7 @@ class TopicFeed:
         return message
 
     def _read(self, moment: Stamp) -> None:
-        """Read on until nothing that is due by a moment can still come."""
+        """Read until no message due by a time can follow."""
         while (
             self._read_to is not None
             and (self._read_to <= moment + AHEAD or not self._waiting)
@@ -134,7 +134,7 @@ class TopicFeed:
 
 
 def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None]:
-    """A topic's type on the wire, and what makes CDR of its bytes; None where they are it.
+    """Return a topic's type on the wire, and the conversion to CDR; None if already CDR.
 
     Raises:
         InputError: If it cannot be sent, for what reason.

@@ -1,4 +1,4 @@
-"""Graph of a session: processes, nodes, and what they publish, subscribe and serve."""
+"""Graph of a session: processes, nodes, and their topics and services."""
 
 import re
 from collections.abc import Iterable
@@ -23,7 +23,7 @@ MOST_DOMAINS: Final = 100
 
 @dataclass(frozen=True, slots=True)
 class GraphEntity:
-    """A node of another process, or what one offers or uses.
+    """Another process's node, or an entity of one.
 
     Attributes:
         kind: One of `KINDS`.
@@ -49,7 +49,7 @@ class GraphEntity:
 
 
 class Role(StrEnum):
-    """Role of a tftool for the others of its session.
+    """A tftool's role for the others in its session.
 
     Attributes:
         HOST: It runs the world that others look at.
@@ -64,7 +64,7 @@ class Role(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Process:
-    """A tftool in the session, as it presents itself.
+    """A tftool in the session, as it announces itself.
 
     Attributes:
         domain: Number of its ROS domain.
@@ -103,7 +103,7 @@ class Graph:
         self._foreign: set[int] = set()
 
     def add(self, key: str, found: GraphEntity | Process) -> GraphEntity | Process | None:
-        """Enter something under the key by which it is taken out again.
+        """Add an entity under a key for its removal.
 
         Returns:
             The new entity; None when nothing is new.
@@ -124,7 +124,7 @@ class Graph:
         return found
 
     def remove(self, key: str) -> GraphEntity | Process | None:
-        """Take something out.
+        """Remove an entity.
 
         Returns:
             The entity that is gone; None when it was not known.
@@ -139,41 +139,41 @@ class Graph:
         return gone
 
     def get(self, key: str) -> GraphEntity | Process | None:
-        """Return the entry under a key; None if there is none."""
+        """Return the entity of a key; None if there is none."""
         return self._entities.get(key) or self._processes.get(key)
 
     @property
     def foreign_domains(self) -> frozenset[int]:
-        """Other domains that were heard of."""
+        """Return other domains that were noticed."""
         return frozenset(self._foreign)
 
     def processes(self) -> list[Process]:
-        """Every tftool, the one that is there longest first."""
+        """Return every tftool, the oldest in the session first."""
         return sorted(self._processes.values(), key=lambda one: (one.since, one.session))
 
     def process(self, session: str) -> Process | None:
-        """The tftool that a session belongs to."""
+        """Return the tftool of a session."""
         return next((one for one in self._processes.values() if one.session == session), None)
 
     def entities(self, *kinds: str, name: str | None = None) -> list[GraphEntity]:
-        """Everything of some kinds, of one name if one is given."""
+        """Return all entities of some kinds, or those of one name."""
         found = self._entities if name is None else self._by_name.get(name, {})
         return [one for one in found.values() if not kinds or one.kind in kinds]
 
     @property
     def is_empty(self) -> bool:
-        """Whether no other process is there."""
+        """Whether there is no other process."""
         return not self._entities and not self._processes
 
     @property
     def sessions(self) -> frozenset[str]:
-        """The sessions that show something."""
+        """Return the sessions with entities."""
         found = {one.session for one in self._processes.values()}
         return frozenset(found | {one.session for one in self._entities.values()})
 
     @property
     def has_sources(self) -> bool:
-        """Whether a process is there that brings something; guests only wait."""
+        """Whether a process provides data; guests only wait for it."""
         guests = set()
         for one in self._processes.values():
             if one.role is not Role.GUEST:
@@ -182,7 +182,7 @@ class Graph:
         return any(one.session not in guests for one in self._entities.values())
 
     def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
-        """Return the sender of a message: by its gid, else the only candidate; None if unclear."""
+        """Return a message's publisher: by gid, else the only candidate; None if ambiguous."""
         unknown = []
         for one in self.entities(PUBLISHER, name=topic):
             if one.gid == gid:
@@ -193,12 +193,12 @@ class Graph:
 
 
 def hosts(processes: Iterable[Process]) -> list[Process]:
-    """Return those of some processes that run a world."""
+    """Return the processes that run a world."""
     return [one for one in processes if one.role is Role.HOST]
 
 
 def node_name(name: str) -> str:
-    """A node's name as ROS would have it: letters, digits and underscores."""
+    """Return a valid ROS node name: letters, digits and underscores."""
     name = re.sub(r"[^A-Za-z0-9_/]", "_", name.strip("/"))[:200]
     name = re.sub(r"/+", "/", name)
     return name if name and not name[0].isdigit() else f"_{name}"

@@ -1,4 +1,4 @@
-"""The frames of a session that runs, heard while it is listened to."""
+"""Frames of a running session, recorded for a while."""
 
 from collections.abc import Callable
 
@@ -17,7 +17,7 @@ NOTHING_RUNS = "No session is running here: start one with 'tftool demo'."
 
 
 def join_to_listen(domain: int | None, reach: Reach) -> Session:
-    """Join the session that runs, to listen only.
+    """Join the running session as a listener.
 
     Raises:
         LinkError: If none runs.
@@ -39,7 +39,7 @@ def listened(
     cache_time: Duration | None,
     watch: Callable[[World], object] | None,
 ) -> Frames:
-    """Listen to a session that was joined."""
+    """Listen to a joined session."""
     world = session.world
     if watch is not None:
         watch(world)

@@ -1,4 +1,4 @@
-"""From the transport's threads to our event loop: incoming messages wait here, within bounds."""
+"""Queue from the transport's threads to our event loop, of limited size."""
 
 import asyncio
 import contextlib
@@ -17,7 +17,7 @@ _SLICE: Final = 200
 
 
 class Inbox:
-    """Calls that any thread hands in, made one after the other on the event loop.
+    """Calls from any thread, made one after the other on the event loop.
 
     Attributes:
         lost: Messages that were dropped because too many waited.
@@ -33,7 +33,7 @@ class Inbox:
         self._closed = False
 
     def start(self, loop: asyncio.AbstractEventLoop) -> None:
-        """Make the calls on `loop` from now on; until then they wait."""
+        """Make the calls on `loop` from now on; earlier ones are queued."""
         with self._lock:
             self._loop = loop
             self._scheduled = bool(self._waiting)
@@ -42,7 +42,7 @@ class Inbox:
             loop.call_soon(self._drain)
 
     def call_now(self) -> None:
-        """Make here and now the calls that wait, before a loop is there to make them."""
+        """Make the queued calls now, before there is a loop."""
         while self._loop is None:
             with self._lock:
                 if not self._waiting:
@@ -52,13 +52,13 @@ class Inbox:
             callback(argument)
 
     def close(self) -> None:
-        """Make no call any more."""
+        """Make no further call."""
         with self._lock:
             self._closed = True
             self._waiting.clear()
 
     def put(self, callback: Callable[..., object], argument: Any, size: int | None = None) -> None:
-        """Have `callback(argument)` called on the loop (on any thread).
+        """Queue `callback(argument)` for the loop (from any thread).
 
         Args:
             callback: What to call.
@@ -85,7 +85,7 @@ class Inbox:
             loop.call_soon_threadsafe(self._drain)
 
     def _drain(self) -> None:
-        """Call everything waiting, a slice at a time, so that a flood does not starve the world.
+        """Make all queued calls, some at a time, so that a flood does not block the world.
 
         A callback that raises is reported to the loop; those behind it are called all the same.
         """

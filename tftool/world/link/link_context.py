@@ -1,4 +1,4 @@
-"""The link's side of topics, services and actions on their way in and out.
+"""A link's shared state for its topics, services and actions.
 
 The link makes them and they ask it; this narrow part between the two leaves one direction.
 """
@@ -21,7 +21,7 @@ UNKNOWN: Final = Quality(is_latched=True)
 
 
 class LinkContext:
-    """State shared by the parts of a link: the middleware, the world, and its faults.
+    """State shared by the parts of a link: the middleware, the world, and its errors.
 
     Attributes:
         options: How the process takes part.
@@ -47,18 +47,18 @@ class LinkContext:
 
     @property
     def world(self) -> World:
-        """The world that is attached."""
+        """The attached world."""
         if self._world is None:
             raise LinkError("no world is attached to this link yet")
         return self._world
 
     def now(self) -> Stamp:
-        """The moment by the world's clock."""
+        """Time of the world's clock."""
         return self.world.clock.now()
 
     @property
     def unanswering(self) -> str:
-        """Return the processes here that do not answer, and what to do, as a sentence; or ""."""
+        """Return a sentence about local processes that do not answer, with a remedy; or ""."""
         found = [str(pid) for pid in self.middleware.unanswering]
         if not found:
             return ""
@@ -72,13 +72,13 @@ class LinkContext:
 
     @property
     def main_node(self) -> str:
-        """The node that what cannot be told apart is said to be of: the first of the world."""
+        """The world's first node, used for entities without a node of their own."""
         shown = (node.name for node in self.world.nodes if node.is_shown)
         return next(shown, f"tftool_{self.options.command}")
 
     @property
     def awaits_statics(self) -> bool:
-        """Whether a publisher of static transforms is there whose transforms have not come yet."""
+        """Whether a known publisher of static transforms has sent none yet."""
         if b"" in self.heard_statics:
             return False  # one that does not say who it is
         publishers = self.graph.entities(PUBLISHER, name="tf_static")
@@ -87,12 +87,12 @@ class LinkContext:
         )
 
     def authority(self, gid: bytes, topic: str) -> str:
-        """The node that sent a message, by the gid beside it; b"" if there was none."""
+        """Return the node that sent a message, by the attached gid; b"" means none."""
         entity = self._sender(gid, topic)
         return _unnamed(gid) if entity is None else entity.node
 
     def endpoint(self, gid: bytes, topic: str, ros_type: str) -> Endpoint:
-        """The publisher that sent a message.
+        """Return the publisher of a message.
 
         A message can overtake the word that its publisher is there. Until that is known, the
         publisher is named by its gid, and fits what any subscription asks for.
@@ -103,7 +103,7 @@ class LinkContext:
         return self.far_endpoint(entity)
 
     def far_endpoint(self, entity: GraphEntity) -> Endpoint:
-        """A publisher or subscription of another process, as it is entered in the world."""
+        """Return another process's publisher or subscription as an endpoint of the world."""
         if entity not in self.endpoints:
             self.endpoints[entity] = Endpoint(
                 PUBLISHER if entity.kind == PUBLISHER else SUBSCRIPTION,
@@ -125,17 +125,17 @@ class LinkContext:
         return self._senders[key]
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
-        """Count a message that is not what it should be, and say the first of each topic."""
+        """Count an invalid message, and report the first of each topic."""
         self.refused += 1
         self.say_once(f"refused {name}", f"On '{name}': {refusal}. Others like it are counted.")
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Warn in the world's log, unless this was said before."""
+        """Log a warning once."""
         if what not in self._said and len(self._said) < 1000:
             self._said.add(what)
             self.world.log.warn(NAME, sentence)
 
 
 def _unnamed(gid: bytes) -> str:
-    """Return a name for a publisher whose node is not known."""
+    """Return a name for a publisher whose node is unknown."""
     return f"publisher_{gid[:4].hex() or 'unknown'}"

@@ -30,7 +30,7 @@ REACHES: Final = tuple(_declared(place) for place in MIDDLEWARES)
 
 
 def read_reach(given: Mapping[str, Any]) -> Reach:
-    """Return how far a link goes, as options say.
+    """Return a link's reach from options.
 
     Args:
         given: The values of the middlewares' options, by the names of their parameters.
@@ -50,7 +50,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
 
 
 def reach_at(word: str) -> Reach | None:
-    """Return the reach to the session whose address a word is; None for other words.
+    """Return the reach to a session by its address; None for other words.
 
     Raises:
         UsageError: If it is an address that is written wrong.
@@ -77,7 +77,7 @@ class Options:
 
 
 def domain_here() -> int:
-    """Return the domain that ROS_DOMAIN_ID names, else 0.
+    """Return the domain in ROS_DOMAIN_ID, else 0.
 
     Raises:
         UsageError: If it is no domain.

@@ -1,4 +1,4 @@
-"""From our event loop to the transport: sent on a thread of its own.
+"""Queue from our event loop to the transport's sending thread.
 
 To send blocks while a reader takes nothing, up to a second until it counts as gone.
 That may hold up this thread, and nothing else: a process that is stopped with
@@ -31,7 +31,7 @@ _FAREWELL = 2.0
 
 
 class Outbox:
-    """Calls that send something, made in their order on one thread.
+    """Calls that send, made in order in one thread.
 
     Attributes:
         dropped: How many were dropped because too much waited for a sender that is stuck.
@@ -51,7 +51,7 @@ class Outbox:
         self._thread: threading.Thread | None = None
 
     def put(self, send: Callable[[], object], size: int = 0) -> None:
-        """Have something sent, after everything before it; what it raises is passed over.
+        """Queue a call after all earlier ones; exceptions in it are ignored.
 
         Where too much waits, and the sender has sent nothing for `LONGEST_WAIT`, it is
         dropped: a call that never returns must not hold up the loop for ever.
@@ -80,7 +80,7 @@ class Outbox:
             self._let_catch_up()
 
     def close(self) -> None:
-        """Send everything waiting, for as long as that makes sense, and nothing after it."""
+        """Send everything queued, within limits, and nothing more."""
         if not self._closed:
             self._closed = True
             self._queue.put(None)
@@ -89,12 +89,12 @@ class Outbox:
 
     @property
     def _is_full(self) -> bool:
-        """Whether more waits than may."""
+        """Whether the queue exceeds its limit."""
         waiting, held = self._put - self._sent, self._put_bytes - self._sent_bytes
         return waiting > MOST_WAITING or held > MOST_BYTES
 
     def _let_catch_up(self) -> None:
-        """Give way to the sender while it gets on.
+        """Wait while the sender makes progress.
 
         Without it, a loop that never rests would keep the interpreter to itself.
         """

@@ -1,4 +1,4 @@
-"""Interface of a middleware to a link: a ROS graph, and messages and questions as CDR.
+"""Interface between a middleware and a link: a ROS graph, with messages as CDR.
 
 A middleware is a folder beside `zenoh/` with a class that has the methods of `Middleware`, a
 `Reach` that declares its options and joins a session, and one line in
@@ -18,7 +18,7 @@ from tftool.world.link.graph import Graph, GraphEntity, Process
 
 
 class Arrived(NamedTuple):
-    """A message that came in.
+    """A received message.
 
     Attributes:
         payload: Its CDR.
@@ -30,42 +30,42 @@ class Arrived(NamedTuple):
 
 
 class WirePublisher(Protocol):
-    """Publisher of one topic on the wire, shown in the graph."""
+    """Publisher of one topic, announced in the graph."""
 
     @property
     def is_wanted(self) -> bool:
         """Whether a message would reach a subscription, or be kept for later ones."""
 
     def put(self, payload: bytes, stamp: Stamp) -> None:
-        """Send one message, sent at `stamp` by our clock.
+        """Send one message with the time `stamp` on our clock.
 
         Raises:
             LinkError: If the link is closed.
         """
 
     def close(self) -> None:
-        """Send no more, once everything before is sent."""
+        """Close after sending everything queued."""
 
 
 class WireRequest(Protocol):
-    """A request that came in and waits for its answer."""
+    """A received request that waits for its response."""
 
     @property
     def payload(self) -> bytes:
         """Its CDR."""
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Reply, once."""
+        """Send the response, once."""
 
     def refuse(self, reason: str) -> None:
-        """Say that there will be no answer, and why."""
+        """Report that there will be no response, and why."""
 
 
 class WireClient(Protocol):
-    """The asking end of one service, shown in the graph from its first request on."""
+    """Client of one service, announced in the graph with its first request."""
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Send a request and wait for the answer, `timeout` seconds at most.
+        """Send a request and wait at most `timeout` seconds for the response.
 
         A wait that is cancelled takes the request back.
 
@@ -74,20 +74,20 @@ class WireClient(Protocol):
         """
 
     def close(self) -> None:
-        """Ask no more."""
+        """Close the client."""
 
 
 class Watcher(Protocol):
-    """Receiver of a middleware's reports to its link."""
+    """Callbacks of a middleware to its link."""
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Something came or went; None where only another domain was heard of."""
+        """Report an added or removed entity; None if only another domain was noticed."""
 
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
-        """A message of a topic or service came in and is not what it should be."""
+        """Report an invalid message of a topic or service."""
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Warn of something about the others; `what` it is, so that it is said once."""
+        """Log a warning about others, once for each `what`."""
 
 
 class Middleware(Protocol):
@@ -112,31 +112,31 @@ class Middleware(Protocol):
         """Call back on `loop` from now on, and report changes of the graph."""
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List the frames this process knows where other commands of this machine find them."""
+        """List this process's frames where other local commands find them."""
 
     def settle(self) -> None:
-        """Let other processes of this machine join from now on."""
+        """Let other local processes join from now on."""
 
     def close(self) -> None:
-        """Send what still waits, and leave; nothing is called back any more."""
+        """Send queued messages, and leave; no callback follows."""
 
     @property
     def lost(self) -> int:
-        """Messages that were dropped because too many waited to be taken in."""
+        """Messages dropped because the inbox was full."""
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Show this process to the others, until the returned function is called."""
+        """Announce this process until the returned function is called."""
 
     def node(self, name: str) -> Callable[[], None]:
-        """Show a node, until the returned function is called."""
+        """Announce a node until the returned function is called."""
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
-        """Publish a topic, as a node of this process."""
+        """Publish a topic as a node of this process."""
 
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Show that a node subscribes a topic, until the returned function is called.
+        """Announce a node's subscription until the returned function is called.
 
         Several subscriptions of a process share what one `listen` brings in.
         """
@@ -149,7 +149,7 @@ class Middleware(Protocol):
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Have `on_message` called with what others publish, until the returned function is called.
+        """Call `on_message` with others' messages until the returned function is called.
 
         Args:
             name: The topic.
@@ -161,7 +161,7 @@ class Middleware(Protocol):
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Serve a service as a node of this process, until the returned function is called."""
+        """Serve a service as a node of this process until the returned function is called."""
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Ask a service as a node of this process."""
+        """Call a service as a node of this process."""

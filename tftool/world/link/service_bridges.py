@@ -1,4 +1,4 @@
-"""Services and actions on the wire: ours for other processes, and theirs for our world."""
+"""Services and actions between our world and other processes."""
 
 import asyncio
 import secrets
@@ -29,7 +29,7 @@ LONGEST: Final = 3600.0
 
 
 class Answering:
-    """The serving end of one service, whatever its requests mean."""
+    """Server side of one service, for any type."""
 
     def __init__(
         self,
@@ -46,7 +46,7 @@ class Answering:
         self._stop = link.middleware.server(node, name, ros_type, self._asked)
 
     def close(self) -> None:
-        """Answer no request any more."""
+        """Stop serving."""
         self._stop()
         self._tasks.cancel()
 
@@ -69,7 +69,7 @@ class Answering:
 
 
 class Asking:
-    """The asking end of one service, whatever its requests mean."""
+    """Client side of one service, for any type."""
 
     def __init__(self, link: LinkContext, name: str, ros_type: str) -> None:
         self._link = link
@@ -77,7 +77,7 @@ class Asking:
         self._client = link.middleware.client(link.main_node, name, ros_type)
 
     async def ask(self, payload: bytes, timeout: float) -> bytes:
-        """Send a request and wait for the answer.
+        """Send a request and wait for the response.
 
         Raises:
             LinkError: If there is none.
@@ -88,12 +88,12 @@ class Asking:
             raise LinkError(f"service '{self._name}': {error}") from error
 
     def close(self) -> None:
-        """Ask no more."""
+        """Close the client."""
         self._client.close()
 
 
 class ServiceServer:
-    """A service of our world, offered to the other processes."""
+    """A service of our world, offered to other processes."""
 
     def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
         """Offer a service.
@@ -111,7 +111,7 @@ class ServiceServer:
         self._answering = Answering(link, node, name, kind.interface__, self._serve)
 
     def close(self) -> None:
-        """Answer no request any more."""
+        """Stop serving."""
         self._answering.close()
 
     async def _serve(self, payload: bytes) -> bytes:
@@ -121,7 +121,7 @@ class ServiceServer:
 
 
 class ServiceClient:
-    """A service of another process, as one of our world."""
+    """A service of another process, made available in our world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._kind = INTERFACES.find(*server.ros_type.split("/"))
@@ -131,7 +131,7 @@ class ServiceClient:
         )
 
     def close(self) -> None:
-        """Take it out of our world."""
+        """Remove it from our world."""
         self._withdraw()
         self._asking.close()
 
@@ -155,7 +155,7 @@ def _read(ros_type: str, payload: bytes) -> Any:
 
 
 class ActionServer:
-    """An action of our world, offered to the other processes."""
+    """An action of our world, offered to other processes."""
 
     def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
         """Offer an action; the arguments are those of `ServiceServer`."""
@@ -184,7 +184,7 @@ class ActionServer:
         ]
 
     def close(self) -> None:
-        """Take no goals any more; those under way are given up."""
+        """Accept no more goals; running ones are cancelled."""
         for service in self._services:
             service.close()
         self._feedback.close()
@@ -203,7 +203,7 @@ def _in_bytes(
 
 
 class ActionClient:
-    """An action of another process, as one of our world."""
+    """An action of another process, made available in our world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._link = link
@@ -232,7 +232,7 @@ class ActionClient:
         )
 
     def close(self) -> None:
-        """Take it out of our world; goals under way end as aborted."""
+        """Remove it from our world; running goals end as aborted."""
         self._withdraw()
         self._stop_feedback()
         self._tasks.cancel()
@@ -249,7 +249,7 @@ class ActionClient:
     async def _follow(
         self, goal_id: bytes, goal: GoalHandle, decided: "asyncio.Future[bool]"
     ) -> None:
-        """Send a goal, and see it to its end."""
+        """Send a goal, and follow it to its end."""
         status: Status = "aborted"
         result: Any = INTERFACES.part(f"{self._type}_Result")()
         try:

@@ -1,4 +1,4 @@
-"""A session: one world, joined to the other processes that share it.
+"""A session: one world connected to the processes that share it.
 
 What nodes here publish goes out, what others publish comes in, and neither goes
 round: what came in over the link is never sent out again. The world does not know
@@ -40,14 +40,14 @@ _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCI
 
 
 class Link(LinkContext):
-    """A process's place in a session: it joins, and carries its world's traffic.
+    """A process's connection to a session, which carries its world's traffic.
 
     Attributes:
         departures: How many of the processes have left that transforms came from.
     """
 
     def __init__(self, options: Options) -> None:
-        """Join the others of this machine, and those `options` reach out to.
+        """Join the processes of this machine, and those in the reach of `options`.
 
         Returns at once when it stands alone. No other process of this machine can join
         in between until `attach`, `settle` or `close` is called, so that no two of them
@@ -73,13 +73,13 @@ class Link(LinkContext):
         self._told = 0
 
     def settle(self) -> None:
-        """Let other processes of this machine join from now on."""
+        """Let other local processes join from now on."""
         self.middleware.settle()
 
     # Taking part
 
     def attach(self, world: World, *, role: Role) -> None:
-        """Carry a world's topics, services and actions from now on; call inside its loop.
+        """Share a world's topics, services and actions from now on; call inside its loop.
 
         Args:
             world: Whose.
@@ -97,7 +97,7 @@ class Link(LinkContext):
         self._tell_frames()
 
     def _tell_frames(self) -> None:
-        """Keep the list of frames that command lines are completed from, a second behind."""
+        """Update the list of frames for completion, with up to a second of delay."""
         if self._closed or self._loop is None:
             return
         frames = self.world.buffer.frames()
@@ -107,12 +107,12 @@ class Link(LinkContext):
         self._loop.call_later(1.0, self._tell_frames)
 
     def _process(self, role: Role) -> Process:
-        """This process, as the others see it."""
+        """Return this process as it is announced."""
         domain, session = self.options.domain, self.middleware.session
         return Process(domain, session, self._since, os.getpid(), role, self.options.command)
 
     def close(self) -> None:
-        """Leave the session; nothing of the world is touched."""
+        """Leave the session; the world itself is unchanged."""
         if self._closed:
             return
         self._closed = True
@@ -137,7 +137,7 @@ class Link(LinkContext):
     # Keeping up with the world
 
     def _world_changed(self) -> None:
-        """Carry new topics at once, before their first value; the rest can wait a moment.
+        """Share new topics at once, before their first message; other changes wait a moment.
 
         A crowd of turtles changes the world thousands of times, and one look serves all.
         """
@@ -149,7 +149,7 @@ class Link(LinkContext):
         self._reconcile_soon()
 
     def _reconcile(self) -> None:
-        """Align the declarations with the entities of the world and of the others."""
+        """Update announcements and bridges to the entities of the world and of the others."""
         self._reconciling = False
         self._match(
             self._match_nodes,
@@ -183,7 +183,7 @@ class Link(LinkContext):
             self._nodes[name] = self.middleware.node(name)
 
     def _match_endpoints(self) -> None:
-        """Enter in the world who else is there, publishes and subscribes."""
+        """Enter others' nodes, publishers and subscriptions in the world."""
         self.world.know_far_nodes(one.node for one in self.graph.entities(NODE))
         there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION))
         for entity in self.endpoints.keys() - there:
@@ -194,7 +194,7 @@ class Link(LinkContext):
             self._removals[entity] = self.world.endpoints.add(self.far_endpoint(entity))
 
     def _name_topics(self) -> None:
-        """Name others' topics, so that they are among the world's topics.
+        """Register others' topics as topics of the world.
 
         Those that no process has any more, here or there, are forgotten again.
         """
@@ -251,7 +251,7 @@ class Link(LinkContext):
                 self._warn_of_rival(name, name)
 
     def _is_part_of_our_action(self, name: str) -> bool:
-        """Whether a name is one that ROS 2 makes of an action, which is offered as a whole."""
+        """Whether a name belongs to an action, which is shared as a whole."""
         action, found, _ = name.partition("/_action/")
         offer = self.world.actions().get(action) if found else None
         return offer is not None and not offer.is_remote
@@ -278,7 +278,7 @@ class Link(LinkContext):
             self._clients[name] = made(self, name, entity)
 
     def _is_offered(self, name: str, *, remote: bool) -> bool:
-        """Whether a service or an action of that name is answered here, or elsewhere."""
+        """Whether a service or action of that name is served here, or elsewhere."""
         offers = (self.world.services().get(name), self.world.actions().get(name))
         return any(offer is not None and offer.is_remote is remote for offer in offers)
 
@@ -297,7 +297,7 @@ class Link(LinkContext):
     # Keeping up with the others
 
     def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        """Keep up with what came or went; None where only another domain was heard of."""
+        """Handle an added or removed entity; None if only another domain was noticed."""
         if found is None:
             self._mention_foreign_domains()
         elif isinstance(found, Process):
@@ -308,7 +308,7 @@ class Link(LinkContext):
             self._match_soon()
 
     def _match_soon(self) -> None:
-        """Reconcile soon: changes come in crowds, and one look serves them all."""
+        """Update soon: changes come in groups, and one update handles them all."""
         self._senders.clear()
         self._reconcile_soon()
 
@@ -337,7 +337,7 @@ class Link(LinkContext):
         self.world.log.warn(NAME, f"{process}{hosted} has left; what it sent stays as it was.")
 
     def _count_departure(self, session: str) -> None:
-        """Count a process once the last of its entities is gone, in whatever order they go.
+        """Count a departed process after the removal of its last entity, in any order.
 
         A node may leave a process that stays, and other programs show no process.
         """
@@ -355,5 +355,5 @@ class Link(LinkContext):
 
 
 def is_plain(name: str) -> bool:
-    """Whether a name can be a ROS topic's; others do not travel."""
+    """Whether a name is a valid ROS topic; others are not shared."""
     return len(name) < 250 and _PLAIN.fullmatch(name) is not None

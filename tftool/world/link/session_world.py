@@ -1,4 +1,4 @@
-"""A world that a command works in: what keeps it alive, and what shares it with other processes."""
+"""A command's world, what keeps it running, and what shares it."""
 
 import asyncio
 from collections import Counter
@@ -34,7 +34,7 @@ def _keep_silent(record: "LogRecord") -> None:
 
 @dataclass(frozen=True, slots=True)
 class Session:
-    """A world to work in, and what keeps it alive.
+    """A world to work in, and what keeps it running.
 
     Attributes:
         world: Its frames and topics.
@@ -57,18 +57,18 @@ class Session:
     tell: "Callable[[LogRecord], object]" = _keep_silent
 
     def departures(self) -> int:
-        """Count the other processes with transforms that have left by now."""
+        """Count the processes with transforms that have left so far."""
         return 0 if self.link is None else self.link.departures
 
     def abandon(self) -> None:
-        """Leave the other processes, where nothing comes of a session that was opened."""
+        """Leave a session that was opened and is not used."""
         if self.link is not None:
             self.link.close()
 
     def run(
         self, work: Coroutine[Any, Any, T], *, on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """Do some work while the world lives, on the world's clock.
+        """Do some work while the world runs, on the world's clock.
 
         Args:
             work: What to do.
@@ -86,7 +86,7 @@ class Session:
     async def along(
         self, work: Coroutine[Any, Any, T], on_interrupt: Callable[[], object] | None = None
     ) -> T:
-        """Do as `run`, inside a loop that runs."""
+        """Do as `run`, inside a running loop."""
         stop_telling = self.world.log.listen(self.tell, "console")
         try:
             return await beside(self._after_head_start(work), self._living(), on_interrupt)
@@ -97,11 +97,11 @@ class Session:
         await self.live(None)
 
     async def lasting(self, duration: Duration | None) -> None:
-        """Do nothing for `duration` nanoseconds; for ever if None."""
+        """Wait `duration` nanoseconds; for ever if None."""
         await lasting(self.world.clock, duration)
 
     async def listened(self, duration: Duration) -> None:
-        """Listen for `duration` nanoseconds, to a robot until its static transforms have come."""
+        """Listen for `duration` nanoseconds; to a robot until its static transforms arrive."""
         await self.lasting(duration)
         if self.link is None or not self.link.options.reach.is_robots:
             return
@@ -123,7 +123,7 @@ class Session:
 
 
 async def lasting(clock: Clock, duration: Duration | None) -> None:
-    """Do nothing for `duration` nanoseconds of a clock's pace; for ever if None."""
+    """Wait `duration` nanoseconds at a clock's pace; for ever if None."""
     if duration is None:
         await asyncio.get_running_loop().create_future()
         return
@@ -144,7 +144,7 @@ def joined_session(
     cache_time: Duration | None = None,
     tell: "Callable[[LogRecord], object]" = _keep_silent,
 ) -> Session:
-    """Return a world that follows the session a link leads to.
+    """Return a world that follows the session of a link.
 
     Args:
         link: Leads there.
@@ -159,7 +159,7 @@ def joined_session(
 
 
 def session_name(link: "Link", place: str) -> str:
-    """Name the session that a link leads to, by the process that hosts it or a ROS node."""
+    """Return a session's name: the host process, or a ROS node."""
     if link.options.reach.only_reads:
         return visible(place)
     processes = link.graph.processes()
@@ -177,7 +177,7 @@ def session_name(link: "Link", place: str) -> str:
 
 
 def twins(world: World) -> list[str]:
-    """Return a sentence for each name under which several nodes of a session send transforms."""
+    """Return a sentence for each node name shared by several publishers of transforms."""
     names = Counter(end.node for end in world.endpoints.of("tf", PUBLISHER))
     return [
         f"{count} nodes called '{visible(name)}' send transforms: has it been started twice?"
@@ -188,7 +188,7 @@ def twins(world: World) -> list[str]:
 
 @contextmanager
 def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[None]:
-    """Let others share a world for as long as this lasts; call inside its loop.
+    """Share a world while this block runs; call inside its loop.
 
     Args:
         link: What joins it to the others; None to keep to itself.
@@ -215,7 +215,7 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
 def lived(
     world: World, link: "Link | None", role: str
 ) -> Callable[[Stamp | None], Awaitable[None]]:
-    """Return what lives a world through, for ever or until a moment, shared all along."""
+    """Return a function that runs a shared world for ever or until a time."""
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, world, role):

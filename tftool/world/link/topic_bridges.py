@@ -1,4 +1,4 @@
-"""Topics of a world, joined with those of other processes; tf and /clock in their own way."""
+"""Bridges between a world's topics and other processes; tf and /clock have their own."""
 
 from collections.abc import Callable
 from typing import Any, Final
@@ -21,7 +21,7 @@ from tftool.world.world import TransformMessage, World
 
 
 class TopicBridge:
-    """A topic of messages.
+    """Bridge of an ordinary topic.
 
     Nodes that state what they publish and subscribe, and with what quality, are shown one
     by one; all others together as the first node of the world. Incoming messages are taken once
@@ -48,7 +48,7 @@ class TopicBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Show what there is, and listen where a subscriber here needs it."""
+        """Update the publishers, and subscribe if a local subscriber needs it."""
         topic, endpoints = self._topic, self._link.world.endpoints
         # The simulator computes colours only while a subscriber is counted.
         topic.far_subscribers = sum(
@@ -82,7 +82,7 @@ class TopicBridge:
             self._subscriptions[new] = self._subscribe(new)
 
     def close(self) -> None:
-        """Neither send nor listen any more."""
+        """Stop sending and listening."""
         self._topic.on_demand = self._topic.relay = None
         self._topic.far_subscribers = 0
         for stop in (self._stop_in, *self._subscriptions.values()):
@@ -94,7 +94,7 @@ class TopicBridge:
     # In
 
     def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
-        """Show a subscription, and ask for earlier messages if it is latched."""
+        """Announce a subscription, and request earlier messages if it is latched."""
         link, name, ros_type = self._link, self._topic.name, self._type
         node = link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality
@@ -136,7 +136,7 @@ class TopicBridge:
             self._inbound = None
 
     def _read(self, message: Arrived) -> tuple[Any, Endpoint] | None:
-        """Decode a message and its sender; None for one that is refused."""
+        """Decode a message and its sender; return None if it is refused."""
         try:
             value = self._codec.decode(message.payload)
         except MalformedMessage as refusal:
@@ -189,7 +189,7 @@ AHEAD: Final = seconds(2)
 
 
 class TransformBridge:
-    """`tf`: transforms of many nodes, each of them a publisher of its own."""
+    """Bridge of `tf`: transforms of many nodes, each with its own publisher."""
 
     quality = TF
 
@@ -209,13 +209,13 @@ class TransformBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Count the subscribers of other processes; the buffer always listens."""
+        """Count other processes' subscribers; the buffer always listens."""
         others = self._link.graph.entities(SUBSCRIPTION, name=self._topic.name)
         self._topic.far_subscribers = len(others)
         self._dismiss()
 
     def _dismiss(self) -> None:
-        """Close the senders of nodes that have left; some authorities were never nodes."""
+        """Close the publishers of departed nodes; some authorities never were nodes."""
         for gone in self._nodes - self._node_names():
             self._nodes.remove(gone)
             self._senders.pop(gone).close()
@@ -224,7 +224,7 @@ class TransformBridge:
         return {node.name for node in self._link.world.nodes}
 
     def close(self) -> None:
-        """Neither send nor listen any more."""
+        """Stop sending and listening."""
         self._topic.relay = None
         self._topic.far_subscribers = 0
         for stop in self._stops:
@@ -270,7 +270,7 @@ class TransformBridge:
                 self._inbound = None
 
     def _takes_paths(self, payload: bytes, authority: str) -> bool:
-        """Take in long paths of few links at once; False where that would not be faster.
+        """Insert long histories of few links in bulk; return False if that would not be faster.
 
         Raises:
             MalformedMessage: If the bytes are no transforms.
@@ -332,12 +332,12 @@ class TransformBridge:
 
 
 class StaticBridge(TransformBridge):
-    """`tf_static`: a late subscriber gets all statics of every process that is there."""
+    """Bridge of `tf_static`: a late subscriber gets all statics of every process."""
 
     quality = TF_STATIC
 
     def _dismiss(self) -> None:
-        """Close none: what a node said for all time is sent to late listeners when it has left."""
+        """Close none: a departed node's static transforms are still sent to late subscribers."""
 
     def _arrived(self, message: Arrived) -> None:
         super()._arrived(message)
@@ -359,10 +359,10 @@ def is_clock_shown(graph: Graph) -> bool:
 
 
 class ClockFollower:
-    """Sets a world's clock by what others publish on `/clock`, for as long as one does."""
+    """Sets a world's clock from others' `/clock` as long as there is one."""
 
     def __init__(self, world: World, clock: FollowedClock) -> None:
-        """Begin to follow, as soon as there is something to follow.
+        """Start following as soon as there is a clock.
 
         Args:
             world: Whose topics tell.
@@ -380,7 +380,7 @@ class ClockFollower:
         self._look()
 
     def close(self) -> None:
-        """Follow no more."""
+        """Stop following."""
         for stop in self._stops:
             stop()
         if self._stop_listening is not None:

@@ -1,4 +1,4 @@
-"""Nodes that broadcast where frames are: turtles, static links, carrots, a sensor with noise."""
+"""Nodes that broadcast frames: turtles, static links, carrots, a noisy sensor."""
 
 import math
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ CARROT_PERIOD: Duration = seconds(0.1)
 
 
 class Broadcaster(Node):
-    """Tell the buffer where a turtle is, at every pose it publishes.
+    """Broadcasts a turtle's frame at every pose the turtle publishes.
 
     The pose carries no stamp; it gets the moment of its reception, which is the
     moment of the tick.
@@ -37,7 +37,7 @@ class Broadcaster(Node):
         frame_id: str = "world",
         topic: str | None = None,
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -54,7 +54,7 @@ class Broadcaster(Node):
         self._transform = Transform.identity()
 
     async def run(self) -> None:
-        """Listen from now on."""
+        """Broadcast until the end."""
         self.subscribe(self.topic, Pose, self._on_pose)
 
     def _on_pose(self, pose: Any) -> None:
@@ -68,23 +68,23 @@ class Broadcaster(Node):
 
 
 class StaticBroadcaster(Node):
-    """Tell the buffer, once, of links that hold for all time."""
+    """Broadcasts static links once."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
     def __init__(self, world: World, name: str, *, transforms: Sequence[TransformStamped]) -> None:
-        """Join the world with links whose stamps will be set to the moment of the start."""
+        """Add the node to a world; the links' stamps are set at the start."""
         super().__init__(world, name)
         self.transforms = tuple(transforms)
 
     async def run(self) -> None:
-        """Broadcast, and be done."""
+        """Broadcast, and end."""
         now = self.clock.now()
         self.broadcast_static(*(one._replace(stamp=now) for one in self.transforms))
 
 
 class FixedCarrot(Node):
-    """Hang a carrot at a fixed offset from a frame, broadcast at 10 Hz like one that moves."""
+    """Broadcasts a carrot at a fixed offset from a frame, at 10 Hz like a moving one."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -98,7 +98,7 @@ class FixedCarrot(Node):
         offset: tuple[float, float, float] = (0.0, 2.0, 0.0),
         period: Duration = CARROT_PERIOD,
     ) -> None:
-        """Join the world; `offset` is in metres, in the parent's frame."""
+        """Add the node to a world; `offset` is in metres, in the parent's frame."""
         super().__init__(world, name)
         self.parent, self.child = parent, child
         self.period = require_period(period)
@@ -111,7 +111,7 @@ class FixedCarrot(Node):
 
 
 class DynamicCarrot(Node):
-    """Hang a carrot on a circle around a frame: clockwise, once round in two seconds."""
+    """Broadcasts a carrot on a circle around a frame: clockwise, once in two seconds."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -126,7 +126,7 @@ class DynamicCarrot(Node):
         whole_seconds: bool = False,
         period: Duration = CARROT_PERIOD,
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -153,7 +153,7 @@ class DynamicCarrot(Node):
 def carrot_offset(
     stamp: Stamp, radius: float = 10.0, *, whole_seconds: bool = False
 ) -> tuple[float, float]:
-    """Return the dynamic carrot's x and y at a moment, in its parent's frame, in metres."""
+    """Return the moving carrot's x and y at a time, in its parent's frame, metres."""
     # Reduced as whole numbers: the seconds of a real clock are too large for an exact sine.
     turn = stamp % (2 * NANOSECONDS)
     if whole_seconds:
@@ -163,7 +163,7 @@ def carrot_offset(
 
 
 def require_period(period: Duration) -> Duration:
-    """Give the period back, or refuse it.
+    """Return the period, or refuse it.
 
     Raises:
         UsageError: If it is not positive.
@@ -177,7 +177,7 @@ USAGE = "static_turtle_tf2_broadcaster child_frame_name x y z roll pitch yaw"
 
 
 def static_turtle(arguments: Sequence[str]) -> TransformStamped:
-    """Read the seven arguments of the tutorial's program.
+    """Parse the seven arguments of the tutorial's program.
 
     Mind the order: roll, pitch, yaw, unlike static_transform_publisher's.
 
@@ -213,7 +213,7 @@ def _number(text: str) -> float:
 
 
 class Noise(Node):
-    """Broadcast a frame beside another one, off by noise and by a drift that adds up.
+    """Broadcasts a frame beside another one, with noise and accumulating drift.
 
     Each broadcast is off by an error of its own, normally distributed in each coordinate and
     about each axis. The drift is a random walk in the plane: after t seconds it is normally
@@ -238,7 +238,7 @@ class Noise(Node):
         seed: int = 0,
         period: Duration = seconds(0.1),
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.

@@ -1,4 +1,4 @@
-"""The tutorial's follower: look where the leader is, steer there, once a period."""
+"""The tutorial's follower: looks the leader up and steers towards it, once a period."""
 
 from typing import Any
 
@@ -19,7 +19,7 @@ TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
 
 
 class Follower(Node):
-    """Spawn a turtle and steer it towards a frame by lookups.
+    """Spawns a turtle and steers it towards a frame by lookups.
 
     With a delay it goes where the leader was that long ago: the follower now, the
     leader then, and a frame in between that stands still.
@@ -42,7 +42,7 @@ class Follower(Node):
         stale_after: Duration | None = None,
         spawn: tuple[float, float, float] | None = TUTORIAL_SPAWN,
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -116,7 +116,7 @@ class Follower(Node):
         )
 
     def _too_old(self, stamp: Stamp, now: Stamp) -> bool:
-        """Whether to stand still because of the data's age; says so when that changes.
+        """Whether the data is too old to follow; logs when that changes.
 
         A question about a given moment is refused where data is missing; only the
         latest can be old unnoticed. Statics, stamped 0, never are.
@@ -140,7 +140,7 @@ class Follower(Node):
 
 
 class Spawning:
-    """The tutorial's start-up machine, stepped by a node's timer.
+    """The tutorial's state machine for spawning, stepped by a node's timer.
 
     One step asks for the turtle, a later one sees the answer, and only the one
     after that begins: with a period of one second, three seconds after the start.
@@ -154,7 +154,7 @@ class Spawning:
         self._confirmed = False
 
     def step(self) -> bool:
-        """Do the next step; True once the turtle was there before this step."""
+        """Do the next step; return True once the turtle existed before this step."""
         if self._confirmed:
             return True
         if not self._is_asked:

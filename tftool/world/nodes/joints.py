@@ -1,4 +1,4 @@
-"""Nodes of a robot's joints: robot_state_publisher, joint_state_publisher, and one that moves."""
+"""Nodes for a robot's joints: robot_state_publisher, joint_state_publisher, and a moving one."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -33,24 +33,24 @@ Motion = Literal["still", "sine", "steps", "recorded"]
 
 
 def _described(text: str) -> "Robot":
-    """The robot of a description; imported here, as it brings numpy with it."""
+    """Return the robot of a description; imported here, since it imports numpy."""
     from tftool.robots.robot_model import Robot
 
     return Robot(parse_description(text))
 
 
 def joint_state_type() -> type[Any]:
-    """The message type of joint states."""
+    """Return the message type of joint states."""
     return INTERFACES.message("sensor_msgs/msg/JointState")
 
 
 def description_type() -> type[Any]:
-    """The message type of a description."""
+    """Return the message type of a description."""
     return INTERFACES.message("std_msgs/msg/String")
 
 
 def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
-    """The message that says where some joints are."""
+    """Return a message of joint positions."""
     message = joint_state_type()()
     message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, NANOSECONDS)
     message.name = list(positions)
@@ -59,7 +59,7 @@ def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
 
 
 class RobotStatePublisher(Node):
-    """Broadcast the frames of a robot: fixed joints at once, the others as joint states say.
+    """Broadcasts a robot's frames: fixed joints at once, others from joint states.
 
     As ROS 2's node of that name does it: a message whose names and positions differ in number
     is ignored, only the joints it names move, a joint that mimics another follows unless the
@@ -79,7 +79,7 @@ class RobotStatePublisher(Node):
         ignore_timestamp: bool = False,
         topics: tuple[str, str] = (JOINT_STATES, DESCRIPTION),
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -112,7 +112,7 @@ class RobotStatePublisher(Node):
         self._is_running = False
 
     async def run(self) -> None:
-        """Publish the static transforms, and listen from now on."""
+        """Publish the static transforms, and subscribe to joint states."""
         self._is_running = True
         self._begin()
         self.subscribe(self.topics[0], joint_state_type(), self._on_joint_state)
@@ -193,7 +193,7 @@ class RobotStatePublisher(Node):
 
 
 class JointStatePublisher(Node):
-    """Publish where the joints of a robot are, again and again; `move` puts them elsewhere.
+    """Publishes a robot's joint positions repeatedly; `move` changes them.
 
     As ROS 2's node of that name: a joint begins at zero where its limits allow it, else in
     the middle of them, and one that mimics another follows it.
@@ -212,7 +212,7 @@ class JointStatePublisher(Node):
         sources: Sequence[str] = (),
         topics: tuple[str, str] = (JOINT_STATES, DESCRIPTION),
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -239,11 +239,11 @@ class JointStatePublisher(Node):
 
     @property
     def positions(self) -> dict[str, float]:
-        """Return positions of all moving joints, mimicking ones too; empty without a robot."""
+        """Return the positions of all movable joints, mimics included; empty without a robot."""
         return {} if self.robot is None else self.robot.positions(self._given)
 
     def move(self, joint: str, position: float) -> None:
-        """Put a joint elsewhere; what mimics it follows.
+        """Move a joint, and the joints that mimic it.
 
         Raises:
             UsageError: If there is no such joint, or it does not move.
@@ -284,7 +284,7 @@ class JointStatePublisher(Node):
 
 
 class MovingRobot(RobotStatePublisher):
-    """A robot that moves by itself, for scenarios: its description, joint states and frames."""
+    """A moving robot for scenarios: description, joint states and frames."""
 
     def __init__(
         self,
@@ -299,7 +299,7 @@ class MovingRobot(RobotStatePublisher):
         period: Duration = seconds(0.05),
         frame_prefix: str = "",
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -358,7 +358,7 @@ class MovingRobot(RobotStatePublisher):
         return (middle, upper, middle, lower)[math.floor(4.0 * share) % 4]
 
     async def _replay(self) -> None:
-        """Publish recorded states, each at its moment after the first."""
+        """Publish recorded states, each at its time after the first."""
         rows = sorted(
             (int(stamp), place, row)
             for place, states in enumerate(self.recording)

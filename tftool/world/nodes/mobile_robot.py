@@ -1,4 +1,4 @@
-"""A robot as the frames of a real one show it: map, odom, base_link, laser_link.
+"""A mobile robot's usual frames: map, odom, base_link, laser_link.
 
 Where it truly is, only these nodes know. Odometry adds up small errors and
 drifts; localisation corrects it now and then, so odom jumps in the map; a laser
@@ -28,7 +28,7 @@ TRUTH = "ground_truth"
 
 
 class RobotOdometry(Node):
-    """Drive a robot, and broadcast where its wheels believe it is: odom to base_link.
+    """Drives a robot, and broadcasts its wheel odometry: odom to base_link.
 
     Publishes the true pose on `ground_truth`, and listens to `<base>/cmd_vel`.
     """
@@ -49,7 +49,7 @@ class RobotOdometry(Node):
         turn_error: float = 0.01,
         period: Duration = seconds(0.02),
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -105,7 +105,7 @@ class RobotOdometry(Node):
 
 
 class MapCorrection(Node):
-    """Broadcast map to odom; now and then it is put right, and jumps."""
+    """Broadcasts map to odom, with corrections now and then that make it jump."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
 
@@ -120,7 +120,7 @@ class MapCorrection(Node):
         correct_every: Duration = seconds(2),
         period: Duration = seconds(0.1),
     ) -> None:
-        """Join the world; `correct_every` and `period` are in nanoseconds."""
+        """Add the node to a world; `correct_every` and `period` are in nanoseconds."""
         super().__init__(world, name)
         self.map_frame, self.odom, self.base = map_frame, odom, base
         self.correct_every = require_period(correct_every)
@@ -153,7 +153,7 @@ class MapCorrection(Node):
 
 
 class LaserPoint(Node):
-    """Broadcast one point of a wall as the laser sees it: laser_link to laser_point.
+    """Broadcasts one point of a wall as the laser sees it: laser_link to laser_point.
 
     Nothing is broadcast before the laser's place on the robot is known.
     """
@@ -171,7 +171,7 @@ class LaserPoint(Node):
         child: str = "laser_point",
         period: Duration = seconds(0.1),
     ) -> None:
-        """Join the world; `landmark` is the point in the map, in metres."""
+        """Add the node to a world; `landmark` is the point in the map, in metres."""
         super().__init__(world, name)
         self.landmark = landmark
         self.base, self.laser, self.child = base, laser, child
@@ -194,7 +194,7 @@ class LaserPoint(Node):
 
 
 class ScanMatcher(Node):
-    """Broadcast the motion of the laser as its scans show it, in a tree of its own.
+    """Broadcasts the laser's motion from its scans, in a separate tree.
 
     It knows nothing of the published mount: the laser is where it truly is on the robot.
     """
@@ -214,7 +214,7 @@ class ScanMatcher(Node):
         seed: int = 0,
         period: Duration = seconds(0.04),
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -258,7 +258,7 @@ def _pose_of(truth: Any) -> Transform:
 
 
 def _moved(start: Placement, distance: float, turned: float) -> Placement:
-    """Along an arc, exactly: the error is to come from the wheels, not from the step."""
+    """Move exactly along an arc: the error should come from the wheels, not from the step."""
     middle = start.theta + turned / 2
     chord = distance * (math.sin(turned / 2) / (turned / 2) if turned else 1.0)
     return Placement(

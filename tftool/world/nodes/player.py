@@ -1,4 +1,4 @@
-"""A recording as a node: its transforms are broadcast again, at its own pace or another."""
+"""A node that plays a recording's transforms at its own or another rate."""
 
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 
@@ -30,20 +30,20 @@ SLOWEST, FASTEST = 0.01, 100.0
 
 
 class Feed(Protocol):
-    """Sends messages of other topics along."""
+    """Sender of other topics' messages."""
 
     def seek(self, moment: Stamp) -> None:
-        """Go on from a moment."""
+        """Continue from a time."""
 
     def send_until(self, moment: Stamp) -> None:
-        """Send everything due up to a moment."""
+        """Send everything due up to a time."""
 
     def next_due(self) -> Stamp | None:
-        """The moment of the next message; None where there is none any more."""
+        """Return the time of the next message; None at the end."""
 
 
 class Player(Node):
-    """Broadcasts a recording's transforms when they are due, and publishes `/clock`.
+    """Broadcasts a recording's transforms when due, and publishes `/clock`.
 
     Its moments are on the clock of the recording's stamps.
 
@@ -71,7 +71,7 @@ class Player(Node):
         names_topics: bool = False,
         feed: Feed | None = None,
     ) -> None:
-        """Join a world.
+        """Add the node to a world.
 
         Args:
             world: Its clock is told the time where that is a `FollowedClock`.
@@ -112,7 +112,7 @@ class Player(Node):
 
     @property
     def position(self) -> Stamp:
-        """The moment that is played, on the clock of the stamps."""
+        """The playback's time, on the clock of the stamps."""
         if self.is_paused:
             return self._anchor
         passed = self._pace.now() - self._since
@@ -120,27 +120,27 @@ class Player(Node):
 
     @property
     def is_over(self) -> bool:
-        """Whether all has been played."""
+        """Whether everything has been played."""
         return not self._is_looping and not self.is_paused and self.position >= self.end
 
     def pause(self) -> None:
-        """Stand still."""
+        """Pause."""
         self._anchor, self.is_paused = self.position, True
 
     def resume(self) -> None:
-        """Go on; from the start again where the end was reached."""
+        """Resume; from the start again after the end."""
         if self.is_paused:
             if self._anchor >= self.end:
                 self.seek(self.start)
             self._since, self.is_paused = self._pace.now(), False
 
     def set_rate(self, rate: float) -> None:
-        """Play faster or slower; never beyond `SLOWEST` and `FASTEST`."""
+        """Change the rate, between `SLOWEST` and `FASTEST`."""
         self._anchor, self._since = self.position, self._pace.now()
         self.rate = min(max(rate, SLOWEST), FASTEST)
 
     def step(self) -> None:
-        """Send the next message, and stand still there."""
+        """Send the next message, and pause."""
         self.pause()
         if self._place < len(self._timeline):
             moment = int(self._timeline.moments[self._place])
@@ -152,7 +152,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Seek: send the frames as they were known at a moment, and the second before."""
+        """Jump to a time: send the frames known at that time, and the second before."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()
@@ -168,7 +168,7 @@ class Player(Node):
     # Playing
 
     async def run(self) -> None:
-        """Play to the end; over and over where that was asked for."""
+        """Play to the end; repeatedly, on request."""
         self._since = self._pace.now()
         self._tell()
         self._send_known(self.start - 1)
@@ -184,7 +184,7 @@ class Player(Node):
             await self._pace.sleep_until(self._next_turn(is_behind), self.phase, self.rank)
 
     def _welcome(self) -> None:
-        """Tell those who come while it stands still what the others have heard."""
+        """Send the present frames to processes that join during a pause."""
         listeners = self.world.tf.subscribers
         if self.is_paused and listeners > self._listeners:
             self._send_known(self._anchor)
@@ -197,7 +197,7 @@ class Player(Node):
         self._place = self._timeline.place(self.start)
 
     def _send_due(self) -> bool:
-        """Send everything due by now; whether more is left than is sent at once."""
+        """Send everything due; return whether some is left for the next call."""
         position = self.position
         last = min(self._timeline.place(position, after=True), self._place + AT_ONCE)
         while self._place < last:
@@ -235,7 +235,7 @@ class Player(Node):
             self._broadcast(due)
 
     def _send_known(self, moment: Stamp) -> None:
-        """Send what answers lookups at a moment.
+        """Send what a lookup at a time needs.
 
         The last transform of each link alone would not: their stamps differ, and a lookup of two
         of them wants a moment between two samples of the one that is ahead.
@@ -259,13 +259,13 @@ class Player(Node):
         self.world.broadcast(transforms, sender, static=due.static)
 
     def _shift(self, moment: Stamp) -> Duration:
-        """Return how much later than it was recorded a moment is played."""
+        """Return by how much a time is played later than it was recorded."""
         wait = 0 if self.is_paused else round((moment - self._anchor) / self.rate)
         since = self._pace.now() if self.is_paused else self._since
         return since + wait - moment
 
     def _tell(self, moment: Stamp | None = None) -> None:
-        """Say what time it is: to this world, and on `/clock`."""
+        """Publish the time: to this world, and on `/clock`."""
         if self._is_silent:
             return
         now = max(self._anchor if moment is None else moment, 1)

@@ -1,4 +1,4 @@
-"""The message filter's demonstration: points that wait until they can be placed."""
+"""The message filter's demonstration: points that wait for their transform."""
 
 import asyncio
 from typing import Any
@@ -19,7 +19,7 @@ QUEUE_LENGTH = 100
 
 
 class MessageBroadcaster(Node):
-    """Spawn a turtle, drive it in a circle, and publish where it is as stamped points."""
+    """Spawns a turtle, drives it in a circle, and publishes its position as stamped points."""
 
     def __init__(
         self,
@@ -31,7 +31,7 @@ class MessageBroadcaster(Node):
         spawn: tuple[float, float, float] = (4.0, 2.0, 0.0),
         period: Duration = seconds(1),
     ) -> None:
-        """Join the world; `period` is that of the start-up machine."""
+        """Add the node to a world; `period` is that of the state machine."""
         require_turtle_name(turtle)
         super().__init__(world, name)
         self.turtle, self.frame_id = turtle, frame_id
@@ -39,7 +39,7 @@ class MessageBroadcaster(Node):
         self._spawning = Spawning(self, *spawn, turtle)
 
     async def run(self) -> None:
-        """Start up, then react to every pose."""
+        """Spawn the turtle, then react to every pose."""
         async for _ in self.every(self.period):
             if self._spawning.step():
                 break
@@ -54,7 +54,7 @@ class MessageBroadcaster(Node):
 
 
 class PointDrawer(Node):
-    """Say where each point is in a frame, as soon as that frame is known at its stamp."""
+    """Reports each point's position in a frame as soon as the transform at its stamp is known."""
 
     def __init__(
         self,
@@ -65,7 +65,7 @@ class PointDrawer(Node):
         turtle: str = "turtle3",
         patience: Duration = seconds(1),
     ) -> None:
-        """Join the world; `patience` is how long a point waits at most."""
+        """Add the node to a world; `patience` is the longest wait of a point."""
         super().__init__(world, name)
         self.target_frame, self.turtle = target_frame, turtle
         self.patience = require_period(patience)

@@ -1,4 +1,4 @@
-"""Messages of a world's topics, handed to a recording as they arrive."""
+"""A recorder of a world's topics."""
 
 from collections.abc import Callable, Collection
 from functools import partial
@@ -26,11 +26,11 @@ class Taker(Protocol):
     """Receiver of every message."""
 
     def take(self, channel: Channel, log_time: int, payload: bytes, transforms: int = 0) -> None:
-        """Take one message, and how many transforms are in it."""
+        """Receive one message, and its number of transforms."""
 
 
 class Recorder:
-    """Records topics of a world; of a session that was joined, the bytes as they travel.
+    """Records topics of a world; of a joined session the original bytes.
 
     Attributes:
         topics: Names of the topics that are recorded so far.
@@ -47,7 +47,7 @@ class Recorder:
         everything: bool = False,
         clock: Clock | None = None,
     ) -> None:
-        """Begin to listen to the transforms.
+        """Subscribe to the transforms.
 
         Args:
             world: Whose topics.
@@ -79,7 +79,7 @@ class Recorder:
         self.refresh()
 
     def refresh(self) -> None:
-        """Take in topics that have come up; call it now and then.
+        """Subscribe to new topics; call it now and then.
 
         Raises:
             InputError: If a message could not be taken.
@@ -101,11 +101,11 @@ class Recorder:
 
     @property
     def missing(self) -> list[str]:
-        """Topics that were named, and have not come up."""
+        """Return the requested topics that do not exist yet."""
         return sorted(self._names - self.topics - set(self.left_out))
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         for stop in self._stops:
             stop()
         self._stops.clear()
@@ -193,7 +193,7 @@ class Recorder:
         self._guarded(put)
 
     def _guarded(self, put: Callable[[], None]) -> None:
-        """Keep a failure for the next call: an exception in a listener is only reported."""
+        """Keep an exception for the next call, since one in a listener is only reported."""
         if self._failure is not None:
             return
         try:
@@ -202,7 +202,7 @@ class Recorder:
             self._failure = error
 
     def _channel(self, name: str, ros_type: str, node: str) -> Channel:
-        """A channel for each publisher: so it stays known who sent what."""
+        """Return a channel for each publisher, so that senders stay distinguishable."""
         key = name, ros_type, node
         found = self._channels.get(key)
         if found is None:

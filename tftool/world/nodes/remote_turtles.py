@@ -1,4 +1,4 @@
-"""Turtles of a simulator in another process, as far as that tells of them."""
+"""Turtles of a simulator in another process, as far as they are announced."""
 
 import asyncio
 from collections.abc import Callable, Mapping
@@ -39,7 +39,7 @@ _POSE: Final = "/pose"
 
 @dataclass(slots=True)
 class FarTurtle:
-    """Facts known about a turtle of another process.
+    """Known facts about a turtle of another process.
 
     Attributes:
         name: Its name.
@@ -55,7 +55,7 @@ class FarTurtle:
 
 
 class FarTurtles(Node):
-    """A simulator as it is seen from another process: drawn as the simulator is.
+    """A remote simulator, which is drawn like a local one.
 
     The background is asked of the node that sends the poses, by its parameters; the strokes of
     the pens too, where it is a simulator of ours. Topics of ROS 2's own turtlesim tell no pen:
@@ -70,7 +70,7 @@ class FarTurtles(Node):
     is_shown: ClassVar[bool] = False
 
     def __init__(self, world: World, name: str = "far_turtles") -> None:
-        """Look at the turtles that are there or come, the first fifty of them."""
+        """Follow the present and future turtles, at most fifty."""
         super().__init__(world, name)
         self.trail = Trail()
         self.background: Color = BACKGROUND
@@ -85,13 +85,13 @@ class FarTurtles(Node):
 
     @property
     def turtles(self) -> Mapping[str, FarTurtle]:
-        """Every turtle that is heard of by its name, in the order of the names."""
+        """Return every known turtle by name, sorted."""
         since = self.world.clock.now() - SILENT
         there = {name: one for name, one in sorted(self._known.items()) if one.heard >= since}
         return MappingProxyType(there)
 
     async def run(self) -> None:
-        """Ask the simulator for what no topic tells."""
+        """Request from the simulator what no topic contains."""
         asked, drawn = -RESTING, -1
         async for now in self.every(PERIOD, immediately=True):
             simulator = self._simulator()
@@ -104,11 +104,11 @@ class FarTurtles(Node):
                 await self._ask_strokes(simulator)
 
     def _simulator(self) -> str:
-        """The node that sends the poses of the first turtle; "" where that is not known."""
+        """Return the node that publishes the first turtle's pose; "" if unknown."""
         return next(filter(None, map(self._sender, self.turtles)), "")
 
     def _sender(self, turtle: str) -> str:
-        """The node that sends the poses of a turtle; "" where that is not known."""
+        """Return the node that publishes a turtle's pose; "" if unknown."""
         return next((one.node for one in self.world.endpoints.of(turtle + _POSE, PUBLISHER)), "")
 
     async def _ask_background(self, simulator: str) -> None:
@@ -132,7 +132,7 @@ class FarTurtles(Node):
             self._drawing.take(told)
 
     async def _ask(self, service: str, request: Any) -> Any:
-        """The answer; None where there is none, as from another release or after it has left."""
+        """Return a service's response; None without one, as from another release."""
         if not self.world.has_service(service):
             return None
         try:

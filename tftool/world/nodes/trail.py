@@ -1,5 +1,5 @@
-"""The trails of the turtles' pens: segments to draw, the colour under a point, and their way to a
-process that shows them.
+"""Trails of the turtles' pens: strokes to draw, the colour under a point, and their transfer to
+other processes.
 
 turtlesim's topics tell no pen, and no stroke from before one listened. A simulator of ours
 therefore answers a hidden service, `<node>/_drawing`: lists of services leave it out, as in ROS 2
@@ -25,7 +25,7 @@ KEPT_SEGMENTS = 20_000
 
 
 class Segment(NamedTuple):
-    """One straight stroke of a pen, ends in metres, width in pixels."""
+    """One straight stroke of a pen: ends in metres, width in pixels."""
 
     x0: float
     y0: float
@@ -63,7 +63,7 @@ class Trail:
             self._pixels.paint(self._unpainted.popleft())
 
     def wipe(self) -> None:
-        """Start over with a blank layer."""
+        """Erase all strokes."""
         self.segments.clear()
         self._unpainted.clear()
         self._pixels = _Pixels()
@@ -71,14 +71,14 @@ class Trail:
         self.wipes += 1
 
     def color_at(self, x: float, y: float) -> Color:
-        """The colour of the pixel nearest to a point, in metres."""
+        """Return the colour of the pixel nearest to a point, in metres."""
         while self._unpainted:
             self._pixels.paint(self._unpainted.popleft())
         return self._pixels.color_at(x, y)
 
 
 class _Pixels:
-    """500 rows of palette numbers, a row made when it is first painted."""
+    """500 rows of palette indices; a row is created when first painted."""
 
     def __init__(self) -> None:
         self._rows: list[array[int] | None] = [None] * WINDOW
@@ -93,7 +93,7 @@ class _Pixels:
         return BLANK if pixels is None else self._palette[pixels[column]]
 
     def paint(self, segment: Segment) -> None:
-        """Set every pixel whose middle lies on the stroke, which has square ends.
+        """Set every pixel whose centre is on the stroke, which has square ends.
 
         A stroke is a rectangle, `width` across, that reaches half a width beyond
         both ends. The pixels nearest to the ends belong to it however thin it is.
@@ -141,12 +141,12 @@ class _Pixels:
 
 
 def _nearest(coordinate: float) -> int:
-    """The pixel nearest to a coordinate; halves go up, on every side of the layer alike."""
+    """Return the pixel nearest to a coordinate; halves are rounded up on every side."""
     return math.floor(coordinate + 0.5)
 
 
 def _between(slope: float, offset: float, low: float, high: float) -> tuple[float, float]:
-    """The range of t for which low <= slope * t + offset <= high; empty as (inf, -inf)."""
+    """Return the range of t for which low <= slope * t + offset <= high; empty as (inf, -inf)."""
     if slope == 0.0:
         return (-math.inf, math.inf) if low <= offset <= high else (math.inf, -math.inf)
     first, last = (low - offset) / slope, (high - offset) / slope
@@ -173,7 +173,7 @@ how many strokes of it. Told: which sheet there is, the strokes that follow from
 
 
 class DrawingService:
-    """Answers with the strokes of a trail, those first that the asker lacks."""
+    """Service that returns the strokes of a trail that the client lacks."""
 
     def __init__(self, node: Node, trail: Trail) -> None:
         """Serve until the node ends."""
@@ -197,25 +197,25 @@ class DrawingService:
 
 
 class FarDrawing:
-    """A trail elsewhere, as far as it was told.
+    """Copy of a trail in another process, as far as it was received.
 
     Attributes:
         is_whole: Whether everything was told that was there at the last answer.
     """
 
     def __init__(self, trail: Trail) -> None:
-        """Add a reported point to `trail`."""
+        """Add a received point to `trail`."""
         self.is_whole = False
         self._trail = trail
         self._began = -1
         self._wipes = self._drawn = 0
 
     def request(self) -> Any:
-        """Return the request for the strokes that are missing here."""
+        """Return the request for missing strokes."""
         return KIND.Request(began=self._began, wipes=self._wipes, drawn=self._drawn)
 
     def take(self, told: Any) -> bool:
-        """Draw what an answer brought; whether it changed anything."""
+        """Draw a response's strokes; return whether anything changed."""
         is_new = (told.began, told.wipes) != (self._began, self._wipes) or told.first < self._drawn
         if is_new:
             self._trail.wipe()

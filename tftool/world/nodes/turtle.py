@@ -1,4 +1,4 @@
-"""One turtle of the simulator: its state, and one update of it."""
+"""One turtle of the simulator: its state, and its update."""
 
 import math
 import re
@@ -36,7 +36,7 @@ Say = Callable[[Level, str], object]
 
 
 def require_turtle_name(name: str) -> str:
-    """Give the name back, or refuse it: it becomes part of topic names and is a frame.
+    """Return the name, or refuse it: it becomes part of topic names and a frame.
 
     Raises:
         UsageError: If it is not a letter or '_' followed by letters, digits and '_'.
@@ -50,12 +50,12 @@ def require_turtle_name(name: str) -> str:
 
 
 def shown(name: str) -> str:
-    """A stranger's name as it can be shown: cut, and nothing in it acts on a terminal."""
+    """Return another process's name shortened and with control characters escaped."""
     return repr(name if len(name) <= 60 else name[:59] + "…")[1:-1]
 
 
 class Turtle:
-    """A turtle's state; the simulator alone changes it, everybody may read it.
+    """A turtle's state; only the simulator changes it, everybody may read it.
 
     Attributes:
         name: Its name, which is its frame's name too.
@@ -114,7 +114,7 @@ class Turtle:
     # What the simulator hands on, at the start of a tick
 
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
-        """Take over a velocity command; it replaces the whole previous one.
+        """Set the velocity command, replacing all of the previous one.
 
         One exception: a simulator that is not holonomic, as turtlesim is not, keeps the
         sideways speed of before until the timeout or the rotate action clears it.
@@ -129,18 +129,18 @@ class Turtle:
             self._end_goal("aborted")
 
     def teleport(self, where: Callable[[Placement], Placement]) -> None:
-        """Have the turtle put elsewhere in its next update, after those asked for earlier."""
+        """Queue a teleport for the next update, after earlier ones."""
         self._settled = False
         self._teleports.append(where)
 
     def set_pen(self, color: Color, width: int, off: bool) -> None:
-        """Lift the pen, or put it down with other settings; width 0 means one pixel."""
+        """Lift the pen, or lower it with other settings; width 0 means one pixel."""
         self.pen_on = not off
         if not off:
             self.color, self.width = color, max(width, 1)
 
     def rotate(self, goal: GoalHandle, theta: float, say: Say) -> None:
-        """Take over a goal of the rotate action, a heading; an active one is aborted."""
+        """Accept a goal of the rotate action, a heading; an active one is aborted."""
         if self._goal is not None:
             say(
                 "WARN",
@@ -152,14 +152,14 @@ class Turtle:
         self._goal_start, self._goal_delta = self.place.theta, 0.0
 
     def leave(self) -> None:
-        """End the current action, because the turtle goes."""
+        """End the current action, because the turtle is removed."""
         if self._goal is not None:
             self._end_goal("aborted")
 
     # One update
 
     def update(self, now: Stamp, say: Say, draw: Callable[[Segment], object]) -> Segment | None:
-        """Teleport, turn, move and meet the wall; `pose` is the outcome.
+        """Teleport, turn, move and stop at the wall; `pose` is the result.
 
         Args:
             now: The moment of the tick.

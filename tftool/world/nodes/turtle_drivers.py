@@ -1,4 +1,4 @@
-"""Nodes that drive a turtle by themselves: along squares, like another turtle, along a rose."""
+"""Nodes that drive a turtle: along squares, like another turtle, along a rose."""
 
 import math
 from collections.abc import Callable
@@ -29,7 +29,7 @@ class State(Enum):
 
 
 class DrawSquare(Node):
-    """Drive a turtle along squares: forward, stop, turn, stop, at every tick one look.
+    """Drives a turtle along squares: forward, stop, turn, stop, one check per tick.
 
     Attributes:
         state: What it is at.
@@ -44,7 +44,7 @@ class DrawSquare(Node):
         turtle: str = "turtle1",
         reset: bool = True,
     ) -> None:
-        """Join the world; with `reset`, the simulator is reset first."""
+        """Add the node to a world; with `reset`, the simulator is reset first."""
         super().__init__(world, name)
         self.turtle = require_turtle_name(turtle)
         self.state = State.FORWARD
@@ -134,7 +134,7 @@ class DrawSquare(Node):
 
 
 class Mimic(Node):
-    """Have one turtle do what another does.
+    """Makes one turtle copy another's motion.
 
     A pose's speed is a magnitude: where the leader reverses, the copy drives forward.
     """
@@ -147,12 +147,12 @@ class Mimic(Node):
         leader: str = "turtle1",
         copy: str = "turtle2",
     ) -> None:
-        """Join the world; both names may carry a simulator's namespace in front."""
+        """Add the node to a world; both names may have a simulator's namespace in front."""
         super().__init__(world, name)
         self.leader, self.copy = leader, copy
 
     async def run(self) -> None:
-        """Copy from now on."""
+        """Copy until the end."""
         self.publisher(f"{self.copy}/cmd_vel", Twist)
         self.subscribe(f"{self.leader}/pose", Pose, self._on_pose)
 
@@ -175,7 +175,7 @@ _STEPS: Final = 360
 
 
 class IdleDrawing(Node):
-    """Has a turtle draw a rose of four petals, again and again, while it is left alone.
+    """Makes an idle turtle draw a rose of four petals repeatedly.
 
     It begins when no command came for `PATIENCE`, and ends with the next command that is
     not its own, with `touch`, and while `is_alone` says that others are there.
@@ -193,7 +193,7 @@ class IdleDrawing(Node):
         patience: Duration = PATIENCE,
         is_alone: Callable[[], bool] = lambda: True,
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -230,7 +230,7 @@ class IdleDrawing(Node):
             self._send(self._steer(pose))
 
     def touch(self) -> None:
-        """Stop because a person or a process is there, and restart the wait."""
+        """Stop because a person or process drives, and restart the wait."""
         self._since = self.clock.now()
         if self.is_drawing:
             self.is_drawing = False
@@ -260,7 +260,7 @@ class IdleDrawing(Node):
             self.info(f"{self.turtle} draws by itself until a key is pressed.")
 
     def _steer(self, pose: Any) -> Any:
-        """Steer to a point of the rose that stays a little ahead."""
+        """Steer to a point of the rose slightly ahead."""
         for _ in range(_STEPS):
             if _away(pose, self._phase) >= _AHEAD:
                 break

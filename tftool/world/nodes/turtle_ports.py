@@ -1,4 +1,4 @@
-"""One turtle's topics, services and action, and the queue for the simulator's next tick."""
+"""One turtle's topics, services and action, and the queue for the next tick."""
 
 import asyncio
 import math
@@ -36,7 +36,7 @@ MOST_WAITING = 10_000
 
 
 class TickQueue:
-    """Work that arrives between two ticks, carried out in order at the next one.
+    """Queue of work between two ticks, run in order at the next one.
 
     What arrives in the very instant of a tick waits for the one after it, so that the order
     within an instant does not matter.
@@ -48,14 +48,14 @@ class TickQueue:
         self._unanswered: set[asyncio.Future[Any]] = set()
 
     def put(self, work: Work[object]) -> bool:
-        """Have something done at the next tick; False where too much waits already."""
+        """Queue work for the next tick; return False if the queue is full."""
         if len(self._waiting) >= MOST_WAITING:
             return False
         self._waiting.append((self._clock.now(), work))
         return True
 
     def ask(self, work: Work[T]) -> "asyncio.Future[T]":
-        """Have something done at the next tick, and await its outcome.
+        """Queue work for the next tick, and wait for its result.
 
         The future's exception is a TftoolError where too much waits already.
         """
@@ -74,14 +74,14 @@ class TickQueue:
         return answer
 
     def deliver(self, tick: Stamp) -> None:
-        """Carry out what arrived before this tick."""
+        """Run the work queued before this tick."""
         # Asked of the clock: on the wall clock a late tick takes all that came meanwhile.
         moment = self._clock.now()
         while self._waiting and self._waiting[0][0] < moment:
             self._waiting.popleft()[1](tick)
 
     def close(self, reason: str) -> None:
-        """Drop everything waiting; those that await an outcome are refused with `reason`."""
+        """Drop the queued work; whoever waits for a result is refused with `reason`."""
         self._waiting.clear()
         for answer in list(self._unanswered):
             if not answer.done():
@@ -89,7 +89,7 @@ class TickQueue:
 
 
 class TurtlePorts:
-    """A turtle's topics, services and action; incoming requests wait for the next tick.
+    """A turtle's topics, services and action; requests wait for the next tick.
 
     Attributes:
         pose: Where its poses go.
@@ -106,7 +106,7 @@ class TurtlePorts:
         say: Say,
         is_holonomic: Callable[[], bool],
     ) -> None:
-        """Open them all.
+        """Open all of them.
 
         Args:
             world: Where.
@@ -147,7 +147,7 @@ class TurtlePorts:
         ]
 
     def close(self) -> None:
-        """Close them all, and abort a goal that is under way."""
+        """Close all of them, and abort an active goal."""
         for stop in self._stops:
             stop()
         self._stops.clear()
@@ -155,7 +155,7 @@ class TurtlePorts:
         self._turtle.leave()
 
     def remove_topics(self) -> None:
-        """Forget the topics without a subscriber; the next turtle of that name uses the others."""
+        """Remove the topics without a subscriber; the next turtle of that name reuses others."""
         for what in ("pose", "color_sensor", "cmd_vel"):
             topic = self._world.topics().get(self._prefix + what)
             if topic is not None and not topic.subscribers:
@@ -217,7 +217,7 @@ class TurtlePorts:
 
 
 def requested_placement(request: Any) -> Placement:
-    """Round the x, y and theta of a request for Spawn or TeleportAbsolute to 32 bits.
+    """Round x, y and theta of a request for Spawn or TeleportAbsolute to 32 bits.
 
     Raises:
         UsageError: If one of them is NaN, infinite or too large for that.
@@ -230,7 +230,7 @@ def requested_placement(request: Any) -> Placement:
 
 
 def require_byte(value: int, what: str) -> int:
-    """Give a channel's value back, or refuse it by name.
+    """Return a colour channel's value, or refuse it by name.
 
     Raises:
         UsageError: If it is not a whole number from 0 to 255.

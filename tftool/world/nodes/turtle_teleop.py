@@ -1,4 +1,4 @@
-"""turtle_teleop_key: arrow keys drive a turtle, eight letters round F turn it."""
+"""turtle_teleop_key: arrow keys drive a turtle, eight letters around F turn it."""
 
 import asyncio
 from collections.abc import Mapping
@@ -37,7 +37,7 @@ Action = Literal["cmd_vel", "rotate", "cancel", "quit"]
 
 @dataclass(frozen=True, slots=True)
 class KeyPress:
-    """One key a person (or a script) pressed: "up", "left", "g", "q" and so on."""
+    """A key pressed by a person or script: "up", "left", "g", "q" and so on."""
 
     key: str
 
@@ -83,7 +83,7 @@ KEYS: Mapping[str, KeyMeaning] = MappingProxyType(
 
 
 class Teleop(Node):
-    """Turn keys into commands for a turtle; one press is one message.
+    """Converts keys to commands for a turtle; one press is one message.
 
     Keys come from `press` and from the topic `keys`. Stopping is the simulator's
     timeout. Parameters, read at every press: scale_linear, scale_angular.
@@ -98,7 +98,7 @@ class Teleop(Node):
         scale_linear: float = SCALE_LINEAR,
         scale_angular: float = SCALE_ANGULAR,
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -121,7 +121,7 @@ class Teleop(Node):
         self._quit = asyncio.Event()
 
     async def run(self) -> None:
-        """Take keys from the topic `keys` until one says to quit."""
+        """Handle keys from the topic `keys` until the quit key."""
         self.publisher(f"{self.turtle}/cmd_vel", Twist)
         stop = self.subscribe("keys", KeyPress, lambda pressed: self.press(pressed.key))
         try:
@@ -130,7 +130,7 @@ class Teleop(Node):
             stop()
 
     def press(self, key: str) -> Action | None:
-        """Do what a key says.
+        """Handle a key.
 
         Args:
             key: "up", "down", "left", "right" or a letter of either case.

@@ -1,4 +1,4 @@
-"""turtlesim: the field, its turtles, and every service, topic and action they have."""
+"""turtlesim: the field and its turtles with all their services, topics and actions."""
 
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -31,7 +31,7 @@ BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
 
 
 class Turtlesim(Node):
-    """The turtle simulator, on a grid of 16 ms.
+    """The turtle simulator, with ticks every 16 ms.
 
     Whatever arrives (commands, services, goals) waits for the next tick; then every
     turtle is updated once, in the order of the names. Topics of a turtle: `pose` out
@@ -58,7 +58,7 @@ class Turtlesim(Node):
         turtles: Sequence[Any] = (),
         namespace: str = "",
     ) -> None:
-        """Join the world.
+        """Add the node to a world.
 
         Args:
             world: Where to live.
@@ -91,19 +91,19 @@ class Turtlesim(Node):
 
     @property
     def turtles(self) -> Mapping[str, Turtle]:
-        """Every turtle by its name, in the order of the names; to be read only."""
+        """Return every turtle by name, sorted; read-only."""
         return MappingProxyType(self._turtles)
 
     @property
     def background(self) -> Color:
-        """The field's colour as the parameters say now, held within 0 to 255."""
+        """The field's colour from the parameters, clamped to 0 to 255."""
         r, g, b = (
             min(max(int(self.get_parameter(name)), 0), 255) for name in BACKGROUND_PARAMETERS
         )
         return Color(r, g, b)
 
     def color_under(self, name: str) -> Color:
-        """Return the reading of a turtle's colour sensor at this moment.
+        """Return the present reading of a turtle's colour sensor.
 
         Raises:
             KeyError: If there is no such turtle.
@@ -162,7 +162,7 @@ class Turtlesim(Node):
                 self._update(now)
 
     def close(self) -> None:
-        """Withdraw everything, and refuse the requests that still wait.
+        """Close everything, and refuse waiting requests.
 
         The turtles stay where they are, for a look at the end.
         """
@@ -190,7 +190,7 @@ class Turtlesim(Node):
     # Turtles come and go
 
     def _spawn(self, place: Placement, name: str, now: Stamp) -> str:
-        """Make a turtle; the empty string says that the name was refused."""
+        """Create a turtle; an empty result means that the name was refused."""
         if not name:
             name = self._next_name()
         elif name in self._turtles:
@@ -213,7 +213,7 @@ class Turtlesim(Node):
         return name
 
     def _refusal(self, name: str) -> str:
-        """Return why there can be no further turtle of that name; empty when there can."""
+        """Return why another turtle of that name is impossible; empty if it is possible."""
         if len(self._turtles) >= MOST_TURTLES:
             return f"there are {MOST_TURTLES} already, kill one first"
         try:

@@ -1,1 +1,1 @@
-"""Displays of messages beside the frames: points and lines, each type in a file of its own."""
+"""Displays of messages besides frames: points and lines, one file per type."""

@@ -14,7 +14,7 @@ _FORMATS: Final = {7: "f4", 8: "f8"}
 
 
 def draw(message: Any, most: int) -> DrawnMessage:
-    """The points.
+    """Return the points.
 
     Raises:
         InputError: If it has no x, y and z in floats, or fewer bytes than it says.

@@ -11,7 +11,7 @@ KIND: Final = "line"
 
 
 def draw(message: Any, most: int) -> DrawnMessage:
-    """The places of its poses, in order."""
+    """Return the positions of its poses, in order."""
     places = [
         (one.pose.position.x, one.pose.position.y, one.pose.position.z) for one in message.poses
     ]

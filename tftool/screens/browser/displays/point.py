@@ -1,4 +1,4 @@
-"""`geometry_msgs/PointStamped`: one place, as a ball."""
+"""`geometry_msgs/PointStamped`: a position as a ball."""
 
 from typing import Any, Final
 
@@ -11,6 +11,6 @@ KIND: Final = "ball"
 
 
 def draw(message: Any, most: int) -> DrawnMessage:
-    """The place."""
+    """Return the position."""
     point = message.point
     return drawn(message.header, np.array([(point.x, point.y, point.z)]), most)

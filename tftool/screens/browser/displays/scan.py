@@ -1,4 +1,4 @@
-"""`sensor_msgs/LaserScan`: where its rays ended, in the plane of the sensor."""
+"""`sensor_msgs/LaserScan`: end points of its rays, in the plane of the sensor."""
 
 from typing import Any, Final
 
@@ -11,7 +11,7 @@ KIND: Final = "points"
 
 
 def draw(message: Any, most: int) -> DrawnMessage:
-    """The ends of the rays that hit something: ranges from its least to its most."""
+    """Return the ends of rays that hit something: ranges from its minimum to its maximum."""
     ranges = np.asarray(message.ranges, dtype=np.float64)
     angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
     hit = (ranges >= message.range_min) & (ranges <= message.range_max)

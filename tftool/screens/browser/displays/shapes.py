@@ -1,4 +1,4 @@
-"""Result of every display: places in one frame at one moment."""
+"""Result of every display: positions in one frame at one time."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -17,7 +17,7 @@ MOST_POINTS = 200_000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DrawnMessage:
-    """One message as it is drawn.
+    """One message in drawable form.
 
     Attributes:
         stamp: Its moment, nanoseconds.
@@ -31,12 +31,12 @@ class DrawnMessage:
 
 
 def thinned(places: Places, most: int) -> Places:
-    """At most `most` of the places: all, every second one, every third, and so on."""
+    """Return at most `most` positions: all, every second, every third, and so on."""
     return places[:: max(1, -(-len(places) // most))]
 
 
 def drawn(header: Any, places: npt.NDArray[Any], most: int = MOST_POINTS) -> DrawnMessage:
-    """Take the finite ones of some places, thinned out to at most `most`."""
+    """Return the finite positions, thinned to at most `most`."""
     places = np.asarray(places, dtype=np.float32).reshape(-1, 3)
     places = places[np.isfinite(places).all(axis=1)]
     places = thinned(places, most)

@@ -1,4 +1,4 @@
-"""Services over DDS as ROS 2's Cyclone has them: two topics, a number in front of each message.
+"""Services over DDS as in ROS 2 with Cyclone: two topics, each message preceded by its number.
 
 Fast DDS carries that number beside the message, out of reach of the library; what speaks it
 is refused by name.
@@ -38,7 +38,7 @@ REFUSED: Final = (
 
 
 class ServicePart:
-    """Parts that both sides of services need.
+    """Common parts of both sides of a service.
 
     Attributes:
         participant: Ours.
@@ -59,7 +59,7 @@ class ServicePart:
         self._types = types
 
     def kinds(self, ros_type: str) -> tuple[type[Raw], type[Raw]]:
-        """The classes of a service's requests and replies."""
+        """Return the classes of a service's requests and replies."""
         raw = self._types.raw
         return (
             raw(f"{ros_type}_Request", beside=NUMBERED),
@@ -68,7 +68,7 @@ class ServicePart:
 
 
 class CycloneServer:
-    """The serving end of a service."""
+    """Server of a service."""
 
     def __init__(
         self,
@@ -78,7 +78,7 @@ class CycloneServer:
         on_request: Callable[[WireRequest], object],
         on_stranger: Callable[[str], object],
     ) -> None:
-        """Serve.
+        """Start serving.
 
         Args:
             part: What both sides need.
@@ -99,7 +99,7 @@ class CycloneServer:
         self.gids = self._reader.gid, self._writer.gid
 
     def close(self) -> None:
-        """Serve no more."""
+        """Stop serving."""
         self._reader.close()
         self._writer.close()
 
@@ -112,7 +112,7 @@ class CycloneServer:
 
 
 class CycloneRequest:
-    """A request that came in; its number goes back with the answer."""
+    """A received request; its number goes back with the response."""
 
     def __init__(self, payload: bytes, reply: Callable[[bytes], object]) -> None:
         self._number = payload[_HEAD : _HEAD + _NUMBER]
@@ -121,15 +121,15 @@ class CycloneRequest:
         self._reply = reply
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Reply, once."""
+        """Send the response, once."""
         self._reply(payload[:_HEAD] + self._number + payload[_HEAD:])
 
     def refuse(self, reason: str) -> None:
-        """Do nothing: ROS 2 has no word for it over DDS, and its client waits until it is tired."""
+        """Do nothing: ROS 2 has no refusal over DDS, and the client waits until its timeout."""
 
 
 class CycloneClient:
-    """The asking end of a service; opened with its first request."""
+    """Client of a service; opened with its first request."""
 
     def __init__(self, part: ServicePart, name: str, ros_type: str) -> None:
         self._part = part
@@ -142,7 +142,7 @@ class CycloneClient:
         self._is_matched: Callable[[], bool] = bool
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Send a request and wait for the answer."""
+        """Send a request and wait for the response."""
         vendors = {
             one.gid[:2]
             for one in self._part.graph.entities(SERVER, name=self._name)
@@ -190,7 +190,7 @@ class CycloneClient:
             answer.set_result(payload[:_HEAD] + payload[_HEAD + _NUMBER :])
 
     def close(self) -> None:
-        """Ask no more."""
+        """Close the client."""
         for close in self._close:
             close()
         self._close = []

@@ -1,4 +1,4 @@
-"""Messages and names of ROS 2 as DDS has them."""
+"""ROS 2's messages and names in DDS."""
 
 import re
 from typing import Any, Final, NamedTuple
@@ -22,7 +22,7 @@ _NAMES: Final = {
 
 
 class Raw:
-    """A message of any type, as its bytes; what the library needs of a class of messages."""
+    """A message of any type as bytes, in the class form that the library needs."""
 
     __slots__ = ("payload", "sample_info")
 
@@ -31,17 +31,17 @@ class Raw:
         self.sample_info: Any = None
 
     def serialize(self, **_: object) -> bytes:
-        """The bytes, which are XCDR1 whatever is asked for."""
+        """Return the bytes, always as XCDR1."""
         return self.payload
 
     @classmethod
     def deserialize(cls, payload: bytes) -> "Raw":
-        """A message that came in."""
+        """Return a received message."""
         return cls(payload)
 
     @classmethod
     def deserialize_key(cls, _: bytes) -> None:
-        """Nothing: no message of ROS 2 has a key."""
+        """Return nothing: ROS 2's messages have no key."""
         return
 
 
@@ -50,13 +50,13 @@ _MADE: Final[dict[tuple[str, str, tuple[tuple[str, str], ...]], type[Raw]]] = {}
 
 
 class Types:
-    """Classes for the library by the names of their types."""
+    """Classes for the library by type name."""
 
     def __init__(self, schema: Schema) -> None:
         self._schema = schema
 
     def raw(self, full: str, *, beside: tuple[tuple[str, str], ...] = ()) -> type[Raw]:
-        """The class by which messages of a type go out and come in.
+        """Return the class for sending and receiving messages of a type.
 
         Args:
             full: The type's full name.
@@ -145,13 +145,13 @@ class Part(NamedTuple):
 
 
 def dds_type(ros_type: str) -> str:
-    """The name of a type in DDS: "tf2_msgs::msg::dds_::TFMessage_"."""
+    """Return a type's name in DDS: "tf2_msgs::msg::dds_::TFMessage_"."""
     package, kind, name = ros_type.split("/")
     return f"{package}::{kind}::dds_::{name}_"
 
 
 def ros_part(topic: str, type_name: str) -> Part | None:
-    """Return the role of a DDS topic in ROS; None where its name is not of ROS's making."""
+    """Return the role of a DDS topic in ROS; None if its name is not ROS's."""
     found = _TYPE.fullmatch(type_name)
     prefix, name = topic[:3], topic[3:]
     if found is None or prefix not in (TOPIC, REQUEST, REPLY) or not name:
@@ -166,24 +166,24 @@ def ros_part(topic: str, type_name: str) -> Part | None:
 
 
 def hash_shown(user_data: bytes) -> str:
-    """The hash of an endpoint's type, where it is written beside it; else ""."""
+    """Return the hash of an endpoint's type, if it is announced; else ""."""
     found = _HASH.search(user_data)
     return found[1].decode() if found else ""
 
 
 def vendor(gid: bytes) -> str:
-    """Return the library of an endpoint or participant, by its GUID."""
+    """Return the DDS library of an endpoint or participant, by its GUID."""
     return VENDORS.get(gid[:2], "another DDS library")
 
 
 def process_data(process: Process) -> bytes:
-    """Return the user data beside the participant of a tftool."""
+    """Return the user data of a tftool's participant."""
     ours = f"tftool={process.role},{process.pid},{process.since},{process.command};"
     return f"{ENCLAVE}{ours}".encode()
 
 
 def process_shown(user_data: bytes, domain: int, session: str) -> Process | None:
-    """The tftool that a participant belongs to; None for any other program."""
+    """Return the tftool process of a participant; None for any other program."""
     found = _OURS.search(user_data.decode(errors="replace"))
     if found is None or found["role"] not in tuple(Role):
         return None

@@ -1,4 +1,4 @@
-"""Discovery in DDS: its built-in topics, and what ROS 2's nodes publish about themselves.
+"""Discovery in DDS: built-in topics, and what ROS 2's nodes publish about themselves.
 
 DDS knows participants and their endpoints; which node an endpoint belongs to is written on
 `ros_discovery_info`, which every participant of ROS 2 publishes.
@@ -57,7 +57,7 @@ _KINDS: Final = {
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """An endpoint, as the built-in topics show it."""
+    """An endpoint from the built-in topics."""
 
     handle: int
     participant: bytes
@@ -65,7 +65,7 @@ class _Found:
 
 
 class Information:
-    """`ros_discovery_info` in one of its forms: which node has which endpoints."""
+    """One version of `ros_discovery_info`: which node has which endpoints."""
 
     def __init__(self, size: int) -> None:
         self.size = size
@@ -75,11 +75,11 @@ class Information:
         self._codec: Codec = codec(self.kind)
 
     def raw(self) -> type[Any]:
-        """The library's class of it."""
+        """Return the library's class for it."""
         return Types(self._interfaces).raw(INFO)
 
     def encode(self, participant: bytes, nodes: dict[str, tuple[set[bytes], set[bytes]]]) -> bytes:
-        """Encode what a participant announces.
+        """Encode a participant's announcement.
 
         Args:
             participant: Its GUID.
@@ -123,7 +123,7 @@ class Information:
 
 
 class Discovery:
-    """Keeps a graph in line with what others show, and shows our own nodes.
+    """Keeps the graph up to date with others' announcements, and announces our own nodes.
 
     Attributes:
         graph: Who else is there.
@@ -131,7 +131,7 @@ class Discovery:
     """
 
     def __init__(self, participant: Participant, domain: int) -> None:
-        """Begin discovery; `look` reads its results.
+        """Start discovery; `look` reads its results.
 
         Args:
             participant: Ours.
@@ -176,7 +176,7 @@ class Discovery:
             self._writer.close()
 
     def start(self, report: Callable[[GraphEntity | Process | None, bool], None]) -> None:
-        """Call back from now on with every arrival and departure."""
+        """Call back from now on for every arrival and departure."""
         self._report = report
         self._changed = self._look_soon
         self._look_soon()
@@ -188,18 +188,18 @@ class Discovery:
 
     @property
     def is_complete(self) -> bool:
-        """Whether every participant has shown its endpoints, and its nodes if it tells them."""
+        """Whether every participant has announced its endpoints, and its nodes if any."""
         has_spoken = self._names.keys() <= self._speaking
         return has_spoken and self._informing.keys() <= self._nodes.keys()
 
     def wait(self, seconds: float) -> bool:
-        """Wait until something has changed, before anything is called back."""
+        """Wait until something has changed, without callbacks."""
         changed = self._is_due.wait(seconds)
         self._is_due.clear()
         return changed
 
     def gid(self, writer: int) -> bytes:
-        """The GUID of a writer, by the library's number of it; b"" if it is not known."""
+        """Return a writer's GUID by the library's number for it; b"" if unknown."""
         if writer not in self._gids:
             self.look()
         return self._gids.get(writer, b"")
@@ -223,7 +223,7 @@ class Discovery:
     # On the loop
 
     def look(self) -> None:
-        """Take in what the built-in topics have."""
+        """Process what the built-in topics have received."""
         if self._participants is None:
             return
         # Participants first: an endpoint of an unknown participant has no process to belong to.
@@ -293,14 +293,14 @@ class Discovery:
         self._show(key)
 
     def _show(self, key: tuple[str, bytes]) -> None:
-        """Enter an endpoint in the graph, under its node as far as that is known."""
+        """Add an endpoint to the graph, under its node if known."""
         found = self._found[key]
         nodes = self._nodes.get(found.participant, ({}, []))[0]
         node = nodes.get(key[1]) or self._node_of(found.participant)
         self._exchange(_key(key), replace(found.entity, node=node))
 
     def _node_of(self, participant: bytes) -> str:
-        """Return a name for the node of a participant that announces no nodes."""
+        """Return a node name for a participant that announces no nodes."""
         # One node in the process: every endpoint is its own, also before the list names them.
         only = self._nodes.get(participant, ({}, []))[1]
         if len(only) == 1:
@@ -322,7 +322,7 @@ class Discovery:
         self._exchange(f"process {participant.hex()}", None)
 
     def _exchange(self, key: str, new: GraphEntity | Process | None) -> None:
-        """Replace the entry under its key, and report both."""
+        """Replace the entry of a key, and report both."""
         old = self.graph.get(key)
         if old == new:
             return
@@ -371,7 +371,7 @@ class Discovery:
     # What we say
 
     def show_node(self, name: str) -> Callable[[], None]:
-        """Show a node of ours until the returned function is called."""
+        """Announce one of our nodes until the returned function is called."""
         self._own.setdefault(name, (set(), set()))
         self._say()
 
@@ -382,7 +382,7 @@ class Discovery:
         return hide
 
     def show_endpoint(self, node: str, role: str, gid: bytes) -> Callable[[], None]:
-        """Show that an endpoint of ours is a node's, until the returned function is called."""
+        """Announce an endpoint of one of our nodes until the returned function is called."""
         which = 1 if role == PUBLISHER else 0
         self._own.setdefault(node, (set(), set()))[which].add(gid)
         self._say()
@@ -417,7 +417,7 @@ def _key(key: tuple[str, bytes]) -> str:
 
 
 def _all(reader: Any) -> list[Any]:
-    """Everything that a reader has."""
+    """Return everything a reader has received."""
     found: list[Any] = []
     while taken := reader.take(256):
         found += taken
@@ -430,7 +430,7 @@ def _is_alive(one: Any) -> bool:
 
 
 def _described(qos: Any) -> tuple[Quality, str]:
-    """An endpoint's quality, and the hash of its type where it is shown."""
+    """Return an endpoint's QoS, and the hash of its type if it is announced."""
     policies = {policy.__scope__: policy for policy in qos}
     history = policies.get("History")
     quality = Quality(

@@ -1,4 +1,4 @@
-"""Complaints of the DDS library, counted; by itself it writes each to stderr."""
+"""Errors of the DDS library, counted; the library itself prints each to stderr."""
 
 import ctypes
 import os
@@ -20,7 +20,7 @@ _NUMBER: Final = re.compile(r"[0-9a-f.]*\d[0-9a-f.]*")
 
 
 class LibraryLog:
-    """The library's complaints, read through a pipe and given to whoever listens.
+    """The library's error output, read through a pipe and passed to listeners.
 
     The library has no function that says where they go: a domain writes to the `stderr` of C as
     it was when the domain was made. That variable names our pipe for so long. The pipe's end in
@@ -35,7 +35,7 @@ class LibraryLog:
         self._stream: int | None = None
 
     def listen(self, callback: Callable[[str], object]) -> Callable[[], None]:
-        """Have `callback` called on another thread with sentences to print.
+        """Call `callback` in another thread with sentences to print.
 
         Returns:
             A function that ends this.
@@ -51,7 +51,7 @@ class LibraryLog:
 
     @contextmanager
     def taking(self) -> Iterator[None]:
-        """Take the complaints of a domain that is made in here; where C allows it."""
+        """Capture the errors of a domain created in this block, where C allows it."""
         try:
             c = ctypes.CDLL(None)
             stderr = ctypes.c_void_p.in_dll(
@@ -69,7 +69,7 @@ class LibraryLog:
             stderr.value = before
 
     def _open(self, c: ctypes.CDLL) -> int:
-        """Return the stream of C that is read; it stays open, as domains go on to write to it."""
+        """Return the C stream to read; it stays open, as domains continue to write to it."""
         if self._stream is None:
             read, write = os.pipe()
             os.set_blocking(write, False)

@@ -1,4 +1,4 @@
-"""DDS as the middleware of a link, by the names and types of ROS 2's Cyclone and Fast DDS."""
+"""DDS as a link's middleware, with names and types of ROS 2's Cyclone and Fast DDS."""
 
 import asyncio
 import os
@@ -38,7 +38,7 @@ _RELIABILITY: Final = 11
 
 
 class DdsMiddleware:
-    """This process among those that talk ROS 2 over DDS; see `seam.Middleware`.
+    """This process in a ROS 2 graph over DDS; see `seam.Middleware`.
 
     Attributes:
         graph: Who else is there.
@@ -48,7 +48,7 @@ class DdsMiddleware:
     """
 
     def __init__(self, options: Options, reach: DdsReach) -> None:
-        """Join, as the seam says."""
+        """Join the graph; see `seam.Middleware`."""
         self._options = options
         self._network = network(reach.places)
         self.notices: tuple[str, ...] = self._network.told
@@ -70,7 +70,7 @@ class DdsMiddleware:
             raise
 
     def _look_around(self) -> None:
-        """Wait until all are known that are there."""
+        """Wait until all existing participants are known."""
         discovery, clock = self._discovery, WallClock()
         begin = clock.now()
         ours = 1
@@ -113,7 +113,7 @@ class DdsMiddleware:
 
     @property
     def lost(self) -> int:
-        """Messages that were dropped because too many waited to be taken in."""
+        """Messages dropped because the inbox was full."""
         return self._participant.inbox.lost + self._participant.oversized
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
@@ -140,13 +140,13 @@ class DdsMiddleware:
         self._participant.at_close(stop)
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """Do nothing: command lines are completed from sessions over zenoh."""
+        """Do nothing: command lines are completed from zenoh sessions only."""
 
     def settle(self) -> None:
-        """Do nothing: over DDS processes may join at any time."""
+        """Do nothing: processes may join over DDS at any time."""
 
     def close(self) -> None:
-        """Send what still waits, and leave."""
+        """Send buffered messages, and leave."""
         for listening in [one for several in self._readers.values() for one in several]:
             listening.close()
         self._readers.clear()
@@ -155,12 +155,12 @@ class DdsMiddleware:
     # Shown entities
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Show this process."""
+        """Announce this process."""
         self._participant.tell(names.process_data(process))
         return _nothing
 
     def node(self, name: str) -> Callable[[], None]:
-        """Show a node."""
+        """Announce a node."""
         if self._options.read_only:
             return _nothing
         return self._discovery.show_node(node_name(name))
@@ -168,7 +168,7 @@ class DdsMiddleware:
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Show that a node subscribes a topic: that the readers of it are its own."""
+        """Announce that a node subscribes to a topic, so that its readers are the node's."""
         claim = _Claim(node_name(node), name, ros_type, quality)
         self._claims.append(claim)
         for one in self._readers.get((name, ros_type), ()):
@@ -182,7 +182,7 @@ class DdsMiddleware:
         return hide
 
     def _assign(self, listening: "_Listening") -> None:
-        """Show a reader as one of the node that claims its topic."""
+        """Announce a reader as one of the node that declared the subscription."""
         listening.hide()
         listening.hide = _nothing
         if self._options.read_only or listening.reader is None:
@@ -196,7 +196,7 @@ class DdsMiddleware:
     # Topics
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> "DdsPublisher":
-        """Publish a topic, as a node of this process."""
+        """Publish a topic as a node of this process."""
         kind = self._kind(ros_type)
         if self._options.read_only:
             raise LinkError("a process that only looks publishes nothing")
@@ -213,7 +213,7 @@ class DdsMiddleware:
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Have `on_message` called with what others publish."""
+        """Call `on_message` with other processes' messages."""
         listening = _Listening(self, name, ros_type, on_message, is_latched=is_latched)
         try:
             listening.open(is_reliable=self._asks_reliable(name, ros_type))
@@ -232,7 +232,7 @@ class DdsMiddleware:
         return stop
 
     def _asks_reliable(self, name: str, ros_type: str) -> bool:
-        """Whether a reader may ask for reliability: tf2 does, others take any offer."""
+        """Whether a reader requests reliability: for tf2 yes, others accept any offer."""
         if name in ("tf", "tf_static"):
             return True
         offered = self.graph.entities(PUBLISHER, name=name)
@@ -245,7 +245,7 @@ class DdsMiddleware:
         *,
         is_reliable: bool,
     ) -> TopicReader:
-        """A reader for what listens."""
+        """Create a reader for a subscriber."""
         quality = Quality(is_reliable=is_reliable, is_latched=listening.is_latched)
         return self._participant.reader(
             names.TOPIC + listening.name,
@@ -256,11 +256,11 @@ class DdsMiddleware:
         )
 
     def sender(self, sample: DdsSample) -> bytes:
-        """The GUID of the writer of a message."""
+        """Return the GUID of a message's writer."""
         return self._discovery.gid(sample.writer)
 
     def say_once(self, what: str, sentence: str) -> None:
-        """Warn of something, the first time."""
+        """Log a warning once."""
         if self._watcher is not None:
             self._watcher.say_once(what, sentence)
 
@@ -300,7 +300,7 @@ class DdsMiddleware:
         return leave
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Ask a service as a node of this process."""
+        """Call a service as a node of this process."""
         return CycloneClient(self._services, name, ros_type)
 
     # What others show
@@ -314,7 +314,7 @@ class DdsMiddleware:
                 self._tell_departure(found)
 
     def _tell_departure(self, gone: GraphEntity) -> None:
-        """Say that a publisher of transforms is there no more."""
+        """Report that a publisher of transforms has left."""
         if gone.kind != PUBLISHER or gone.name != "tf":
             return
         # It may only have become known under its node's name.
@@ -326,7 +326,7 @@ class DdsMiddleware:
             )
 
     def _compare(self, found: GraphEntity | Process) -> None:
-        """Say why nothing passes between us and another endpoint, where that is so."""
+        """Report why an endpoint and ours do not connect, if so."""
         if not isinstance(found, GraphEntity) or found.kind != PUBLISHER:
             return
         asked = {"tf": TF, "tf_static": TF_STATIC}.get(found.name)
@@ -353,7 +353,7 @@ class DdsMiddleware:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Claim:
-    """A subscription that a node states; each is another one."""
+    """A node's declared subscription; equal ones are distinct."""
 
     node: str
     name: str
@@ -362,7 +362,7 @@ class _Claim:
 
 
 class _Listening:
-    """The reader of a topic; created again with lower QoS where it requested too much."""
+    """Reader of a topic; created again with lower QoS if it requested too much."""
 
     def __init__(
         self,
@@ -383,18 +383,18 @@ class _Listening:
         self._is_closed = False
 
     def open(self, *, is_reliable: bool) -> None:
-        """Make the reader."""
+        """Create the reader."""
         self.reader = self._middleware.open_reader(self, self._arrived, is_reliable=is_reliable)
 
     def close(self) -> None:
-        """Listen no more."""
+        """Close the reader."""
         self._is_closed = True
         self.hide()
         if self.reader is not None:
             self.reader.close()
 
     def refused(self, policy: int) -> None:
-        """Ask for less, where a publisher offers less than was asked for."""
+        """Request less if a publisher offers less."""
         if self._is_closed or self.name in ("tf", "tf_static") or policy != _RELIABILITY:
             return
         if self.reader is not None:
@@ -407,7 +407,7 @@ class _Listening:
 
 
 class DdsPublisher:
-    """A publisher: a writer, which others see as its node's."""
+    """Publisher: a writer, which others see as belonging to a node."""
 
     def __init__(self, writer: TopicWriter, hide: Callable[[], None]) -> None:
         self._writer = writer
@@ -423,7 +423,7 @@ class DdsPublisher:
         self._writer.put(payload)
 
     def close(self) -> None:
-        """Send no more."""
+        """Close the publisher."""
         self._hide()
         self._writer.close()
 
@@ -434,7 +434,7 @@ def _listed(domains: list[int]) -> str:
 
 
 def _nothing() -> None:
-    """Hide nothing."""
+    """Do nothing, in place of withdrawing an announcement."""
 
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""This process as a participant of DDS: its readers and writers, and the threads behind.
+"""This process as a DDS participant: readers and writers, and their threads.
 
 `cyclonedds` is imported with this module, and this module when `DdsReach` joins. What the
 library calls back on its own threads goes through an inbox to the event loop; data written
@@ -39,7 +39,7 @@ PATIENCE: Final = 1_000_000_000
 
 @dataclass(frozen=True, slots=True)
 class DdsSample:
-    """A message that came in.
+    """A received message.
 
     Attributes:
         payload: Its CDR.
@@ -58,7 +58,7 @@ class Domains:
         self._lock = threading.Lock()
 
     def enter(self, number: int, network: Network) -> None:
-        """Hold a domain until it is left as often.
+        """Use a domain; it is closed after as many calls of `leave`.
 
         Raises:
             LinkError: If it is there with another configuration, or cannot be made.
@@ -82,7 +82,7 @@ class Domains:
             self._held[number] = made, config, count + 1
 
     def leave(self, number: int) -> None:
-        """Let a domain go."""
+        """End the use of a domain."""
         with self._lock:
             made, config, count = self._held.pop(number)
             if count > 1:
@@ -95,7 +95,7 @@ _DOMAINS: Final = Domains()
 
 
 class Participant:
-    """Everything that is open in one domain.
+    """Everything open in one domain.
 
     Attributes:
         entity: The library's participant.
@@ -104,7 +104,7 @@ class Participant:
     """
 
     def __init__(self, domain: int, network: Network, name: str, user_data: bytes) -> None:
-        """Take part.
+        """Create the participant.
 
         Args:
             domain: Number of the domain.
@@ -137,7 +137,7 @@ class Participant:
         self.gid: bytes = self.entity.guid.bytes
 
     def close(self) -> None:
-        """Send what still waits, and leave; nothing is called back any more."""
+        """Send buffered messages, and leave; no callback follows."""
         self.inbox.close()
         self._outbox.close()
         for close in self._closing:
@@ -158,7 +158,7 @@ class Participant:
         on_sample: Callable[[DdsSample], object],
         on_refused: Callable[[int], object] | None = None,
     ) -> "TopicReader":
-        """Have `on_sample` called on the loop with what others write.
+        """Call `on_sample` on the loop with others' messages.
 
         Args:
             topic: The name of the topic in DDS.
@@ -198,7 +198,7 @@ class Participant:
     def writer(
         self, topic: str, kind: type[Raw], quality: Quality, user_data: bytes
     ) -> "TopicWriter":
-        """Write a topic.
+        """Create a writer of a topic.
 
         Args:
             topic: The name of the topic in DDS.
@@ -217,7 +217,7 @@ class Participant:
         return TopicWriter(made, kind, self._outbox, keeps=quality.is_latched)
 
     def builtin(self, topic: Any, on_change: Callable[[], object]) -> Any:
-        """A reader of one of the library's own topics.
+        """Return a reader of one of the library's built-in topics.
 
         Args:
             topic: Which one.
@@ -235,7 +235,7 @@ class Participant:
         self.entity.set_qos(Qos(Policy.Userdata(user_data)))
 
     def at_close(self, close: Callable[[], None]) -> None:
-        """Call something before the participant goes."""
+        """Register a call before the participant is deleted."""
         self._closing.append(close)
 
     def _topic(self, name: str, kind: type[Raw]) -> Any:
@@ -249,7 +249,7 @@ class Participant:
         return self._topics[key]
 
     def _take(self, reader: Any, on_sample: Callable[[DdsSample], object]) -> None:
-        """Hand over everything waiting (on a thread of the library's)."""
+        """Pass on all received messages (in one of the library's threads)."""
         while True:
             taken = reader.take(AT_ONCE)
             for one in taken:
@@ -273,7 +273,7 @@ class TopicReader:
         self.gid: bytes = made.guid.bytes
 
     def close(self) -> None:
-        """Read no more."""
+        """Close the reader."""
         made, self._made = self._made, None
         if made is not None:
             _end(made)
@@ -305,7 +305,7 @@ class TopicWriter:
         return int(self._made.get_publication_matched_status().current_count)
 
     def put(self, payload: bytes) -> None:
-        """Write a message, soon.
+        """Queue a message for writing.
 
         Raises:
             LinkError: If the participant is closed.
@@ -315,7 +315,7 @@ class TopicWriter:
             self._outbox.put(lambda: made.write(self._kind(payload)), len(payload))
 
     def close(self) -> None:
-        """Write no more, once everything before is written."""
+        """Close the writer after writing everything queued."""
         made, self._made = self._made, None
         if made is None:
             return
@@ -326,7 +326,7 @@ class TopicWriter:
 
 
 def _end(entity: Any) -> None:
-    """Delete something of the library's now, whatever else still refers to it.
+    """Delete a library object now, whatever still refers to it.
 
     The library itself does so when the last reference is gone, and has no other way.
     """

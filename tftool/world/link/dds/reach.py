@@ -1,4 +1,4 @@
-"""Reach of a link over DDS: its options and their contradictions."""
+"""Options of a DDS link and their contradictions."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ NO_WHEEL: Final = (
 
 @dataclass(frozen=True, slots=True)
 class DdsReach(Reach):
-    """Reach of DDS beyond the loopback; none unless asked.
+    """Reach of DDS beyond the loopback; none by default.
 
     Attributes:
         places: Interfaces to use and addresses to go to.
@@ -52,7 +52,7 @@ class DdsReach(Reach):
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "DdsReach":
-        """Put the values of the options together; see `Reach.read`."""
+        """Combine the values of the options; see `Reach.read`."""
         return cls(tuple(given.get("dds_on") or ()))
 
     @property
@@ -61,11 +61,11 @@ class DdsReach(Reach):
         return True
 
     def awaits_others(self, *, hosts: bool) -> bool:
-        """Whether to wait for a robot: unless the command hosts turtles where there is none."""
+        """Whether to wait for a robot: unless the command hosts turtles without one."""
         return not hosts
 
     def place(self, domain: int) -> str:
-        """Return the domain and the places it goes to."""
+        """Return the domain and its peers or interfaces as text."""
         return f"DDS domain {domain} on {', '.join(self.places) or 'the loopback'}"
 
     def join(self, options: "Options") -> "Middleware":

@@ -1,4 +1,4 @@
-"""Network of DDS: ROS 2's environment and the command line, as Cyclone's configuration.
+"""DDS's network: ROS 2's environment variables and options, as Cyclone's configuration.
 
 Nothing here sends anything. Without a word from the user all of it stays on the loopback
 of this machine; the library's own defaults would send to the whole network at once.
@@ -27,7 +27,7 @@ _RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
 @dataclass(frozen=True, slots=True)
 class Network:
-    """Network in which a participant looks for others.
+    """Network in which a participant searches for others.
 
     Attributes:
         interfaces: Names or own addresses of the interfaces it uses; none for those by which
@@ -49,11 +49,11 @@ class Network:
 
     @property
     def is_loopback(self) -> bool:
-        """Whether nothing goes out of this machine."""
+        """Whether nothing is sent beyond this machine."""
         return not (self.interfaces or self.peers or self.config)
 
     def xml(self) -> str:
-        """Cyclone's configuration."""
+        """Return Cyclone's configuration."""
         if self.config:
             return self.config
         used = self.interfaces or ((LOOPBACK,) if self.is_loopback else _ways_to(self.peers))
@@ -78,7 +78,7 @@ class Network:
 
 
 def network(places: Iterable[str], environment: Mapping[str, str] | None = None) -> Network:
-    """Return where to look for others.
+    """Return where to search for others.
 
     Args:
         places: What the user named: interfaces and addresses.
@@ -119,7 +119,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
 
 
 def _confined(variables: Mapping[str, str]) -> str:
-    """The variable that keeps ROS 2 to this machine; "" where none does.
+    """Return the variable that limits ROS 2 to this machine; "" if none does.
 
     Raises:
         LinkError: If one forbids discovery altogether, or is none of ROS 2's words.
@@ -141,7 +141,7 @@ def _confined(variables: Mapping[str, str]) -> str:
 
 
 def _checked(place: str) -> str:
-    """An interface's name as it is; an address, or that of a host that is named.
+    """Check an interface's name or address, or resolve a host's name.
 
     Raises:
         LinkError: If it is neither.
@@ -170,7 +170,7 @@ def _interfaces() -> list[str]:
 
 
 def _is_own(place: str) -> bool:
-    """Whether a place is an interface of this machine, by its name or its address."""
+    """Whether a place is an interface of this machine, by name or address."""
     if place in _interfaces():
         return True
     try:
@@ -197,12 +197,12 @@ def _is_loopback(place: str) -> bool:
 
 
 def _own(used: Iterable[str]) -> list[str]:
-    """The addresses among interfaces that are named by one."""
+    """Return the addresses among interfaces."""
     return [one for one in used if one not in _interfaces()]
 
 
 def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
-    """Our own addresses on the ways to some peers; asked of the routes, nothing is sent.
+    """Return our own addresses on the routes to some peers, without sending anything.
 
     Raises:
         LinkError: If there is no way to one.
@@ -228,17 +228,17 @@ def _interface(place: str) -> str:
 
 
 def other_domains(domain: int) -> list[int]:
-    """Domains in which other programs of this machine listen, by their ports (Linux only)."""
+    """Return domains in which other programs of this machine listen, by ports (Linux only)."""
     return sorted(set(_listening()) - {domain})
 
 
 def participants_here(domain: int) -> int:
-    """Count the participants of this machine that listen in a domain, ours too (Linux only)."""
+    """Count this machine's participants in a domain, ours included (Linux only)."""
     return _listening().get(domain, 0)
 
 
 def _listening() -> dict[int, int]:
-    """Count the participants listening in each domain of this machine; none if unknown."""
+    """Count the participants in each domain of this machine; empty if unknown."""
     ports: set[int] = set()
     for table in ("/proc/net/udp", "/proc/net/udp6"):
         try:

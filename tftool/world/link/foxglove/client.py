@@ -1,4 +1,4 @@
-"""Client of one server, on a thread of its own: it connects, subscribes, and connects again.
+"""Client of one server in its own thread: connects, subscribes, and reconnects.
 
 `websockets` is imported with this module, and this module when `FoxgloveReach` joins. What comes
 in goes through an inbox to the event loop of the world.
@@ -51,14 +51,14 @@ _WAITING: Final = 4
 
 
 class FoxgloveData(NamedTuple):
-    """A message that came in: its channel and its payload, as the server writes it."""
+    """A received message: its channel, and its payload in the server's encoding."""
 
     channel: FoxgloveChannel
     payload: bytes
 
 
 class ClientReceiver(NamedTuple):
-    """Receiver of a client's messages; each function is called on the event loop.
+    """Callbacks of a client; each is called on the event loop.
 
     Attributes:
         changed: Called when the server has come, gone or offers something else.
@@ -74,15 +74,15 @@ class ClientReceiver(NamedTuple):
 
 
 class _Direct(connect):
-    """A connection to the address that was given, and to no other place it redirects to."""
+    """A connection to the given address, without following redirects."""
 
     def process_redirect(self, exc: Exception) -> Exception:
-        """Refuse to go elsewhere."""
+        """Refuse a redirect."""
         return exc
 
 
 class FoxgloveClient:
-    """Connection to one server, renewed whenever it ends; closed by `close`."""
+    """Connection to one server, renewed whenever it ends, until `close`."""
 
     def __init__(
         self,
@@ -93,7 +93,7 @@ class FoxgloveClient:
         place: str = "",
         pauses: Sequence[float] = PAUSES,
     ) -> None:
-        """Begin to connect.
+        """Start connecting.
 
         Args:
             address: The server's address.
@@ -127,7 +127,7 @@ class FoxgloveClient:
     # On any thread
 
     def wait(self) -> None:
-        """Wait until the server has said what it offers.
+        """Wait until the server has announced its channels.
 
         Raises:
             LinkError: If it cannot be reached, or is no such server.
@@ -143,12 +143,12 @@ class FoxgloveClient:
 
     @contextlib.contextmanager
     def state(self) -> Iterator[ServerState]:
-        """Give what the server has said, which does not change meanwhile."""
+        """Return what the server has announced, locked against changes."""
         with self._lock:
             yield self._state
 
     def want(self, name: str, ros_type: str, *, again: bool = False) -> None:
-        """Subscribe a topic, now or when the server has it.
+        """Subscribe to a topic, now or when the server announces it.
 
         Args:
             name: The topic without a leading slash.
@@ -158,11 +158,11 @@ class FoxgloveClient:
         self._call(self._want, (name, ros_type), again)
 
     def forget(self, name: str, ros_type: str) -> None:
-        """Subscribe a topic no more."""
+        """Unsubscribe from a topic."""
         self._call(self._forget, (name, ros_type))
 
     def close(self) -> None:
-        """Leave the server."""
+        """Disconnect."""
         self._call(self._stop)
         self._thread.join(TIMEOUT)
 
@@ -188,7 +188,7 @@ class FoxgloveClient:
             self._start(self._connection.close())
 
     async def _live(self) -> None:
-        """Connect, and connect again, until it is closed."""
+        """Connect, and reconnect, until closed."""
         failures = lost = 0
         while not self._is_closed:
             began = self._loop.time()
@@ -216,7 +216,7 @@ class FoxgloveClient:
                 await asyncio.wait_for(self._woken.wait(), pause)
 
     async def _connected(self) -> str:
-        """Read a connection until it ends; return why it did, as a part of a sentence."""
+        """Read a connection until it ends; return the reason as part of a sentence."""
         try:
             async with _Direct(
                 self._address,
@@ -246,7 +246,7 @@ class FoxgloveClient:
         return "the server has closed it"
 
     async def _read(self, connection: ClientConnection) -> None:
-        """Take in everything that comes."""
+        """Process everything received."""
         self._heard.clear()
         self._subscriptions.clear()
         quiet: asyncio.TimerHandle | None = None
@@ -293,7 +293,7 @@ class FoxgloveClient:
             self._tell_change()
 
     def _tell_change(self) -> None:
-        """Have the change taken in; many that come at once are taken in together."""
+        """Report a change; several at once are reported together."""
         with self._lock:
             is_due, self._is_change_due = self._is_change_due, True
         if not is_due:
@@ -325,7 +325,7 @@ class FoxgloveClient:
         return ros_topic(self._heard[self._subscriptions[channel]])
 
     def _subscribe(self) -> None:
-        """Subscribe the channels that are wanted, and drop those that are gone or differ."""
+        """Subscribe to wanted channels, and drop those that are gone or different."""
         channels = self._state.channels
         gone = [
             number
@@ -379,7 +379,7 @@ def _of_closed(error: ConnectionClosed) -> str:
 
 
 def _of_failure(error: Exception) -> str:
-    """Return why no connection came about."""
+    """Return why no connection was made."""
     if isinstance(error, ssl.SSLCertVerificationError):
         return (
             f"its certificate is not trusted: {error.verify_message} (SSL_CERT_FILE=FILE names "

@@ -1,4 +1,4 @@
-"""A server of the Foxglove WebSocket protocol as the middleware of a link, which only reads it."""
+"""A Foxglove WebSocket server as a link's middleware, which is read-only."""
 
 import asyncio
 from collections.abc import Callable, Sequence
@@ -45,7 +45,7 @@ class FoxgloveMiddleware:
     """
 
     def __init__(self, options: Options, reach: FoxgloveReach) -> None:
-        """Connect, as the seam says."""
+        """Connect; see `seam.Middleware`."""
         self._domain = options.domain
         self._place = reach.place(options.domain)
         self.session = "tftool"
@@ -71,7 +71,7 @@ class FoxgloveMiddleware:
 
     @property
     def lost(self) -> int:
-        """Messages that were dropped because too many waited to be taken in."""
+        """Messages dropped because the inbox was full."""
         return self._inbox.lost
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
@@ -83,30 +83,30 @@ class FoxgloveMiddleware:
                 watcher.graph_changed(one, True)
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """Do nothing: command lines are completed from sessions over zenoh."""
+        """Do nothing: command lines are completed from zenoh sessions only."""
 
     def settle(self) -> None:
-        """Do nothing: a server takes clients at any time."""
+        """Do nothing: a server accepts clients at any time."""
 
     def close(self) -> None:
-        """Leave the server."""
+        """Disconnect."""
         self._inbox.close()
         self._client.close()
 
     # Facts that are only shown or written to others
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Show nothing: a server does not list its clients."""
+        """Do nothing: a server does not list its clients."""
         return _nothing
 
     def node(self, name: str) -> Callable[[], None]:
-        """Show nothing."""
+        """Do nothing: a server does not list its clients."""
         return _nothing
 
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Show nothing."""
+        """Do nothing: a server does not list its clients."""
         return _nothing
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
@@ -116,11 +116,11 @@ class FoxgloveMiddleware:
     def server(
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
-        """Refuse to serve."""
+        """Refuse to serve a service."""
         raise LinkError(_NO_WRITING)
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Refuse to ask."""
+        """Refuse to call a service."""
         raise LinkError(_NO_WRITING)
 
     # Topics
@@ -133,7 +133,7 @@ class FoxgloveMiddleware:
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Have `on_message` called with what others publish."""
+        """Call `on_message` with other processes' messages."""
         topic = name, ros_type
         ears = self._ears.setdefault(topic, [])
         ears.append(on_message)
@@ -172,7 +172,7 @@ class FoxgloveMiddleware:
             on_message(arrived)
 
     def _conversion(self, channel: FoxgloveChannel) -> Callable[[bytes], bytes] | None:
-        """Return what makes CDR of a channel's payloads; None where nothing does."""
+        """Return the conversion of a channel's payloads to CDR; None if there is none."""
         if channel not in self._conversions:
             self._conversions[channel] = None
             try:
@@ -188,7 +188,7 @@ class FoxgloveMiddleware:
     # What the server shows
 
     def _changed(self, _: None) -> None:
-        """Align the graph with what the server has said."""
+        """Update the graph with the server's announcements."""
         with self._client.state() as state:
             self._learn_types(state)
             found = self._shown(state)
@@ -212,7 +212,7 @@ class FoxgloveMiddleware:
             self._watcher.graph_changed(entity, there)
 
     def _learn_types(self, state: ServerState) -> None:
-        """Learn types that only the server knows, so that they are recorded and listed."""
+        """Register types known only to the server, so that they can be recorded and listed."""
         for channel in state.channels.values():
             size = len(channel.definition) + len(channel.type)
             if channel.type in self._learnt or self._learnt_size + size > MOST_LEARNT:
@@ -225,7 +225,7 @@ class FoxgloveMiddleware:
                 self._warn(f"The definition of '{channel.type}' cannot be used: {error}.")
 
     def _shown(self, state: ServerState) -> dict[str, GraphEntity]:
-        """Return everything that is there, by keys of our own."""
+        """Return all graph entries by our own keys."""
         found: dict[str, GraphEntity] = {}
         types: dict[str, str] = {}
         nodes: set[str] = set()
@@ -265,7 +265,7 @@ class FoxgloveMiddleware:
 
 
 def _nothing() -> None:
-    """Hide nothing."""
+    """Do nothing, in place of withdrawing an announcement."""
 
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Types and payloads of a server's channels, as ROS 2 has them: CDR, ROS 1 and foxglove's own."""
+"""Types and payloads of a server's channels in ROS 2's form: CDR, ROS 1, foxglove's own."""
 
 import re
 from collections.abc import Callable
@@ -27,7 +27,7 @@ _ROS1_TRANSFORMS: Final = "tf/msg/tfMessage"
 
 
 class RosTopic(NamedTuple):
-    """A channel as ROS 2 would have it.
+    """A channel as a ROS 2 topic.
 
     Attributes:
         name: The topic without a leading slash.
@@ -39,7 +39,7 @@ class RosTopic(NamedTuple):
 
 
 def ros_topic(channel: FoxgloveChannel) -> RosTopic:
-    """Return the topic and type by which a channel is heard.
+    """Return the topic and type for a channel.
 
     Foxglove takes its own transforms from any topic, so each such channel is a publisher of
     `tf`, or of `tf_static` where its name ends so.
@@ -62,7 +62,7 @@ def _is_foreign(channel: FoxgloveChannel) -> bool:
 
 
 def define(channel: FoxgloveChannel) -> bool:
-    """Learn a channel's type from its definition, where it is not known; return whether it was.
+    """Register a channel's type by its definition, if unknown; return whether it was.
 
     A definition that changes types we know is not taken over.
 
@@ -82,7 +82,7 @@ def define(channel: FoxgloveChannel) -> bool:
 
 
 def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
-    """Return the conversion of a channel's payloads to CDR by the definitions we have.
+    """Return the conversion of a channel's payloads to CDR, by known definitions.
 
     Raises:
         InputError: If there is none, as a part of a sentence.
@@ -106,7 +106,7 @@ def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
 
 
 def _definitions(channel: FoxgloveChannel) -> Interfaces | None:
-    """Return the server's definitions of a channel's type; None where it gives none.
+    """Return the server's definitions of a channel's type; None if it gives none.
 
     Raises:
         InputError: If they are wrong, contain themselves or have too many fields.

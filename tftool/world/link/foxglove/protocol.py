@@ -1,4 +1,4 @@
-"""Messages of the Foxglove WebSocket protocol, as far as a reader needs them.
+"""Messages of the Foxglove WebSocket protocol that a reader needs.
 
 A server sends JSON about its channels, and binary messages of those subscribed. All of it
 comes from strangers: every field is checked, and every store has a limit.
@@ -41,12 +41,12 @@ _CLOCK: Final = struct.Struct("<4siI")
 
 
 class ProtocolError(Exception):
-    """Something that no Foxglove server sends; its text is a part of a sentence."""
+    """Error for a message that no Foxglove server sends; the text is part of a sentence."""
 
 
 @dataclass(frozen=True, slots=True)
 class FoxgloveChannel:
-    """One topic of a server, by one schema.
+    """One topic of a server with one schema.
 
     Attributes:
         number: Its number on this connection.
@@ -67,7 +67,7 @@ class FoxgloveChannel:
 
 @dataclass(slots=True)
 class ServerState:
-    """Everything a server has said about itself on one connection.
+    """Everything a server has announced on one connection.
 
     Attributes:
         name: Its name for itself; "" until it has said it.
@@ -94,7 +94,7 @@ class ServerState:
     _warned: int = 0
 
     def take(self, text: str) -> str:
-        """Take in one message in JSON; return its operation, "" for one that is of no interest.
+        """Process one JSON message; return its operation, "" for one without meaning here.
 
         Raises:
             ProtocolError: If it is none of the protocol.
@@ -211,7 +211,7 @@ def _number(value: Any) -> int:
 
 
 def message_data(frame: bytes) -> tuple[int, bytes] | None:
-    """Return the subscription and the payload of a binary message; None for other kinds.
+    """Return a binary message's subscription and payload; None for other kinds.
 
     Raises:
         ProtocolError: If it ends too early.
@@ -224,7 +224,7 @@ def message_data(frame: bytes) -> tuple[int, bytes] | None:
 
 
 def server_time(frame: bytes) -> Stamp | None:
-    """Return the time that a binary message tells; None for other kinds.
+    """Return the time in a binary message; None for other kinds.
 
     Raises:
         ProtocolError: If it is cut off, or no time of 32-bit seconds.
@@ -240,10 +240,10 @@ def server_time(frame: bytes) -> Stamp | None:
 
 
 def clock_message(stamp: Stamp) -> bytes:
-    """Return the CDR of a rosgraph_msgs/msg/Clock."""
+    """Return a rosgraph_msgs/msg/Clock as CDR."""
     return _CLOCK.pack(b"\x00\x01\x00\x00", *divmod(stamp, NANOSECONDS))
 
 
 def request(operation: str, **fields: Any) -> str:
-    """Return a message of a client, in JSON."""
+    """Return a client's message in JSON."""
     return json.dumps({"op": operation, **fields})

@@ -1,4 +1,4 @@
-"""Reach of a link over the Foxglove WebSocket protocol: the address that FROM gives."""
+"""Address of a Foxglove WebSocket server, as given in FROM."""
 
 import re
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ class FoxgloveReach(Reach):
 
     @classmethod
     def at(cls, word: str) -> "FoxgloveReach | None":
-        """Return the reach to the server that a word is the address of; see `Reach.at`."""
+        """Return the reach to the server whose address a word is; see `Reach.at`."""
         if _SCHEME.match(word) is None:
             return None
         found = _ADDRESS.fullmatch(word)
@@ -51,7 +51,7 @@ class FoxgloveReach(Reach):
         return True
 
     def place(self, domain: int) -> str:
-        """Return the address without a password or a token that it may contain."""
+        """Return the address without any password or token."""
         scheme, _, rest = self.address.partition("://")
         host = re.split(r"[?]", rest, maxsplit=1)[0]
         authority, slash, path = host.partition("/")

@@ -1,4 +1,4 @@
-"""The way into a session: a place among this machine's processes, a wire, and who is there."""
+"""Joining a session over zenoh: a place among local processes, a connection, the graph."""
 
 import contextlib
 import threading
@@ -37,7 +37,7 @@ _STEP = 0.005
 
 
 class Opening:
-    """Resources of a process in a session.
+    """A process's resources in a session.
 
     Attributes:
         wire: What carries everything.
@@ -47,7 +47,7 @@ class Opening:
     """
 
     def __init__(self, options: Options, reach: ZenohReach) -> None:
-        """Go in; at once where no other process is there.
+        """Join; immediately if there is no other process.
 
         No other process of this machine can do so in between until `settle` or `close` is
         called, so that no two of them decide at once whether to host.
@@ -86,17 +86,17 @@ class Opening:
             raise
 
     def settle(self) -> None:
-        """Let other processes of this machine in from now on."""
+        """Let other local processes join from now on."""
         if self._place is not None:
             self._place.settle()
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List the frames this process knows where other commands of this machine find them."""
+        """List this process's frames where other local commands find them."""
         if self._place is not None:
             self._place.tell_frames(names)
 
     def close(self) -> None:
-        """Go out, and take away what this process put there."""
+        """Leave, and remove this process's files."""
         with contextlib.suppress(Exception):
             self.wire.close()
         self._leave()
@@ -106,7 +106,7 @@ class Opening:
             self._place.leave()
 
     def _reach_out(self, others: dict[str, int]) -> None:
-        """Wait until the others are there, of this machine and where `connect` goes."""
+        """Wait for the others, on this machine and at `connect`."""
 
         # zenoh itself gives up waiting early, and a busy machine is slow to say hello: taking
         # that for silence would host a second world. A stopped process never says it.
@@ -126,7 +126,7 @@ class Opening:
             raise LinkError(_no_answer_at(reach))
 
     def _take_in_tokens(self, *, is_expected: bool) -> None:
-        """Fill the graph with the present entities; wait for it where a process should be."""
+        """Fill the graph with existing entities; wait if a process should be there."""
 
         def all_are_known() -> bool:
             for prefix in (keys.LIVELINESS, keys.OURS):
@@ -146,7 +146,7 @@ class Opening:
 
 
 def _no_answer_at(reach: ZenohReach) -> str:
-    """Return advice where no process answers; a refusal of certificates looks the same."""
+    """Return advice if no process answers; refused certificates look the same."""
     protocols = {protocol_of(endpoint) for endpoint in reach.connect}
     text = (
         f"no process answers at {', '.join(reach.connect)} within {REACHING:g} s; "
@@ -164,7 +164,7 @@ def _no_answer_at(reach: ZenohReach) -> str:
 
 
 def _await(condition: Callable[[], bool], patience: float) -> bool:
-    """Poll until a condition holds, for `patience` seconds at most; return whether it does."""
+    """Poll until a condition holds, at most `patience` seconds; return whether it does."""
     clock, pause = WallClock(), threading.Event()
     # Measured, not counted: a look takes as long as those take who are asked.
     while not (held := condition()) and clock.elapsed() < seconds(patience):

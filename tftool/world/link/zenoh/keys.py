@@ -1,4 +1,4 @@
-"""Names in zenoh: types and their hashes, keys, tokens, attachments.
+"""zenoh's names for ROS: types and hashes, keys, tokens, attachments.
 
 The names are those of ROS 2 over zenoh (`rmw_zenoh`), so that a ROS 2 node can be
 at the other end.
@@ -86,7 +86,7 @@ _PROCESS = re.compile(
 
 
 def type_hash(ros_type: str) -> str:
-    """The hash of a type.
+    """Return a type's hash.
 
     Raises:
         InputError: If its definition is not known.
@@ -95,14 +95,14 @@ def type_hash(ros_type: str) -> str:
 
 
 def dds_name(ros_type: str) -> str:
-    """A type as keys write it: "tf2_msgs/msg/TFMessage" is `tf2_msgs::msg::dds_::TFMessage_`."""
+    """Return a type's DDS name: "tf2_msgs/msg/TFMessage" is `tf2_msgs::msg::dds_::TFMessage_`."""
     parts = ros_type.split("/")
     # What `ros_name` could not read goes back as it came.
     return f"{parts[0]}::{parts[1]}::dds_::{parts[2]}_" if len(parts) == 3 else ros_type
 
 
 def ros_name(dds_type: str) -> str:
-    """A type as people write it; other names come back as they are."""
+    """Return a type in its usual form; other names are unchanged."""
     parts = dds_type.split("::")
     if len(parts) != 4 or parts[2] != "dds_" or not parts[3].endswith("_"):
         return dds_type
@@ -110,7 +110,7 @@ def ros_name(dds_type: str) -> str:
 
 
 def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
-    """The key that a topic's messages, or a service's requests, travel under.
+    """Return the key of a topic's messages or a service's requests.
 
     Args:
         domain: Number of the ROS domain.
@@ -123,12 +123,12 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
 
 
 def any_hash_key(domain: int, name: str, ros_type: str) -> str:
-    """Return the key for reading: Humble writes no hash, those of other releases may differ."""
+    """Return the key for reading: Humble uses no hash, and other releases' may differ."""
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 
 def quality(stated: Quality) -> str:
-    """A quality of service as tokens write it; defaults are left empty."""
+    """Return a QoS in tokens' form; defaults are left empty."""
     reliability = "" if stated.is_reliable else _BEST_EFFORT
     durability = _TRANSIENT_LOCAL if stated.is_latched else ""
     history = _KEEP_ALL if stated.keeps_all else ""
@@ -136,7 +136,7 @@ def quality(stated: Quality) -> str:
 
 
 def read_quality(text: str) -> Quality:
-    """The quality of service of a token; missing or unknown parts are default."""
+    """Parse the QoS of a token; missing or unknown parts become defaults."""
     parts = [*text.split(":"), "", "", ""]
     history, _, depth = parts[2].partition(",")
     return Quality(
@@ -152,7 +152,7 @@ def read_quality(text: str) -> Quality:
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A liveliness token of rmw_zenoh, which shows one thing of the graph.
+    """A liveliness token of rmw_zenoh, which announces one entity of the graph.
 
     Attributes:
         domain: Number of the ROS domain.
@@ -179,7 +179,7 @@ class Token:
     quality: str = ""
 
     def key(self) -> str:
-        """The key that is shown."""
+        """Return the announced key."""
         namespace, _, node = self.node.rpartition("/")
         parts = [
             LIVELINESS,
@@ -203,7 +203,7 @@ class Token:
 
 
 def parse_token(key: str) -> GraphEntity | Process | None:
-    """Parse a token; None when it is not one that we can read."""
+    """Parse a token; return None if it is unreadable."""
     if key.startswith(f"{OURS}/"):
         return _parse_process(key)
     parts = key.split("/")
@@ -231,7 +231,7 @@ def parse_token(key: str) -> GraphEntity | Process | None:
 
 
 def process_key(process: Process) -> str:
-    """The key of the token that shows a tftool."""
+    """Return the key of the token that announces a tftool."""
     command = re.sub(r"\W", "_", process.command, flags=re.ASCII)[:64] or "_"
     facts = f"{process.session}/{process.since}/{process.pid}/{process.role.value}"
     return f"{OURS}/{process.domain}/{facts}/{command}"
@@ -277,7 +277,7 @@ class Attachment:
     gid: bytes
 
     def encode(self) -> bytes:
-        """Its bytes."""
+        """Return its bytes."""
         return _ATTACHMENT.pack(self.sequence, self.stamp, 16, self.gid)
 
 
@@ -287,7 +287,7 @@ _NAMED = (b"\x0fsequence_number", b"\x10source_timestamp", b"\x0asource_gid")
 
 
 def parse_attachment(raw: bytes) -> Attachment:
-    """Parse the metadata of a payload, in today's form or in the named one of early Jazzy.
+    """Parse a payload's metadata, in the present form or the named one of early Jazzy.
 
     Raises:
         MalformedMessage: If it is neither.
@@ -320,7 +320,7 @@ def _named_attachment(raw: bytes) -> Attachment:
 
 
 def gid_of(token: str) -> bytes:
-    """The 16 bytes that stand for a publisher, made from its token.
+    """Return a publisher's 16-byte gid, derived from its token.
 
     ROS 2 makes them from the token too, by another hash; only equality counts.
     """

@@ -1,4 +1,4 @@
-"""zenoh as the middleware of a link: the names, tokens and attachments of `rmw_zenoh`."""
+"""zenoh as a link's middleware, with the names, tokens and attachments of `rmw_zenoh`."""
 
 import asyncio
 import contextlib
@@ -22,7 +22,7 @@ SERVICE: Final = Quality(depth=10)
 
 
 class ZenohMiddleware:
-    """This process among those that talk ROS 2 over zenoh; see `seam.Middleware`.
+    """This process in a ROS 2 graph over zenoh; see `seam.Middleware`.
 
     Attributes:
         graph: Who else is there.
@@ -33,7 +33,7 @@ class ZenohMiddleware:
     """
 
     def __init__(self, options: Options, reach: ZenohReach) -> None:
-        """Join, as the seam says."""
+        """Join the graph; see `seam.Middleware`."""
         self._options = options
         self._opening = Opening(options, reach)
         self.wire: Wire = self._opening.wire
@@ -48,7 +48,7 @@ class ZenohMiddleware:
 
     @property
     def lost(self) -> int:
-        """Messages that were dropped because too many waited to be taken in."""
+        """Messages dropped because the inbox was full."""
         return self.wire.lost
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
@@ -61,15 +61,15 @@ class ZenohMiddleware:
                 self._stops.append(self.wire.watch_tokens(pattern, self._on_token))
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List the frames this process knows where other commands of this machine find them."""
+        """List this process's frames where other local commands find them."""
         self._opening.tell_frames(names)
 
     def settle(self) -> None:
-        """Let other processes of this machine join from now on."""
+        """Let other local processes join from now on."""
         self._opening.settle()
 
     def close(self) -> None:
-        """Send what still waits, and leave."""
+        """Send queued messages, and leave."""
         for stop in self._stops:
             stop()
         self._opening.close()
@@ -77,11 +77,11 @@ class ZenohMiddleware:
     # Shown entities
 
     def process(self, process: Process) -> Callable[[], None]:
-        """Show this process."""
+        """Announce this process."""
         return self.show(keys.process_key(process))
 
     def node(self, name: str) -> Callable[[], None]:
-        """Show a node."""
+        """Announce a node."""
         number = self._nodes[name] = self._number()
         hide = self.show(
             Token(self._options.domain, self.session, number, number, NODE, node_name(name)).key()
@@ -96,13 +96,13 @@ class ZenohMiddleware:
     def subscription(
         self, node: str, name: str, ros_type: str, quality: Quality
     ) -> Callable[[], None]:
-        """Show that a node subscribes a topic."""
+        """Announce that a node subscribes to a topic."""
         return self.show(self._token(SUBSCRIPTION, node, name, ros_type, quality))
 
     # Topics
 
     def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> "ZenohPublisher":
-        """Publish a topic, as a node of this process."""
+        """Publish a topic as a node of this process."""
         token = self._token(PUBLISHER, node, name, ros_type, quality)
         # A latched one keeps its own last messages, so each has an outlet of its own.
         outlet = self.wire.publisher(keys.data_key(self._options.domain, name, ros_type), quality)
@@ -116,7 +116,7 @@ class ZenohMiddleware:
         *,
         is_latched: bool = False,
     ) -> Callable[[], None]:
-        """Have `on_message` called with what others publish."""
+        """Call `on_message` with other processes' messages."""
 
         def arrived(sample: Sample) -> None:
             try:
@@ -156,11 +156,11 @@ class ZenohMiddleware:
         return leave
 
     def client(self, node: str, name: str, ros_type: str) -> "ZenohClient":
-        """Ask a service as a node of this process."""
+        """Call a service as a node of this process."""
         return ZenohClient(self, name, ros_type, self._token(CLIENT, node, name, ros_type, SERVICE))
 
     def key_of_service(self, name: str, ros_type: str) -> str:
-        """The key that requests go to: under the server's own hash, if one is shown."""
+        """Return the key for requests: with the server's own hash if it is announced."""
         servers = self.graph.entities(SERVER, name=name)
         known = next((one.type_hash for one in servers if one.ros_type == ros_type), "")
         return keys.data_key(self._options.domain, name, ros_type, known)
@@ -168,7 +168,7 @@ class ZenohMiddleware:
     # Helpers
 
     def _token(self, kind: str, node: str, name: str, ros_type: str, quality: Quality) -> str:
-        """The key of a token for something new of ours."""
+        """Return the key of a new token."""
         return Token(
             self._options.domain,
             self.session,
@@ -186,7 +186,7 @@ class ZenohMiddleware:
         return self._numbers
 
     def show(self, key: str) -> Callable[[], None]:
-        """Show a token until the returned function is called; one that only looks shows none."""
+        """Announce a token until the returned function is called; observers announce none."""
         return _nothing if self._options.read_only else self.wire.token(key)
 
     def _on_token(self, change: tuple[str, bool]) -> None:
@@ -210,7 +210,7 @@ class ZenohMiddleware:
 
 
 class ZenohPublisher:
-    """A publisher: an outlet, a token, a running number."""
+    """Publisher with its token and sequence number."""
 
     def __init__(self, outlet: KeyPublisher, gid: bytes, hide: Callable[[], None]) -> None:
         self._outlet = outlet
@@ -229,13 +229,13 @@ class ZenohPublisher:
         self._outlet.put(payload, Attachment(self._sequence, stamp, self._gid).encode())
 
     def close(self) -> None:
-        """Send no more."""
+        """Close the publisher."""
         self._hide()
         self._outlet.close()
 
 
 class ZenohRequest:
-    """A request, with the number and the client that its answer goes back to."""
+    """A request, with the number and client for its response."""
 
     def __init__(self, query: Query, beside: Attachment) -> None:
         self._query = query
@@ -247,18 +247,18 @@ class ZenohRequest:
         return self._query.payload
 
     def answer(self, payload: bytes, stamp: Stamp) -> None:
-        """Reply, once."""
+        """Send the response, once."""
         # The number and the client come back, so that the client knows which answer it is.
         beside = Attachment(self._beside.sequence, stamp, self._beside.gid)
         self._query.answer(payload, beside.encode())
 
     def refuse(self, reason: str) -> None:
-        """Say that there will be no answer."""
+        """Report that there will be no response."""
         self._query.refuse(reason)
 
 
 class ZenohClient:
-    """A client: a token that is shown from its first request on, and a running number."""
+    """Client with a token, announced with its first request, and a sequence number."""
 
     def __init__(self, middleware: ZenohMiddleware, name: str, ros_type: str, token: str) -> None:
         self._middleware = middleware
@@ -270,7 +270,7 @@ class ZenohClient:
         self._stack = contextlib.ExitStack()
 
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Send a request and wait for the answer."""
+        """Send a request and wait for the response."""
         if not self._sequence:
             self._stack.callback(self._middleware.show(self._token))
         self._sequence += 1
@@ -279,12 +279,12 @@ class ZenohClient:
         return await self._middleware.wire.ask(key, payload, beside, timeout=timeout)
 
     def close(self) -> None:
-        """Ask no more."""
+        """Close the client."""
         self._stack.close()
 
 
 def _nothing() -> None:
-    """Hide nothing."""
+    """Do nothing, in place of withdrawing an announcement."""
 
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Reach of a link over zenoh: its options and their contradictions."""
+"""Options of a zenoh link and their contradictions."""
 
 import re
 from collections.abc import Mapping
@@ -25,7 +25,7 @@ _PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class Certificates:
-    """Files for mutual TLS: who we are, and whom we believe.
+    """Files for mutual TLS: our certificate and key, and the trusted authority.
 
     Attributes:
         certificate: Our certificate, PEM.
@@ -38,7 +38,7 @@ class Certificates:
     authority: Path
 
     def check(self) -> None:
-        """See that the files are what they are given as; zenoh says of none which is not.
+        """Check that the files contain what they should; zenoh's own errors do not name them.
 
         Raises:
             InputError: If one is no such PEM file, or the key is another certificate's.
@@ -74,7 +74,7 @@ class Certificates:
 
 @dataclass(frozen=True, slots=True)
 class ZenohReach(Reach):
-    """Reach of a link beyond this machine's own processes; none unless asked.
+    """Reach of a link beyond this machine's own processes; none by default.
 
     Attributes:
         listen: Endpoints where other machines may come in, "tcp/0.0.0.0:7448".
@@ -115,7 +115,7 @@ class ZenohReach(Reach):
 
     @classmethod
     def read(cls, given: Mapping[str, Any]) -> "ZenohReach":
-        """Put the values of the options together; see `Reach.read`."""
+        """Combine the values of the options; see `Reach.read`."""
         listen, connect = tuple(given.get("listen") or ()), tuple(given.get("connect") or ())
         config: Path | None = given.get("zenoh_config")
         if config is not None and (listen or connect):
@@ -131,7 +131,7 @@ class ZenohReach(Reach):
 
     @property
     def is_asked(self) -> bool:
-        """Whether something was asked for that only a link can give."""
+        """Whether an option requires a link."""
         return bool(self.listen or self.connect or self.config is not None)
 
     def awaits_others(self, *, hosts: bool) -> bool:
@@ -140,7 +140,7 @@ class ZenohReach(Reach):
 
     @staticmethod
     def has_members(domain: int) -> bool:
-        """Whether a process of this machine waits to be joined; see `Reach.has_members`."""
+        """Whether a local process can be joined; see `Reach.has_members`."""
         # sockets and hashes cost 10 ms, and most commands ask nothing of this.
         from tftool.world.link.zenoh import rendezvous
 
@@ -148,13 +148,13 @@ class ZenohReach(Reach):
 
     @staticmethod
     def frames_known(domain: int) -> list[str]:
-        """Return the frames that members of this machine list; see `Reach.frames_known`."""
+        """Return the frames listed by local processes; see `Reach.frames_known`."""
         from tftool.world.link.zenoh import rendezvous
 
         return rendezvous.frames_known(domain)
 
     def place(self, domain: int) -> str:
-        """Return the endpoints it goes to."""
+        """Return its endpoints as text."""
         return ", ".join(self.connect)
 
     def join(self, options: "Options") -> "Middleware":
@@ -170,7 +170,7 @@ def protocol_of(endpoint: str) -> str:
 
 
 def has_port(endpoint: str) -> bool:
-    """Whether an endpoint says its port, where it must; zenoh would look in vain for one."""
+    """Whether an endpoint has a port where it needs one; zenoh would search in vain without."""
     protocol, _, rest = endpoint.partition("/")
     # What follows a question mark or a hash are zenoh's own settings of an endpoint.
     address = re.split(r"[?#]", rest, maxsplit=1)[0]
@@ -178,7 +178,7 @@ def has_port(endpoint: str) -> bool:
 
 
 def _tls(cert: Path | None, key: Path | None, ca: Path | None) -> Certificates | None:
-    """Return the three files of mutual TLS; None where none is given."""
+    """Return the three files of mutual TLS; None if none is given."""
     if cert is None or key is None or ca is None:
         if cert or key or ca:
             raise UsageError(

@@ -1,4 +1,4 @@
-"""Meeting place of one machine's processes: a folder only its owner may enter.
+"""Meeting place of this machine's processes: a folder that only its owner may enter.
 
 Every member of a session has a socket there, named after itself. Who comes later
 connects to all that answer and sweeps away those whose process is gone, so there is
@@ -55,7 +55,7 @@ _LONGEST_LIST = 2**24
 
 
 def folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """The folder that holds the sessions of this user.
+    """Return the folder with this user's sessions.
 
     `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the
     user's own beside other temporary files.
@@ -81,7 +81,7 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
 
 
 def has_members(domain: int, home: Path | None = None) -> bool:
-    """Whether some process waits to be joined; looks without touching anything."""
+    """Whether a process can be joined, checked without changing anything."""
     place = _fitting((folder() if home is None else home) / str(domain))
     with contextlib.suppress(OSError):
         return next(_living(place, sweep=False), None) is not None
@@ -89,7 +89,7 @@ def has_members(domain: int, home: Path | None = None) -> bool:
 
 
 def frames_known(domain: int, home: Path | None = None) -> list[str]:
-    """The frames that living members of the session on this machine know, sorted.
+    """Return the frames known to running members of the local session, sorted.
 
     Read from the lists that members keep; opens no session.
     """
@@ -108,12 +108,12 @@ def frames_known(domain: int, home: Path | None = None) -> list[str]:
 
 
 def _member(path: Path) -> str:
-    """Return the member whose file or socket it is."""
+    """Return the member to which a file or socket belongs."""
     return path.name.partition(".")[0]
 
 
 class Rendezvous:
-    """One process's place among the others of its machine and domain.
+    """One process's place among those of its machine and domain.
 
     Attributes:
         folder: Where the members' sockets are.
@@ -124,7 +124,7 @@ class Rendezvous:
     """
 
     def __init__(self, domain: int, home: Path | None = None) -> None:
-        """Choose a place; nothing is touched before `enter`."""
+        """Choose a place; nothing is created before `enter`."""
         self.folder = _fitting((folder() if home is None else home) / str(domain))
         self.endpoint = ""
         self.password = ""
@@ -134,7 +134,7 @@ class Rendezvous:
         self._lock: Any = None
 
     def enter(self) -> None:
-        """Take the lock, sweep away what the dead left, and find a place.
+        """Take the lock, remove files of dead processes, and find a place.
 
         `settle` gives the lock back.
 
@@ -160,13 +160,13 @@ class Rendezvous:
             raise LinkError(_unusable(self.folder, error)) from error
 
     def settle(self) -> None:
-        """Give the lock back: others may look now."""
+        """Release the lock, so that others may join."""
         if self._lock is not None:
             self._lock.close()
             self._lock = None
 
     def tell_frames(self, names: Sequence[str]) -> None:
-        """List the frames this process knows, for `frames_known`; a list that fails is left out."""
+        """List this process's frames for `frames_known`; a failed write is ignored."""
         path = self.folder / f"{self._name}{FRAMES}"
         # Renamed into place, so that a reader never sees half a list.
         fresh = path.with_name(f"{self._name}.new")
@@ -175,7 +175,7 @@ class Rendezvous:
             fresh.replace(path)
 
     def leave(self) -> None:
-        """Take away what this process put here."""
+        """Remove this process's files."""
         self.settle()
         for path in self.folder.glob(f"{self._name}.*"):
             with contextlib.suppress(OSError):
@@ -214,7 +214,7 @@ class Rendezvous:
 
 
 def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
-    """Endpoints and process numbers of those who answer; files of the others are swept away."""
+    """Return endpoints and process ids of members that answer; others' files are removed."""
     for path in sorted(folder.iterdir()):
         if path.suffix == ".sock":
             if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):
@@ -233,7 +233,7 @@ def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
 
 
 def _make_private(path: Path) -> None:
-    """Make a folder that only its owner may enter, or see that it is one.
+    """Create a folder that only its owner may enter, or check that it is one.
 
     Raises:
         LinkError: If it cannot be made, or others may enter it.
@@ -266,7 +266,7 @@ def _unusable(path: Path, error: OSError) -> str:
 
 
 def _fitting(place: Path) -> Path:
-    """The folder for a place: itself, or where no socket can be there, a short one instead.
+    """Return the folder for a place: itself, or a short one if sockets need a shorter path.
 
     All processes that share the place find the same one.
     """
@@ -278,13 +278,13 @@ def _fitting(place: Path) -> Path:
 
 
 def _holds_sockets(folder: Path) -> bool:
-    """Whether a socket's path in a folder is short enough, and plain in a zenoh endpoint."""
+    """Whether a socket's path in a folder is short enough, and valid in a zenoh endpoint."""
     longest = len(os.fsencode(folder)) + len("/4194304-01234567.sock")
     return longest <= _LONGEST_SOCKET_PATH and not set("?#;=") & set(str(folder))
 
 
 def _password_in(folder: Path) -> str:
-    """The password of a folder's members, made by the first of them (under the lock)."""
+    """Return the password of a folder's members, created by the first one (under the lock)."""
     file = folder / PASSWORDS
     known = _text_of(file).partition(":")[2]
     if known:
@@ -297,7 +297,7 @@ def _password_in(folder: Path) -> str:
 
 
 def page_secret(home: Path | None = None) -> str:
-    """Return the secret of this user's pages: the same at every start, in the sessions' folder.
+    """Return the secret in this user's page addresses: stable, from the sessions' folder.
 
     An open page then finds the server that takes the place of the one it came from. Where the
     folder cannot be used the secret is new.
@@ -319,7 +319,7 @@ def page_secret(home: Path | None = None) -> str:
 
 
 def is_stopped(pid: int) -> bool:
-    """Whether a process of this machine does not run: stopped, ended, or not to be seen here."""
+    """Whether a process is suspended, ended, or not visible from here."""
     try:
         facts = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
     except OSError:
@@ -329,7 +329,7 @@ def is_stopped(pid: int) -> bool:
 
 
 def _answers(family: int, address: Any) -> bool:
-    """Whether a process listens there; one that is stopped counts."""
+    """Whether a process listens there; a suspended one counts."""
     with socket.socket(family, socket.SOCK_STREAM) as probe:
         probe.settimeout(_PROBE_TIMEOUT)
         try:
@@ -343,7 +343,7 @@ def _answers(family: int, address: Any) -> bool:
 
 
 def _pid_of(path: Path) -> int:
-    """The process that a file is of; 0 where its name does not say."""
+    """Return the process id in a file's name; 0 if there is none."""
     pid = path.name.partition("-")[0]
     return int(pid) if pid.isascii() and pid.isdigit() and len(pid) < 20 else 0
 
@@ -359,7 +359,7 @@ def _text_of(path: Path) -> str:
 
 
 def _content_of(path: Path, longest: int) -> bytes:
-    """Return a file's first bytes; none unless it is a plain file: a pipe would block us."""
+    """Return a file's first bytes; empty unless it is a regular file, as a pipe would block."""
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
     try:
         with open(os.open(path, flags), "rb") as file:
