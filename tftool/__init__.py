@@ -109,11 +109,8 @@ if TYPE_CHECKING:
     from tftool.doctor.judge import diagnose
     from tftool.drawing.figure import plot
     from tftool.frames.calibration.calibrate import Calibration, calibrate
-    from tftool.frames.calibration.clock_offset import (
-        CalibrationRefused,
-        ClockOffset,
-        clock_offset,
-    )
+    from tftool.frames.calibration.clock_offset import ClockOffset, clock_offset
+    from tftool.frames.calibration.motion import CalibrationRefused
     from tftool.frames.diff import diff
     from tftool.frames.differences import Differences
     from tftool.frames.export.export import Exported, export
@@ -225,11 +222,8 @@ _HOMES = {
     "tftool.world.supervisor": ("live",),
     "tftool.world.world": ("World",),
     "tftool.frames.calibration.calibrate": ("Calibration", "calibrate"),
-    "tftool.frames.calibration.clock_offset": (
-        "CalibrationRefused",
-        "ClockOffset",
-        "clock_offset",
-    ),
+    "tftool.frames.calibration.clock_offset": ("ClockOffset", "clock_offset"),
+    "tftool.frames.calibration.motion": ("CalibrationRefused",),
     "tftool.frames.diff": ("diff",),
     "tftool.frames.frames": ("Frames",),
     "tftool.frames.differences": ("Differences",),

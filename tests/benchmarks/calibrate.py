@@ -1,7 +1,7 @@
 """Calibration on made motions of known truth: accuracy, intervals, refusals, processor time.
 
-Where uv installs it, OpenCV (before 5) solves the same poses with its five methods, in a process
-of its own.
+Where uv installs them, OpenCV (before 5) with its five methods and trajectopy solve the same poses,
+each in a process of its own.
 """
 
 import shutil
@@ -9,12 +9,13 @@ import statistics
 import subprocess
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import tftool
-from tests.frames.motions import errors, world
+from tests.frames.motions import errors, path, world
 from tftool.frames.calibration.motion import BodyMotion
 from tftool.geometry import rigid_arrays
 from tftool.geometry.conversions import quaternion_from_matrix
@@ -22,7 +23,7 @@ from tftool.geometry.conversions import quaternion_from_matrix
 WORLDS = 40
 EACH = 10
 POSES = 200
-"""Poses of each world for OpenCV, whose methods compare all pairs of them."""
+"""Poses of each world for the other solvers: OpenCV's methods compare all pairs of them."""
 CASES = {
     "3-D, 3 mm 0.3°": {},
     "3-D, 1 mm 0.1°": {"noise": (0.001, 0.1)},
@@ -32,9 +33,11 @@ CASES = {
     "10 % flipped tags": {"flips": 0.1},
     "drift 1 %": {"drift": 0.01},
     "drift 1 %, 10 mm 0.5°": {"drift": 0.01, "noise": (0.01, 0.5)},
+    "no offset": {"offset": 0.0},
     "offset of years": {"offset": -1e8},
     "inverted": {"upside": True},
     "clock drift 50 ppm, 120 s": {"ppm": 50.0, "seconds": 120.0},
+    "10 min, clock drift 20 ppm": {"ppm": 20.0, "seconds": 600.0, "rates": (50.0, 10.0)},
     "10 s": {"seconds": 10.0},
     "slow turns": {"pace": 0.3},
     "slow turns, 10 mm 0.5°": {"pace": 0.3, "noise": (0.01, 0.5)},
@@ -46,25 +49,42 @@ CASES = {
     "3-D, 5 Hz": {"rates": (100.0, 5.0)},
     "no rotation": {"kind": "still"},
     "no rotation, 20 mm 1°": {"kind": "still", "noise": (0.02, 1.0)},
+    "at rest": {"kind": "rest"},
+    "4 s": {"seconds": 4.0},
+    "two bodies": {},
+    "two bodies about one axis": {"kind": "axis"},
 }
 """Made worlds by name: options of `world`."""
 
-REFUSED = ("no rotation",)
+REFUSED = ("no rotation", "at rest", "4 s", "two bodies")
 """Beginnings of the names of the cases that must be refused."""
 
-METHODS = ("Tsai", "Park", "Horaud", "Andreff", "Daniilidis")
 OPENCV = """
 import sys, cv2, numpy as np
 poses = np.load(sys.argv[1])
-names = "TSAI PARK HORAUD ANDREFF DANIILIDIS".split()
 for a, b in zip(poses["a"], poses["b"]):
     back = np.linalg.inv(b)
-    for name in names:
+    for name in "Tsai Park Horaud Andreff Daniilidis".split():
         turn, shift = cv2.calibrateHandEye(
             a[:, :3, :3], a[:, :3, 3], back[:, :3, :3], back[:, :3, 3],
-            method=getattr(cv2, "CALIB_HAND_EYE_" + name))
-        print(*turn.ravel(), *shift.ravel())
+            method=getattr(cv2, "CALIB_HAND_EYE_" + name.upper()))
+        print("OpenCV", name, *shift.ravel(), *turn.ravel(), sep=",")
 """
+TRAJECTOPY = """
+import sys, numpy as np, trajectopy as t
+poses = np.load(sys.argv[1])
+wanted = t.AlignmentSettings(estimation_settings=t.AlignmentEstimationSettings(
+    leverarm_x=True, leverarm_y=True, leverarm_z=True))
+for a, b, stamps in zip(poses["a"], poses["b"], poses["stamps"]):
+    both = [t.Trajectory(t.Positions(one[:, :3, 3]),
+                         t.Rotations.from_matrix(one[:, :3, :3]), stamps) for one in (a, b)]
+    found = t.estimate_alignment(*both, wanted).position_parameters
+    print("trajectopy", "lever arm", found.lever_x.value, found.lever_y.value,
+          found.lever_z.value, sep=",")
+"""
+PEERS = {"opencv-python-headless<5": OPENCV, "trajectopy": TRAJECTOPY}
+"""Programs by what uv installs for them; a line of output is name, method, translation, rotation
+matrix."""
 
 
 def solved(made):
@@ -79,6 +99,8 @@ def case(name, options):
     verdicts, held, factors, moved, turned = {}, [], [], [], []
     for seed in range(EACH):
         made = world(1000 + seed, **{"seconds": 60.0, **options})
+        if name.startswith("two bodies"):
+            made = replace(made, b=world(5000 + seed, seconds=60.0, **options).b)
         found, _ = solved(made)
         verdicts[found.verdict] = verdicts.get(found.verdict, 0) + 1
         if not found:
@@ -105,7 +127,7 @@ def case(name, options):
 def accuracy():
     """Return errors on 3-D motions of 60 s against the noise of one pose, and processor time."""
     noise = 0.003, 0.3
-    rows, ours, poses = [], [], ([], [])
+    rows, same, poses = [], [], ([], [], [])
     for seed in range(WORLDS):
         made = world(seed, seconds=60.0, noise=noise, offset=0.2)
         found, took = solved(made)
@@ -113,66 +135,78 @@ def accuracy():
         rows.append(
             (np.linalg.norm(shift), np.linalg.norm(turn), abs(found.clock_offset - 0.2), took)
         )
-        ours.append(rows[-1][:2])
-        synchronised(made, poses)
+        thinned = synchronised(made, poses)
+        shift, turn = errors(tftool.calibrate(*thinned).mount, made.mount)
+        same.append((np.linalg.norm(shift), np.linalg.norm(turn)))
     moved, turned, late, took = (statistics.median(column) for column in zip(*rows, strict=True))
     lines = [
         f"  3-D, 60 s, {WORLDS} worlds: {moved / noise[0]:.3f} × the noise of one pose (0.2), "
         f"{turned / noise[1]:.3f} × (0.15), offset {late * 1e3:.3f} ms (0.5); "
         f"{took:.2f} s of processor time with intervals (5)"
     ]
-    return lines + opencv(poses, (moved, turned))
+    lines += against(poses, np.median(same, axis=0))
+    lines.append(f"  tftool of all poses, clock offset unknown: {moved * 1e3:.2f} mm {turned:.3f}°")
+    return lines
 
 
 def synchronised(made, poses):
-    """Add some poses of both bodies at the same moments, by the true clock offset."""
+    """Add some poses of both bodies at the same moments, by the true clock offset; return both."""
     a, b = BodyMotion.of(made.a), BodyMotion.of(made.b)
     times = b.times + (b.start - a.start) / 1e9 + made.offset
     places, turns, valid = a.at(times)
     chosen = np.flatnonzero(valid)
     chosen = chosen[np.linspace(0, len(chosen) - 1, POSES).astype(int)]
-    for target, shift, turn in (
-        (poses[0], places[chosen], turns[chosen]),
-        (poses[1], b.positions[chosen], b.rotations[chosen]),
-    ):
-        target.append(rigid_arrays.matrices(shift, turn))
+    both = (places[chosen], turns[chosen]), (b.positions[chosen], b.rotations[chosen])
+    poses[0].append(rigid_arrays.matrices(*both[0]))
+    poses[1].append(rigid_arrays.matrices(*both[1]))
+    poses[2].append(times[chosen])
+    stamps = (times[chosen] * 1e9).astype(np.int64)
+    return [
+        path(stamps, one.frame_id, one.child_frame_id, *pair)
+        for one, pair in zip((made.a, made.b), both, strict=True)
+    ]
 
 
-def opencv(poses, ours):
-    """Return the medians of OpenCV's solvers on the same poses, thinned and synchronised."""
+def printed(package, script, file):
+    """Run another solver, and return what it prints, or why it did not run."""
     uv = shutil.which("uv")
     if uv is None:
-        return ["  OpenCV: uv is not installed"]
+        return "", "uv is not installed"
+    words = [uv, "run", "-q", "--no-project", "--python", "3.11", "--with", package]
+    done = subprocess.run([*words, "python", "-c", script, file], capture_output=True, text=True)
+    return done.stdout, "".join(done.stderr.strip().splitlines()[-1:]) if done.returncode else ""
+
+
+def against(poses, ours):
+    """Return the medians of other solvers on the same poses, thinned and synchronised."""
+    lines, wrong = [], {}
+    truths = [world(seed, seconds=60.0, offset=0.2).mount for seed in range(WORLDS)]
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "poses.npz"
-        np.savez(path, a=np.array(poses[0]), b=np.array(poses[1]))
-        words = [uv, "run", "-q", "--no-project", "--python", "3.11"]
-        words += ["--with", "opencv-python-headless<5", "python", "-c", OPENCV, str(path)]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode:
-        return [f"  OpenCV did not run: {done.stderr.strip().splitlines()[-1:]}"]
-    rows = [list(map(float, line.split())) for line in done.stdout.splitlines()]
-    lines, best = [], [np.inf, np.inf]
-    for number, name in enumerate(METHODS):
-        moved, turned = [], []
-        for seed, row in enumerate(rows[number :: len(METHODS)]):
-            truth = world(seed, seconds=60.0, offset=0.2).mount
-            turn = np.array(row[:9]).reshape(3, 3)
-            rotation = quaternion_from_matrix(turn.tolist())
-            shift, angle = errors(tftool.Transform(row[9:], rotation), truth)
-            moved.append(np.linalg.norm(shift))
-            turned.append(np.linalg.norm(angle))
-        medians = statistics.median(moved), statistics.median(turned)
-        best = [min(pair) for pair in zip(best, medians, strict=True)]
-        lines.append(
-            f"  OpenCV {name:11} of {POSES} poses: {medians[0] * 1e3:.2f} mm {medians[1]:.3f}°"
-        )
-    verdict = "not above" if ours[0] <= best[0] and ours[1] <= best[1] else "ABOVE"
-    return [
-        *lines,
-        f"  tftool             {ours[0] * 1e3:.2f} mm {ours[1]:.3f}° with the clock offset "
-        f"unknown: {verdict} the best of them",
-    ]
+        file = Path(folder) / "poses.npz"
+        np.savez(file, a=np.array(poses[0]), b=np.array(poses[1]), stamps=np.array(poses[2]))
+        for package, script in PEERS.items():
+            text, why = printed(package, script, file)
+            if why:
+                lines.append(f"  {package} did not run: {why}")
+                continue
+            for line in text.splitlines():
+                name, method, *numbers = line.split(",")
+                rows = wrong.setdefault(f"{name} {method}", [])
+                values = list(map(float, numbers))
+                turn = np.reshape(values[3:] or np.eye(3), (3, 3)).tolist()
+                found = tftool.Transform(values[:3], quaternion_from_matrix(turn))
+                shift, angle = errors(found, truths[len(rows)])
+                rows.append(
+                    (np.linalg.norm(shift), np.linalg.norm(angle) if values[3:] else np.inf)
+                )
+    for name, rows in {f"tftool, the same {POSES} poses": [ours], **wrong}.items():
+        moved, turned = np.median(rows, axis=0)
+        angle = f"{turned:.3f}°" if np.isfinite(turned) else "no rotation"
+        lines.append(f"  {name:30} {moved * 1e3:.2f} mm {angle}")
+    if wrong:
+        best = np.min([np.median(rows, axis=0) for rows in wrong.values()], axis=0)
+        lines.append(f"  tftool is {'not ' if (ours <= best).all() else ''}above the best of them")
+    return lines
 
 
 def report():

@@ -100,6 +100,18 @@ def test_one_recording_holds_both_chains(tftool, made, tmp_path):
     assert near(json.loads(result.out)["mount"], made)
 
 
+def test_a_word_for_one_motion_is_that_of_the_file_that_has_it(tftool, words, made, tmp_path):
+    run = record(made, tmp_path / "run.mcap")
+    options = ["--moving", "world:camera", "--json"]
+
+    second = tftool(*words[:4], run, *options)
+    assert second.status == 0, second.err
+    assert near(json.loads(second.out)["mount"], made)
+    neither = tftool("calibrate", run, run, *options)
+    assert neither.status == 2
+    assert "several motions: name one with --moving" in neither.err
+
+
 def test_chains_that_share_the_mount_are_refused_by_name(tftool, tmp_path):
     made = world(12, seconds=10.0)
     run = tmp_path / "run.mcap"

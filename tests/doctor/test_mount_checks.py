@@ -148,6 +148,19 @@ def test_of_several_recordings_the_day_the_mount_moved_is_named(tftool, tmp_path
     assert "17 June 2025" in result.out
 
 
+def test_a_topic_is_a_motion_whose_mount_is_compared_with_tf(tftool, run):
+    file, _ = run
+    result = tftool(
+        "calibrate", file, "--moving", "odom:base_link", "--moving", "/vo", "--check", "--json"
+    )
+
+    assert result.status == 0, result.err
+    found = json.loads(result.out)
+    assert (found["moving"], found["fixed"]) == (["base_link", "camera"], ["odom", "vo"])
+    assert found["check"]["outside"] == []
+    assert found["check"]["differs"]["mm"] < 3.0
+
+
 def test_rows_are_no_place_for_mounts(tftool, run, tmp_path):
     result = tftool("doctor", run[0], "--mounts", "-o", tmp_path / "rows.csv")
     assert result.status == 2

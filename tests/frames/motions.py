@@ -64,7 +64,8 @@ def world(
 
     Args:
         seed: Of all random numbers.
-        kind: "3d", "axis" (turns about z alone), "planar" (x, y and yaw alone), "still" (no turns).
+        kind: "3d", "axis" (turns about z alone), "planar" (x, y and yaw alone), "still" (no turns),
+            "rest" (no motion at all).
         seconds: Length.
         rates: Poses a second of A and B.
         noise: Deviation of one pose, metres and degrees an axis.
@@ -94,8 +95,10 @@ def world(
         vectors[:, :2] = 0.0
     if kind == "planar":
         positions[:, 2] = 0.0
-    if kind == "still":
+    if kind in ("still", "rest"):
         vectors[:] = 0.0
+    if kind == "rest":
+        positions[:] = 0.0
     rotations = quaternions(vectors)
     split = len(grids[0])
     flat = kind == "planar"

@@ -100,6 +100,23 @@ def test_a_motion_about_one_axis_leaves_the_height_unseen():
     assert "second axis" in found.next_motion
 
 
+def test_the_join_hides_the_direction_that_the_mount_hides():
+    made = world(5, kind="axis")
+    found = solved(made)
+    shift, _ = errors(found.fixed_mount, made.fixed_mount)
+
+    assert found.fixed_interval95.translation[2] is None
+    assert None not in found.fixed_interval95.rotation_deg
+    assert np.linalg.norm(shift[:2]) < 0.01
+
+
+def test_planar_is_refused_where_the_body_tilts():
+    found = solved(world(5, seconds=20.0), planar=True)
+
+    assert not found
+    assert "Ask without planar" in found.why
+
+
 def test_unseen_parts_are_kept_from_the_published_mount():
     made = world(5, kind="axis")
     found = solved(made, published=made.mount)
@@ -114,6 +131,9 @@ def test_planar_motions_leave_the_tilt_unseen_too():
 
     assert found.verdict == "partial"
     assert set(found.unseen) == {"z", "roll", "pitch"}
+    fixed = found.fixed_interval95
+    assert [one is None for one in fixed.translation] == [False, False, True]
+    assert [one is None for one in fixed.rotation_deg] == [True, True, False]
     assert np.linalg.norm(shift[:2]) < 0.003
     assert abs(turn[2]) < 0.2
 
@@ -128,10 +148,10 @@ def test_a_body_that_does_not_turn_is_refused_with_the_motion_to_record():
 
 
 def test_a_short_recording_is_refused():
-    found = solved(world(7, seconds=4.0))
+    made = world(7, seconds=4.0)
 
-    assert found.verdict == "refused"
-    assert "at least 5 s" in found.why
+    assert "at least 5 s" in solved(made).why
+    assert "too few poses: 3 of different stamps" in tftool.calibrate(made.a[:3], made.b).why
 
 
 def test_an_inverted_second_motion_is_found_out_and_said():

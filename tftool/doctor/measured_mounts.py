@@ -6,23 +6,18 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-import numpy.typing as npt
 
 from tftool.base.errors import InputError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.batch.transform_array import TransformArray
+from tftool.frames.calibration.motion import Floats, difference, poses_of
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
-from tftool.geometry.rigid_arrays import conjugate, multiply, rotation_vectors, unit
+from tftool.geometry.rigid_arrays import unit
 from tftool.recordings.contract import Edge
 
 if TYPE_CHECKING:
     from tftool.doctor.model import Model
     from tftool.frames.calibration.calibrate import Calibration
-
-Floats = npt.NDArray[np.float64]
-
-AXES: Final = ("x", "y", "z")
-ANGLES: Final = ("roll", "pitch", "yaw")
 
 _LEAST: Final = 100
 """Poses of a chain below which its motion is not compared."""
@@ -92,14 +87,6 @@ def measured_mounts(
     return tuple(found)
 
 
-def apart(mount: Transform, other: Transform) -> Floats:
-    """Return a mount's difference from another, in metres and degrees, shape (6,)."""
-    shift = np.subtract(mount.translation, other.translation)
-    rotations = np.array([mount.rotation]), np.array([other.rotation])
-    turn = -np.degrees(rotation_vectors(multiply(conjugate(rotations[0]), rotations[1]))[0])
-    return np.concatenate([shift, turn])
-
-
 def _measured(
     first: TransformArray, second: TransformArray, published: Transform, name: str
 ) -> MeasuredMount | None:
@@ -116,14 +103,14 @@ def _measured(
         later = _between(second, start - late, stop - late)
         part = _calibrated(_between(first, start, stop), later, published)
         if part is not None and part.mount is not None:
-            windows.append(MountWindow(start, apart(part.mount, published), _widths(part)))
+            windows.append(MountWindow(start, difference(part.mount, published), _widths(part)))
     return MeasuredMount(
         first.child_frame_id,
         second.child_frame_id,
         name,
         int(first.stamps[0]),
         whole.mount,
-        apart(whole.mount, published),
+        difference(whole.mount, published),
         _widths(whole),
         tuple(windows),
     )
@@ -153,9 +140,6 @@ def _between(path: TransformArray, begin: int, end: int) -> TransformArray:
 
 def _pairs(model: "Model") -> Iterator[tuple[TransformArray, TransformArray, Transform]]:
     """Yield two independently measured motions of one body, and the mount between them."""
-    # Here, as the solver is loaded only where mounts are asked for.
-    from tftool.frames.calibration.motion import poses_of
-
     edges = model.evidence.transforms.edges
     moving = {one.child: one for one in edges if not one.static and len(one) >= _LEAST}
     static = {one.child: one for one in edges if one.static and len(one)}

@@ -6,9 +6,10 @@ import numpy as np
 
 from tftool.doctor.check import checks_of
 from tftool.doctor.findings import Area, Confidence, Fix, Hit, Severity
-from tftool.doctor.measured_mounts import ANGLES, AXES, Floats, MeasuredMount, apart
+from tftool.doctor.measured_mounts import MeasuredMount
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.wording import dated
+from tftool.frames.calibration.motion import ANGLES, AXES, Floats, difference
 
 check = checks_of(Area.VALUES)
 
@@ -64,9 +65,9 @@ def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
     for one in model.evidence.mounts or ():
         best: tuple[float, int, list[str]] | None = None
         for split in range(1, len(one.windows)):
-            difference, widths = _step(one, split)
-            outside = _outside(difference, limits["widths"] * widths, widths, limits)
-            size = float(np.nanmax(np.abs(difference) / widths))
+            shift, widths = _step(one, split)
+            outside = _outside(shift, limits["widths"] * widths, widths, limits)
+            size = float(np.nanmax(np.abs(shift) / widths))
             if outside and (best is None or size > best[0]):
                 best = size, split, outside
         if best is not None:
@@ -76,9 +77,9 @@ def mount_changed(model: Model, limits: Limits) -> Iterator[Hit]:
         earlier = one.earlier
         if earlier is None:
             continue
-        difference = apart(one.mount, earlier.mount)
+        shift = difference(one.mount, earlier.mount)
         widths = np.hypot(one.widths, earlier.widths)
-        outside = _outside(difference, limits["widths"] * widths, widths, limits)
+        outside = _outside(shift, limits["widths"] * widths, widths, limits)
         if outside:
             days = [f"{found.name} ({dated(found.begin)})" for found in (earlier, one)]
             told = f" between {days[0]} and {days[1]}"
@@ -99,16 +100,16 @@ def _step(one: MeasuredMount, split: int) -> tuple[Floats, Floats]:
     return means[1] - means[0], np.hypot(*spreads)
 
 
-def _outside(difference: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
+def _outside(shift: Floats, bounds: Floats, widths: Floats, limits: Limits) -> list[str]:
     """Name the axes on which a difference exceeds the limit; NaN (unseen) never does."""
     said = []
     for place, name in enumerate((*AXES, *ANGLES)):
         is_length = place < len(AXES)
         least = limits["metres" if is_length else "degrees"]
-        if abs(difference[place]) > max(bounds[place], least):
+        if abs(shift[place]) > max(bounds[place], least):
             unit, factor = (" mm", 1e3) if is_length else ("°", 1.0)
             said.append(
-                f"{name} differs by {difference[place] * factor:.1f}{unit} "
+                f"{name} differs by {shift[place] * factor:.1f}{unit} "
                 f"± {widths[place] * factor:.1f}{unit}"
             )
     return said

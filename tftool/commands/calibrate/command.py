@@ -15,17 +15,23 @@ from tftool.base.exit_status import ExitStatus
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import Buffer
 from tftool.commands.calibrate.calibration_report import page
-from tftool.commands.calibrate.mount_files import MOUNT_FILES, write_mount
+from tftool.commands.calibrate.mount_files import MOUNT_FILES, joint_to_change, write_mount
 from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.printer import line_width, write_file
 from tftool.commands.shared.reading_bar import Bar
 from tftool.drawing import calibration_view as view
-from tftool.frames.calibration.calibrate import ANGLES, AXES, Calibration, calibrate, difference
-from tftool.frames.calibration.clock_offset import CalibrationRefused, clock_offset
-from tftool.frames.calibration.motion import poses_of
+from tftool.frames.calibration.calibrate import Calibration, calibrate
+from tftool.frames.calibration.clock_offset import clock_offset, path_of
+from tftool.frames.calibration.motion import (
+    ANGLES,
+    AXES,
+    CalibrationRefused,
+    difference,
+    poses_of,
+)
 from tftool.frames.frames import Frames
-from tftool.frames.pair_samples import links_between, only_chain, sample
+from tftool.frames.pair_samples import links_between, sample
 from tftool.geometry.rigid import Transform
 from tftool.opener import open_frames
 from tftool.recordings.odometry import implying
@@ -81,6 +87,9 @@ def run(
             )
         robot = None if urdf is None else load_urdf(urdf)
         published = _Published.of(robot, opened[0], paths, mounted)
+        if check:
+            published.refuse_without_mount()
+        chosen = None if output is None else joint_to_change(output, published, joint)
         bar = Bar("Calibrating")
         try:
             found = calibrate(
@@ -114,7 +123,7 @@ def run(
     if not found:
         return ExitStatus.FAILED
     if output is not None:
-        for sentence in write_mount(output, found, published, joint, urdf):
+        for sentence in write_mount(output, found, published, chosen, urdf):
             notice(visible(sentence))
     return ExitStatus.FAILED if outside else ExitStatus.DONE
 
@@ -138,7 +147,21 @@ def _chains(opened: list[Frames], words: list[str]) -> list[Chain]:
             )
         _refuse_shared_mount(opened[0].buffer, words)
         return [(opened[0], words[0]), (opened[0], words[1])]
+    if len(words) == 1 and not _has(opened[0], words[0]) and _has(opened[1], words[0]):
+        words = ["", *words]
     return list(zip(opened, [*words, "", ""][:2], strict=True))
+
+
+def _has(frames: Frames, word: str) -> bool:
+    """Whether a motion can be one of these frames."""
+    if word.startswith("/"):
+        return frames.recording is not None and word in _topics(frames)
+    return all(frames.buffer.frame_exists(name) for name in _pair(word))
+
+
+def _topics(frames: Frames) -> list[str]:
+    recording = frames.recording
+    return [] if recording is None else [one.name for one in implying(recording.topics)]
 
 
 def _refuse_shared_mount(buffer: Buffer, words: list[str]) -> None:
@@ -175,17 +198,24 @@ def _refuse_chain(word: str, parent: str, child: str) -> NoReturn:
 def _pair(word: str) -> tuple[str, str]:
     fixed, colon, moving = word.partition(":")
     if not (colon and fixed and moving):
-        raise UsageError(f"--moving {word}: write FIXED:MOVING, as in odom:base_link, or a /topic.")
+        raise UsageError(
+            f"--moving '{word}': write FIXED:MOVING, as in odom:base_link, or a /topic."
+        )
     return fixed, moving
 
 
 def _path(frames: Frames, word: str) -> TransformArray:
     if not word:
-        return sample(frames.buffer, *only_chain(frames.buffer)).answered()
+        try:
+            return path_of(frames)
+        except InputError:
+            raise UsageError(
+                f"'{visible(frames.name)}' has several motions: name one with --moving "
+                "FIXED:MOVING, or a /topic."
+            ) from None
     if not word.startswith("/"):
         return sample(frames.buffer, *_pair(word)).answered()
-    recording = frames.recording
-    topics = [] if recording is None else [one.name for one in implying(recording.topics)]
+    topics, recording = _topics(frames), frames.recording
     if recording is None or word not in topics:
         there = f"there is {', '.join(topics[:5])}" if topics else "there is none"
         label = visible(frames.label)
@@ -202,7 +232,16 @@ def _print_clocks(paths: list[TransformArray], *, for_programs: bool) -> ExitSta
         found = clock_offset(*paths)
     except CalibrationRefused as refusal:
         if for_programs:
-            sys.stdout.write(json.dumps({"verdict": "refused", "why": str(refusal)}) + "\n")
+            sys.stdout.write(
+                json.dumps(
+                    {
+                        "verdict": "refused",
+                        "why": str(refusal),
+                        "next_motion": refusal.next_motion or None,
+                    }
+                )
+                + "\n"
+            )
         else:
             sys.stdout.write(f"refused: {refusal}\nTo record next: {refusal.next_motion}.\n")
         return ExitStatus.FAILED
@@ -248,10 +287,26 @@ class _Published:
         except TransformException:
             if mounted is not None:
                 known = buffer.frame_exists(mounted)
-                reason = "is not joined with" if known else "is in no frame of"
-                raise LookupException(f"'{mounted}' {reason} '{parent}'.", frame=mounted) from None
+                reason = f"is not joined with '{parent}'" if known else "is no frame"
+                label = frames.label if robot is None else robot.name
+                raise LookupException(
+                    f"--mounted {mounted}: '{mounted}' {reason} in {visible(label)}.",
+                    frame=mounted,
+                ) from None
             mount = None
         return cls(mount, name, parent, robot, buffer)
+
+    def refuse_without_mount(self) -> None:
+        """Refuse to compare with a mount that nobody published.
+
+        Raises:
+            UsageError: If none is.
+        """
+        if self.mount is None:
+            raise UsageError(
+                f"No mount of '{self.name}' on '{self.parent}' is published: name a "
+                "description with --urdf FILE, or the frame with --mounted NAME."
+            )
 
 
 LEAST_DIFFERENCE: Final = (0.001, 0.1)
@@ -261,19 +316,10 @@ LEAST_DIFFERENCE: Final = (0.001, 0.1)
 def _compared(
     found: Calibration, published: _Published
 ) -> tuple[list[str], dict[str, object] | None]:
-    """Compare the published mount with the estimated one.
-
-    Raises:
-        UsageError: If none is published.
-    """
-    if published.mount is None:
-        raise UsageError(
-            f"No mount of '{published.name}' on '{published.parent}' is published: name a "
-            "description with --urdf FILE, or the frame with --mounted NAME."
-        )
-    if found.mount is None or found.interval95 is None:
+    """Compare the published mount with the estimated one."""
+    if published.mount is None or found.mount is None or found.interval95 is None:
         return [], None
-    shift, turn = difference(found.mount, published.mount)
+    shift, turn = np.split(difference(found.mount, published.mount), 2)
     outside, told = [], []
     for names, values, widths, unit, factor, least in (
         (AXES, shift, found.interval95.translation, " mm", 1e3, LEAST_DIFFERENCE[0]),

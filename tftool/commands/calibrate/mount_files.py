@@ -43,19 +43,17 @@ def write_mount(
     output: Path,
     found: Calibration,
     published: PublishedMount,
-    joint: str | None,
+    chosen: RobotJoint | None,
     urdf: Path | None,
 ) -> list[str]:
     """Write a mount, and return sentences about it.
 
-    The joint that changes is the named one, else the first fixed one on the way from moving_a;
-    known transforms on both sides of it are taken out.
+    Known transforms on both sides of the joint that changes are taken out.
 
     Raises:
-        UsageError: If the joint cannot be found, or the description is made by xacro.
+        UsageError: If the description is made by xacro.
     """
     assert found.mount is not None
-    chosen = _joint(published, joint)
     parent, child = found.moving if chosen is None else (chosen.parent, chosen.child)
     if chosen is None and published.name not in (found.moving[1], found.fixed[1]):
         child = published.name  # of --mounted: the frame that tf has for it
@@ -73,11 +71,7 @@ def write_mount(
         words = " ".join(publisher_words(pose))
         return [f"Wrote {output}: {words} --frame-id {parent} --child-frame-id {child}"]
     assert urdf is not None
-    if chosen is None:
-        raise UsageError(
-            f"The description has no '{published.name}' below '{published.parent}': name the "
-            "frame with --mounted NAME, or the joint with --joint NAME."
-        )
+    assert chosen is not None
     text = urdf.read_bytes()
     origin = urdf_origin(pose)
     if is_xacro(text.decode("utf-8", "replace")):
@@ -94,12 +88,24 @@ def _publish(output: Path, buffer: Buffer) -> None:
     export(buffer, path=output, force=True)
 
 
-def _joint(published: PublishedMount, name: str | None) -> RobotJoint | None:
-    """Return the joint to change; None if the description has none.
+def joint_to_change(output: Path, published: PublishedMount, name: str | None) -> RobotJoint | None:
+    """Return the named joint, else the first fixed one on the way from moving_a.
+
+    None if there is none, where the output is no description.
 
     Raises:
-        UsageError: If there is none of that name, or it is not on the way.
+        UsageError: If it has no such joint, or that is not on the way.
     """
+    chosen = _joint(published, name)
+    if chosen is None and output.suffix == ".urdf":
+        raise UsageError(
+            f"The description has no '{published.name}' below '{published.parent}': name the "
+            "frame with --mounted NAME, or the joint with --joint NAME."
+        )
+    return chosen
+
+
+def _joint(published: PublishedMount, name: str | None) -> RobotJoint | None:
     robot = published.robot
     if robot is None:
         if name is not None:

@@ -20,7 +20,8 @@ from tftool.drawing import difference_view as view
 from tftool.drawing import figure
 from tftool.drawing import trajectory_error_view as error_view
 from tftool.drawing.calibration_view import clock_object
-from tftool.frames.calibration.clock_offset import CalibrationRefused, clock_offset
+from tftool.frames.calibration.clock_offset import clock_offset
+from tftool.frames.calibration.motion import CalibrationRefused
 from tftool.frames.diff import side_of
 from tftool.frames.differences import Allowance, Side, compare
 from tftool.frames.export.trajectory_files import whole_file

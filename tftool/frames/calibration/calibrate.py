@@ -11,12 +11,17 @@ from tftool.base.stamps import NANOSECONDS
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.frames.calibration.clock_offset import (
     LEAST_OVERLAP,
-    CalibrationRefused,
     ClockOffset,
     offset_of,
     path_of,
 )
-from tftool.frames.calibration.motion import BodyMotion, Floats
+from tftool.frames.calibration.motion import (
+    ANGLES,
+    AXES,
+    BodyMotion,
+    CalibrationRefused,
+    Floats,
+)
 from tftool.frames.calibration.motion_pairs import (
     MotionPairs,
     about_one_axis,
@@ -44,6 +49,9 @@ LEAST_TURN: Final = math.radians(5.0)
 SECOND_AXIS: Final = math.radians(3.0)
 """Root mean square of the turns about the second axis from which a motion has two axes."""
 
+HIDDEN: Final = 0.3
+"""Part of an unseen unit vector from which an axis is unseen."""
+
 LONG: Final = 120.0
 """Seconds from which the drift between the clocks is estimated."""
 
@@ -56,8 +64,6 @@ _GROWN: Final = 1.3
 
 TWO_AXES: Final = "turn about a second axis by at least 30°, back and forth, while recording"
 FIGURE: Final = "drive a figure of eight"
-AXES: Final = ("x", "y", "z")
-ANGLES: Final = ("roll", "pitch", "yaw")
 
 Trio = tuple[float | None, float | None, float | None]
 
@@ -158,32 +164,21 @@ def calibrate(
         The mount, or a refusal: false then.
 
     Raises:
-        InputError: If a motion has too few poses.
+        InputError: If frames are several chains.
     """
     a, b = path_of(a), path_of(b)
-    first, second = BodyMotion.of(a), BodyMotion.of(b)
     names = (a.child_frame_id, b.child_frame_id), (a.frame_id, b.frame_id)
-    if inverted[0]:
-        first, names = first.inverted(), ((names[1][0], names[0][1]), (names[0][0], names[1][1]))
-    if inverted[1]:
-        second, names = _swapped(second, names)
     solver = _Solver(planar, scale, published, seed, progress or (lambda done, total: None))
     try:
+        first, second = BodyMotion.of(a), BodyMotion.of(b)
+        if inverted[0]:
+            first = first.inverted()
+            names = (names[1][0], names[0][1]), (names[0][0], names[1][1])
+        if inverted[1]:
+            second, names = _swapped(second, names)
         return solver.solve(first, second, names, inverted)
     except CalibrationRefused as refusal:
         return Calibration("refused", str(refusal), *names, next_motion=refusal.next_motion or None)
-
-
-def difference(mount: Transform, published: Transform) -> tuple[list[float], list[float]]:
-    """Return a mount's difference from the published one.
-
-    Returns:
-        Metres along moving_a's axes, degrees about moving_b's, as in `Calibration.interval95`.
-    """
-    shift = np.subtract(mount.translation, published.translation)
-    both = np.array([mount.inverse().rotation]), np.array([published.rotation])
-    turn = -np.degrees(batch.rotation_vectors(batch.multiply(*both))[0])
-    return shift.tolist(), turn.tolist()
 
 
 Names = tuple[tuple[str, str], tuple[str, str]]
@@ -264,6 +259,11 @@ class _Solver:
         second = math.sqrt(max(values[1], 0.0))
         axis = vectors[:, -1] * np.sign(vectors[np.abs(vectors[:, -1]).argmax(), -1])
         is_planar = self.planar or problem.a.is_planar()
+        if self.planar and second > 2.0 * SECOND_AXIS:
+            raise CalibrationRefused(
+                f"{problem.a.name} tilts by {math.degrees(second):.1f}° in the mean: it is not "
+                "planar. Ask without planar: the motion shows all of the mount.",
+            )
         if second < SECOND_AXIS or is_planar:
             if is_planar:
                 axis = np.array([0.0, 0.0, 1.0])
@@ -379,7 +379,7 @@ class _Solver:
             _transform(fit.turn, fit.shift),
             _transform(whole.joins[0], whole.places[0]),
             _interval(sizes[:clocked], shown),
-            Interval(_trio(ends[3:]), _trio(np.degrees(ends[:3]))),
+            _fixed_interval(ends, shown, problem, whole),
             clock.seconds + fit.offset,
             float(sizes[clocked]),
             fit.drift * 1e6 if drifts else None,
@@ -444,7 +444,7 @@ def _one_axis(axis: Floats, turn: Floats, is_planar: bool) -> _Shown:
     free = np.zeros((5, 9))
     free[:3, :3] = np.eye(3)
     free[3:, 3:6] = np.linalg.svd(axis[None])[2][1:]
-    unseen = [name for name, part in zip(AXES, axis, strict=True) if abs(part) > 0.3]
+    unseen = [name for name, part in zip(AXES, axis, strict=True) if abs(part) > HIDDEN]
     if not is_planar:
         return _Shown(tuple(free), axis, tuple(unseen))
     about = np.zeros(9)
@@ -484,8 +484,27 @@ def _interval(sizes: Floats, shown: _Shown) -> Interval:
     return Interval((parts[3], parts[4], parts[5]), (turns[0], turns[1], turns[2]))
 
 
-def _trio(values: Floats) -> Trio:
-    x, y, z = values.tolist()
+def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) -> Interval:
+    """Return half-widths of Y: what the mount hides, Y hides as well.
+
+    The only axis of rotation has one direction in fixed_a, and one in fixed_b.
+    """
+    turns, moves = np.degrees(sizes[:3]), sizes[3:]
+    if shown.axis is None:
+        return Interval(_trio(moves, np.zeros(3)), _trio(turns, np.zeros(3)))
+    _, rotations, _ = problem.a.at(problem.times[:1])
+    axis = batch.rotate(rotations, shown.axis[None])
+    across = np.zeros(3)
+    if "roll" in shown.unseen:
+        across = 1.0 - batch.rotate(batch.conjugate(fit.joins[:1]), axis)[0] ** 2
+    return Interval(_trio(moves, np.abs(axis[0])), _trio(turns, np.sqrt(across.clip(0.0))))
+
+
+def _trio(values: Floats, hidden: Floats) -> Trio:
+    """Return half-widths; None along an axis of which the hidden direction is a good part."""
+    x, y, z = (
+        None if part > HIDDEN else float(value) for value, part in zip(values, hidden, strict=True)
+    )
     return x, y, z
 
 

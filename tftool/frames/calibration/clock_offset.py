@@ -11,10 +11,9 @@ from typing import Final
 
 import numpy as np
 
-from tftool.base.errors import TftoolError
 from tftool.base.stamps import NANOSECONDS
 from tftool.buffer.batch.transform_array import TransformArray
-from tftool.frames.calibration.motion import BodyMotion, Floats
+from tftool.frames.calibration.motion import BodyMotion, CalibrationRefused, Floats
 from tftool.frames.frames import Frames
 from tftool.frames.pair_samples import only_chain, sample
 from tftool.geometry import rigid_arrays as batch
@@ -38,19 +37,6 @@ _STEP: Final = 0.01
 _MOST_STEPS: Final = 400_000
 _BLOCKS: Final = 20
 _DRAWS: Final = 200
-
-
-class CalibrationRefused(TftoolError):
-    """Error for motion that does not determine the answer; the text names one that would.
-
-    Attributes:
-        next_motion: The motion to record instead; empty if none helps.
-    """
-
-    def __init__(self, text: str, next_motion: str = "") -> None:
-        """Make the error from the reason, and the motion to record next."""
-        super().__init__(text)
-        self.next_motion = next_motion
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,8 +82,8 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
     offset may be of any size.
 
     Raises:
-        CalibrationRefused: If the two do not turn alike, or the offset is ambiguous.
-        InputError: If one has too few poses.
+        CalibrationRefused: If the two do not turn alike, the offset is ambiguous, or one has too
+            few poses.
     """
     return offset_of(BodyMotion.of(path_of(a)), BodyMotion.of(path_of(b)))
 

@@ -1,4 +1,4 @@
-"""Poses of one moving frame over time, cleaned and interpolated."""
+"""Poses of one moving frame over time, cleaned and interpolated; differences of two mounts."""
 
 from dataclasses import dataclass
 from typing import Final, TypeAlias
@@ -6,10 +6,11 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from tftool.base.errors import InputError
+from tftool.base.errors import TftoolError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.geometry import rigid_arrays as batch
+from tftool.geometry.rigid import Transform
 from tftool.recordings.contract import Edge
 
 Floats = batch.Floats
@@ -19,6 +20,34 @@ LONGEST_GAP: Final = 0.3
 """Seconds without a sample behind which nothing is interpolated; of slow streams 3 periods."""
 
 _LEAST_POSES: Final = 20
+
+AXES: Final = ("x", "y", "z")
+ANGLES: Final = ("roll", "pitch", "yaw")
+
+
+class CalibrationRefused(TftoolError):
+    """Error for motion that does not determine the answer; the text names one that would.
+
+    Attributes:
+        next_motion: The motion to record instead; empty if none helps.
+    """
+
+    def __init__(self, text: str, next_motion: str = "") -> None:
+        """Make the error from the reason, and the motion to record next."""
+        super().__init__(text)
+        self.next_motion = next_motion
+
+
+def difference(mount: Transform, other: Transform) -> Floats:
+    """Return a mount's difference from another, shape (6,).
+
+    Metres along the axes of the frame it is mounted on, then degrees about those of the mounted
+    one, as in `Calibration.interval95`.
+    """
+    shift = np.subtract(mount.translation, other.translation)
+    first, second = np.array([mount.rotation]), np.array([other.rotation])
+    (turn,) = batch.rotation_vectors(batch.multiply(batch.conjugate(second), first))
+    return np.concatenate([shift, np.degrees(turn)])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,15 +73,16 @@ class BodyMotion:
         """Sort poses by stamp; drop NaN, spikes, and all but the first of equal stamps.
 
         Raises:
-            InputError: If fewer than twenty are left.
+            CalibrationRefused: If fewer than twenty are left.
         """
         path = path if path.valid.all() else path[path.valid]
         stamps, first = np.unique(path.stamps, return_index=True)
         name = f"{path.child_frame_id} in {path.frame_id}"
         if len(stamps) < _LEAST_POSES:
-            raise InputError(
-                f"{name} has {len(stamps)} poses of different stamps: record longer; "
-                f"at least {_LEAST_POSES} are needed."
+            raise CalibrationRefused(
+                f"{name} has too few poses: {len(stamps)} of different stamps, of {_LEAST_POSES} "
+                "that are needed.",
+                "move for half a minute, turning about two axes",
             )
         turns = batch.unit(path.rotations[first])
         kept = _steady(path.translations[first], turns)
