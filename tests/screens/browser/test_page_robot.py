@@ -1,10 +1,13 @@
 """A robot in the page, in a real browser: its meshes and its sliders."""
 
+import math
+
 import pytest
 
 pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
 from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
 
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
 from tests.screens.browser.mesh_files import write_package
@@ -76,9 +79,25 @@ def test_a_slider_moves_its_joint(chromium, stage, robot):
     page.until(lambda: page.texts(".slider span") == ["turn"])
 
     chromium.execute_script(
-        "const slider = document.querySelector('.slider input'); slider.value = 0.75;"
+        "const slider = document.querySelector('.slider [type=range]'); slider.value = 0.75;"
         "slider.dispatchEvent(new Event('input'))"
     )
     page.until(lambda: stage.do(lambda world: robot.mover.positions["turn"]) == 0.75)
 
-    assert page.texts(".slider output") == ["0.750 rad"]
+    # Angles are degrees, which can be typed, and stay between the limits.
+    typed = page.find(".slider [type=number]")
+    assert float(typed.get_attribute("value")) == pytest.approx(math.degrees(0.75), abs=0.01)
+    typed.send_keys(Keys.CONTROL, "a", Keys.NULL, "30", Keys.ENTER)
+    page.until(
+        lambda: (
+            stage.do(lambda world: robot.mover.positions["turn"])
+            == pytest.approx(math.radians(30), abs=1e-3)
+        )
+    )
+    zero = next(
+        one
+        for one in page.driver.find_elements(By.CSS_SELECTOR, "#sliders button")
+        if one.text == "Zero"
+    )
+    zero.click()
+    page.until(lambda: stage.do(lambda world: robot.mover.positions["turn"]) == 0)

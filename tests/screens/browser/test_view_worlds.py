@@ -196,3 +196,19 @@ def test_the_timeline_is_as_wide_as_its_panel_and_its_buttons_share_a_row(chromi
         assert line["width"] > panel["width"] - 40
         play, live = page.find("#play").rect, page.find("#live").rect
         assert abs(play["y"] + play["height"] - live["y"] - live["height"]) < 4
+
+
+def test_a_low_window_shows_the_picture_alone_until_panels_are_asked_for(chromium, stage):
+    stage.put(1.0)
+    with Resized(chromium, 1000, 400):
+        page = Page(chromium, stage)
+        page.until(lambda: "turtle" in page.drawn())
+        panels = [page.find(f"#{name}") for name in ("left", "right", "time", "brand")]
+        assert not any(panel.is_displayed() for panel in panels)
+        page.find("#panels").click()
+        page.until(lambda: all(panel.is_displayed() for panel in panels))
+
+        page.find("#left .collapse").click()
+        assert not page.find("#tree").is_displayed()
+        page.find("#left .collapse").click()
+        assert page.find("#tree").is_displayed()

@@ -18,6 +18,7 @@ export const KEYS = [
   ["[", "back", "a little earlier"],
   ["]", "forth", "a little later"],
   ["l", "live", "follow the present"],
+  ["p", "panels", "all panels, or the picture alone"],
   ["?", "ask", "this page"],
 ];
 

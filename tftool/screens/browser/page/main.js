@@ -14,7 +14,7 @@ import { Measure, onPlane } from "./measure.js";
 import { fade, Model } from "./model.js";
 import { naturalPair, planar, trailsPay, wholePays } from "./opening.js";
 import {
-  $, fill, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
+  $, fill, makeCollapsible, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
 } from "./panels.js";
 import { Pace } from "./pace.js";
 import { Past } from "./past.js";
@@ -32,6 +32,7 @@ import { Tree } from "./tree.js";
 import { same, Wire } from "./wire.js";
 
 const FLIGHT = 350; // milliseconds
+const LOW = 500; // pixels of a window that has no room for panels
 const STEP = 0.1; // seconds one press of [ or ] goes
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole"];
 // When the past is requested for the trails: once the tree has come to rest, and once more later,
@@ -319,6 +320,7 @@ function distance(pair) {
 
 function words() {
   stage.inset = insets();
+  stage.covered = covered();
   const connection = server.recorded && server.connection === "open" ? "stored" : server.connection;
   const state = freshness(connection, model, timeline.past);
   showStatus(timeline, state);
@@ -392,13 +394,21 @@ function insets() {
   return {
     left: left && innerWidth > 640 ? left.right : 0,
     right: right && innerWidth > 640 ? innerWidth - right.left : 0,
-    top: $("bar").getBoundingClientRect().bottom,
+    top: document.body.classList.contains("alone") ? 2 : $("bar").getBoundingClientRect().bottom,
     bottom: foot(),
   };
 }
 
 /** Pixels of the window from the top of the timeline down; few where there is none. */
-const foot = () => ($("time").hidden ? 2 : innerHeight - $("time").getBoundingClientRect().top);
+const foot = () => (!$("time").offsetParent ? 2 : innerHeight - $("time").getBoundingClientRect().top);
+
+/** What panels cover of the picture: left, top, width and height of each. */
+function covered() {
+  return [...document.querySelectorAll("#bar, #left, #right > .panel, #time")]
+    .map((panel) => panel.getBoundingClientRect())
+    .filter(({ width }) => width)
+    .map(({ left, top, width, height }) => [left, top, width, height]);
+}
 
 function fit(box) {
   stage.fit(box, insets());
@@ -703,6 +713,17 @@ $("ask").onclick = () => showHelp($("help").hidden);
 $("help-close").onclick = () => showHelp(false);
 $("help").onclick = (event) => event.target === $("help") && showHelp(false);
 fill($("help-keys"), [...KEYS.map(([key, , does]) => [key === " " ? "Space" : key.toUpperCase(), does]), ...OTHERS]);
+
+// In a notebook's cell there is room for the picture alone.
+function showPanels(on) {
+  document.body.classList.toggle("alone", !on);
+  $("panels").setAttribute("aria-pressed", String(on));
+  bounds.reset();
+  changed();
+}
+$("panels").onclick = () => showPanels(document.body.classList.contains("alone"));
+makeCollapsible();
+if (innerHeight < LOW) showPanels(false);
 
 // On a small screen panels are drawers: one is open at a time.
 function openDrawer(name) {

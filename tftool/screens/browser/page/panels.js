@@ -199,6 +199,26 @@ export function showTime(timeline) {
   }
 }
 
+/** Give every panel with a head a button that folds it up. */
+export function makeCollapsible() {
+  for (const panel of document.querySelectorAll("#left, #right > .panel")) {
+    const button = document.createElement("button");
+    button.className = "plain collapse";
+    const show = () => {
+      const closed = panel.classList.contains("closed");
+      button.textContent = closed ? "▸" : "▾";
+      button.setAttribute("aria-expanded", String(!closed));
+      button.setAttribute("aria-label", `${closed ? "Open" : "Close"} ${panel.querySelector("h2")?.textContent || "panel"}`);
+    };
+    button.onclick = () => {
+      panel.classList.toggle("closed");
+      show();
+    };
+    show();
+    panel.querySelector(".head")?.append(button);
+  }
+}
+
 /** A word that goes away by itself; an empty one goes at once. */
 export function toast(text) {
   clearTimeout(toast.timer);

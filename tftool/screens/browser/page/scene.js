@@ -124,6 +124,8 @@ export class Stage {
     this.extent = 5; // how far the frames reach from the origin, metres
     /** Pixels that panels cover, at each side. */
     this.inset = { left: 0, right: 0, top: 0, bottom: 0 };
+    /** @type {number[][]} */
+    this.covered = []; // by panels: left, top, width, height
     /** @type {Map<string, number>} */
     this.stood = new Map(); // where names stood in the picture before
     this.gone = ARRANGED_EVERY; // pictures since names found their places
@@ -520,7 +522,7 @@ export class Stage {
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
     const { left, bottom } = this.inset;
-    this.reserved = [[left + 10, this.height - bottom - CORNER.height, CORNER.width, CORNER.height]];
+    this.reserved = [...this.covered, [left + 10, this.height - bottom - CORNER.height, CORNER.width, CORNER.height]];
     this.drawChain(pen, pair);
     for (const { pose, strong } of rings) {
       const spot = pose ? this.project(pose[0], pose[1], pose[2]) : null;

@@ -4,6 +4,12 @@ import { number } from "./format.js";
 import { $ } from "./panels.js";
 
 const MOST_TOLD = 8;
+/** Where all joints go at once. */
+const POSES = {
+  Zero: () => 0,
+  Centre: (least, most) => (least + most) / 2,
+  Random: (least, most) => least + Math.random() * (most - least),
+};
 
 export class Sliders {
   /**
@@ -17,30 +23,45 @@ export class Sliders {
 
   /** @param {{ name: string, unit: string, range: number[], position: number }[]} sliders */
   show(sliders) {
-    this.list.replaceChildren(...sliders.map((one) => this.row(one)));
+    const rows = sliders.map((one) => this.row(one));
+    const poses = document.createElement("div");
+    poses.className = "buttons";
+    for (const [name, share] of Object.entries(POSES)) {
+      const button = document.createElement("button");
+      button.textContent = name;
+      button.title = `All joints: ${name.toLowerCase()}`;
+      button.onclick = () => rows.forEach(({ set, range: [least, most] }) => set(share(least, most)));
+      poses.append(button);
+    }
+    this.list.replaceChildren(...(rows.length ? [poses] : []), ...rows.map(({ row }) => row));
   }
 
+  /** A joint: its name and its position to be typed, and a slider between its limits; angles in degrees. */
   row({ name, unit, range, position }) {
-    const row = document.createElement("label");
-    row.className = "slider";
-    const title = document.createElement("span");
-    title.textContent = name;
-    title.title = name;
-    const told = document.createElement("output");
-    const slider = document.createElement("input");
-    slider.type = "range";
-    [slider.min, slider.max] = range.map(String);
-    slider.step = "any";
-    slider.value = String(position);
+    const [size, sign, digits] = unit === "rad" ? [180 / Math.PI, "°", 2] : [1, ` ${unit}`, 4];
+    const make = (tag, parts) => Object.assign(document.createElement(tag), parts);
+    const row = make("div", { className: "slider" });
+    const typed = make("input", { type: "number", step: "any", title: "Type a position" });
+    const slider = make("input", { type: "range", min: String(range[0]), max: String(range[1]), step: "any" });
+    typed.setAttribute("aria-label", `Position of joint ${name},${sign}`);
     slider.setAttribute("aria-label", `Joint ${name}`);
-    const tell = () => (told.textContent = `${number(Number(slider.value), 3)} ${unit}`);
-    slider.oninput = () => {
-      tell();
-      this.move(name, Number(slider.value));
+    const tell = (value) => (typed.value = String(+(value * size).toFixed(digits)));
+    const set = (value) => {
+      const kept = Math.min(range[1], Math.max(range[0], value));
+      slider.value = String(kept);
+      tell(kept);
+      this.move(name, kept);
     };
-    tell();
-    row.append(title, slider, told);
-    return row;
+    slider.oninput = () => set(Number(slider.value));
+    typed.onchange = () => {
+      const value = Number.parseFloat(typed.value);
+      set(Number.isFinite(value) ? value / size : Number(slider.value));
+    };
+    slider.value = String(position);
+    tell(position);
+    const limits = range.map((limit) => make("small", { textContent: `${number(limit * size, digits / 2)}${sign}` }));
+    row.append(make("span", { textContent: name }), typed, make("small", { textContent: sign }), limits[0], slider, limits[1]);
+    return { row, set, range };
   }
 }
 
