@@ -1,5 +1,7 @@
 """Slips of people who learn: each is named where it happens."""
 
+import linecache
+
 import pytest
 
 TIMER = """
@@ -45,6 +47,7 @@ def program(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
     def write(text):
+        linecache.clearcache()
         (tmp_path / "node.py").write_text(text, encoding="utf-8")
         return "node.py"
 
@@ -287,6 +290,8 @@ def chase(tftool, tmp_path, monkeypatch):
     ("old", "new", "told"),
     [
         ("Node(\n", "Node(pakage='chase',\n", "did you mean 'package'?"),
+        ('executable="turtle_broadcaster"', 'exectuable="turtle_broadcaster"',
+         "did you mean 'executable' by 'exectuable'?"),
         ("Node(\n", "Nod(\n", "name 'Nod' is not defined; did you mean 'Node'?"),
         ("def generate_launch_description", "def generate_launch_descripton",
          "it has 'generate_launch_descripton': name that so"),
@@ -355,3 +360,95 @@ def test_a_quaternion_with_w_first_is_named(tftool, slip, x, w, count):
     result = tftool("run", "--simulated", "--for", "2", file)
 
     assert said(result, "if no turn is meant, w is 1.0: the order is x, y, z, w") == count
+
+
+def test_a_lookup_in_a_buffer_of_its_own_without_listener_is_named(tftool, slip):
+    look = "self.second.can_transform('map', 'base', rclpy.time.Time())"
+    file = slip(f"self.send('map', 'base'); {look}", begin="self.second = Buffer()")
+
+    result = tftool("run", "--simulated", "--for", "1", file)
+
+    assert said(result, "nothing fills this buffer: keep a TransformListener(buffer, node)") == 1
+
+
+def test_a_frame_sent_once_is_no_lookup_at_a_wrong_moment(tftool, slip):
+    file = slip(
+        "self.send('map', 'base'); "
+        "self.look('map', 'lens', self.get_clock().now() - rclpy.duration.Duration(seconds=0.3))",
+        begin="self.send('base', 'lens')",
+    )
+
+    result = tftool("run", "--simulated", "--for", "4", file)
+
+    assert said(result, "'lens' was sent once") == 1
+    assert "not yet known" not in result.err
+
+
+def test_a_node_destroyed_without_being_spun_is_named(tftool, program):
+    last = "rclpy.spin(Asker())"
+    file = program(UNFILLED.replace(last, "Asker().destroy_node()\nrclpy.shutdown()"))
+
+    result = tftool("run", "--simulated", "--for", "1", file)
+
+    assert said(result, "'asker' has ended without being spun, so none of its 1 callbacks") == 1
+
+
+@pytest.mark.parametrize(
+    ("tick", "told"),
+    [
+        ("self.count = self.countt + 1", "object has no attribute 'countt'"),
+        ("TransformStamped().transform.translation.x = 1", "not 'int': write 1.0"),
+    ],
+)
+def test_a_failure_in_a_callback_is_named_with_its_line(tftool, slip, tick, told):
+    result = tftool("run", "--simulated", "--for", "1", slip(tick))
+
+    assert result.status == 1
+    assert told in result.err
+    assert f", in tick: {tick}" in result.err
+
+
+def test_degrees_are_named_with_their_line(tftool, slip):
+    file = slip("from tf_transformations import quaternion_from_euler as e; e(0, 0, 90)")
+
+    result = tftool("run", "--simulated", "--for", "1", file)
+
+    assert said(result, "takes radians, and 90 looks like degrees: math.radians(90)") == 1
+
+
+def test_a_callback_that_never_returns_is_named_with_its_line(tftool, slip, monkeypatch):
+    monkeypatch.setattr("tftool.ros.host.fibers.PATIENCE", 0.2)
+    monkeypatch.setattr("tftool.ros.host.fibers.GIVE_UP", 0.5)
+
+    result = tftool("run", "--simulated", "--for", "1", slip("while True: pass"))
+
+    assert result.status == 1
+    assert said(result, "'slip' has been busy for 0.2 s and simulated time waits for it") == 1
+    assert ", in tick: while True: pass" in result.err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["run", "chase", "turtle_folower"], "did you mean 'turtle_follower'?"),
+        (["run", "chaes", "turtle_follower"], "did you mean 'chase'?"),
+        (["launch", "chase", "folower.launch.py"], "It has follower.launch.py."),
+        (["launch", "chaes", "follower.launch.py"], "did you mean 'chase'?"),
+    ],
+)
+def test_a_wrong_executable_package_or_launch_file_is_named(tftool, chase, words, told):
+    result = tftool(words[0], "--simulated", "--for", "1", *words[1:])
+
+    assert result.status == 2
+    assert told in result.err
+
+
+def test_a_package_elsewhere_is_refused_with_the_folder_that_was_searched(
+    tftool, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+
+    result = tftool("run", "--simulated", "--for", "1", "chase", "turtle_follower")
+
+    assert result.status == 2
+    assert f"there is no package 'chase' below {tmp_path}" in result.err

@@ -104,6 +104,7 @@ def test_what_only_running_setup_py_would_tell_is_not_judged(tftool, package):
          "  <exec_depend>tf2_ros</exec_depend>\n", NO_DEPENDENCY),
         (["launch", "chase", "follower.launch.py"], "setup.py", 'glob("launch/*.launch.py")',
          NO_LAUNCH),
+        (["launch", "chase", "follower.launch.py"], "setup.py", ENTRY, NO_ENTRY),
     ],
 )  # fmt: skip
 def test_run_and_launch_say_in_one_line_what_ros_would_not_find(

@@ -471,7 +471,7 @@ def test_what_cannot_be_launched_is_said_in_one_sentence(tmp_path, action, told)
             "a.py",
             "from launch.actions import LogInfo\ndef generate_launch_description():\n"
             "    return LogInfo(message='x')",
-            r"TypeError: .*'msg'\n.*a\.py:3",
+            r"TypeError: .*did you mean 'msg' by 'message'\?\n.*a\.py:3",
         ),
         ("a.launch.xml", "<launch>\n<nod/></launch>", r"xml:2: there is no 'nod'.*mean 'node'"),
         ("a.launch.xml", "<launch>\n<node/></launch>", r"xml:2: 'node' needs 'exec'"),

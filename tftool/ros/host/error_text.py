@@ -4,9 +4,10 @@ import builtins
 import linecache
 import re
 import traceback
+from types import TracebackType
 
 from tftool.base.errors import InputError, UsageError
-from tftool.base.near_names import did_you_mean
+from tftool.base.near_names import did_you_mean, near_names
 from tftool.ros.host.fibers import StuckError, user_line_of_error
 from tftool.ros.host.missing_names import missing_package, near_keyword
 
@@ -27,6 +28,18 @@ def error_sentence(error: BaseException) -> str:
 
 
 _UNEXPECTED = re.compile(r"([\w.]+)\(\) got an unexpected keyword argument '(\w+)'")
+_MISSING = re.compile(r"missing 1 required (?:keyword-only|positional) argument: '(\w+)'")
+_KEYWORD = re.compile(r"\b(\w+)\s*=(?!=)")
+
+
+def _keywords_of_call(trace: TracebackType | None) -> list[str]:
+    """Return the keywords in the source of the call that failed."""
+    last = traceback.extract_tb(trace)[-1]
+    # Before Python 3.11 only the first line of the call is known.
+    first = last.lineno or 0
+    end = getattr(last, "end_lineno", None) or first
+    lines = [linecache.getline(last.filename, number) for number in range(first, end + 1)]
+    return _KEYWORD.findall("".join(lines))
 
 
 def _near_name(error: BaseException) -> str:
@@ -40,6 +53,11 @@ def _near_name(error: BaseException) -> str:
     names = {**vars(builtins), **frames[-1].f_globals, **frames[-1].f_locals}
     if isinstance(error, NameError) and isinstance(error.name, str):
         return did_you_mean(error.name, names)
+    missing = _MISSING.search(str(error)) if isinstance(error, TypeError) else None
+    if missing is not None:
+        for word in _keywords_of_call(error.__traceback__):
+            if near_names(word, [missing[1]]):
+                return f"; did you mean '{missing[1]}' by '{word}'?"
     found = _UNEXPECTED.search(str(error)) if isinstance(error, TypeError) else None
     return "" if found is None else near_keyword(found[2], names.get(found[1].partition(".")[0]))
 

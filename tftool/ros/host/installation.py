@@ -59,12 +59,19 @@ def installed_parts(package: Package, siblings: Iterable[str] = ()) -> Iterator[
 
 
 def faults_about(package: Package, file: Path, siblings: Iterable[str] = ()) -> list[str]:
-    """Return why ROS 2 would not find one node or launch file, or a package that it imports."""
+    """Return why ROS 2 would not find one node or launch file, or a package that it imports.
+
+    A launch file's nodes are those whose file's name it contains.
+    """
     try:
         parts = list(installed_parts(package, siblings))
     except InputError:
         return []  # Its own reader says so.
-    return [part.fault for part in parts if part.fault and part.file == file]
+    faults = [part for part in parts if part.fault]
+    text = ""
+    if any(part.file != file for part in faults) and file.parent.name == "launch":
+        text = file.read_text(encoding="utf-8", errors="replace")
+    return [one.fault for one in faults if one.file == file or one.file.stem in text]
 
 
 def entry_point_fault(package: Package, name: str) -> str:

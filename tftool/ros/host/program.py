@@ -65,6 +65,7 @@ class Program(Node):
         failure: What ended it, unless it ended well.
         status: Its exit status once it has ended, None before.
         nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
+        unserved: The nodes it destroyed, each with its number of callbacks if none was served.
         event_loops: Those of asyncio that it made, closed at the end.
         lines_with_angles: Lines of it whose angles were looked at: whether they are degrees.
         advice: Functions that sum its lookups up at the end: a sentence, or "".
@@ -104,6 +105,7 @@ class Program(Node):
         self.context: Any = None
         self.executor: Any = None
         self.nodes: list[Any] = []
+        self.unserved: list[tuple[str, int]] = []
         self.event_loops: list[asyncio.AbstractEventLoop] = []
         self.log_levels: dict[str, int] = {}
         self.lines_with_angles: set[Any] = set()

@@ -114,14 +114,13 @@ def _end_with(status: object) -> None:
 
 def _warn_of_unserved(owner: program.Program) -> None:
     """Warn about a program that ended without ever spinning its nodes."""
-    for node in owner.nodes:
-        if not node.was_served and not owner.interrupted:
-            waits = [one for one in node.entities if one.is_a_callback]
-            if waits:
-                owner.warn(
-                    f"node '{node.name}' has ended without being spun, so none of its "
-                    f"{len(waits)} callbacks was called: rclpy.spin(node) serves them"
-                )
+    waiting = [*owner.unserved, *((node.name, node.unserved()) for node in owner.nodes)]
+    for name, count in () if owner.interrupted else waiting:
+        if count:
+            owner.warn(
+                f"node '{name}' has ended without being spun, so none of its "
+                f"{count} callbacks was called: rclpy.spin(node) serves them"
+            )
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:

@@ -148,9 +148,14 @@ class NodeSeat:
         if not self._destroyed:
             for rate in tuple(self.rates):
                 rate.destroy()
+            self.program.unserved.append((self.name, self.unserved()))
             self.program.ask(self.withdraw)
             if self in self.program.nodes:
                 self.program.nodes.remove(self)
+
+    def unserved(self) -> int:
+        """Return how many callbacks wait for an executor that never came."""
+        return 0 if self.was_served else sum(one.is_a_callback for one in self.entities)
 
     # On the loop's thread
 

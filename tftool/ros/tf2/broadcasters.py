@@ -54,6 +54,7 @@ class TransformListener:
         self._stops: list[Callable[[], None]] = []
         self._member = seat_of(node)
         self._member.program.listens = True
+        buffer.hints.has_listener = True
         self._member.keep(lambda: self._listen(static_only))
 
     def _listen(self, static_only: bool) -> NodeEntity:

@@ -36,6 +36,11 @@ class BufferCore:
         """The buffer itself."""
         return self._frames
 
+    @property
+    def hints(self) -> LookupHints:
+        """What is known about its failed lookups."""
+        return self._hints
+
     def _log(self, level: str, text: str) -> None:
         owner = self._program
         owner.say("ERROR" if level == "ERROR" else "WARN", owner.name, text)

@@ -27,6 +27,9 @@ class LookupHints:
     """Lookups of one buffer: how many asked for what, and the hints already given.
 
     Each hint is logged once, as a warning of the program that asks.
+
+    Attributes:
+        has_listener: Whether a TransformListener fills the buffer.
     """
 
     def __init__(self, program: Program, frames: Frames) -> None:
@@ -38,6 +41,7 @@ class LookupHints:
         self._early = 0
         self._just_in_time = 0
         self._waits = False
+        self.has_listener = False
         program.advice.append(self.summary)
 
     def wait(self) -> None:
@@ -65,6 +69,8 @@ class LookupHints:
         elif isinstance(error, ExtrapolationException):
             once = next(self._sent_once(target, source, now), None) if lasts else None
             if once is not None:
+                # These failures have another cause than the moment.
+                self._early = 0
                 self._say(
                     f"once {once.frame}",
                     f"'{once.frame}' was sent once, at {as_seconds(once.newest):.3f} s: "
@@ -125,10 +131,12 @@ class LookupHints:
     def _hint_that_nothing_arrives(self) -> None:
         """Report why nothing can arrive if a node looks up before it is spun."""
         owner = self._program
-        if (owner.listens and any(one.was_served for one in owner.nodes)) or self._frames.frames():
+        if self._frames.frames():
             return
-        if not owner.listens:
+        if not self.has_listener:
             why = "nothing fills this buffer: keep a TransformListener(buffer, node) beside it"
+        elif any(one.was_served for one in owner.nodes):
+            return
         else:
             why = (
                 "nothing has arrived yet: the node is not spun so far. Look up in a timer's "
