@@ -14,7 +14,7 @@ from operator import attrgetter
 from typing import Any, ClassVar, Final
 
 from tftool.base.errors import InputError
-from tftool.messages import schema
+from tftool.messages import definitions, schema
 from tftool.messages.field_checks import Check, array_check, element_check, packed
 from tftool.messages.schema import (
     FLOATS,
@@ -164,6 +164,19 @@ def _duplicated(field: MessageField, value: Any) -> Any:
     return value.copy() if hasattr(value, "dtype") else value[:]
 
 
+def _layout_of(kind: type[Message]) -> tuple[Any, ...]:
+    """Return names and types of all fields, those of messages inside included."""
+    return tuple(
+        (
+            field.name,
+            field.size,
+            field.bound,
+            _layout_of(field.kind) if isinstance(field.kind, type) else field.kind,
+        )
+        for field in kind.fields__
+    )
+
+
 def interface_name(kind: Any) -> str:
     """Return the ROS name of a class of messages, services or actions; "" for other classes."""
     return str(getattr(kind, "interface__", ""))
@@ -178,6 +191,24 @@ def recast(message: Any, kind: type[Message]) -> Any:
     for field in kind.fields__:
         setattr(same, f"_{field.name}", getattr(copy, f"_{field.name}"))
     return same
+
+
+def completed(message: Any, kind: type[Message]) -> Any:
+    """Return a message as one of a class that has more fields; those get their defaults."""
+    if type(message) is kind:
+        return message
+    made = kind()
+    inside = {field.name: field.kind for field in kind.fields__}
+    for field in message.fields__:
+        value, wanted = getattr(message, field.name), inside[field.name]
+        if isinstance(wanted, type):
+            value = (
+                completed(value, wanted)
+                if isinstance(value, Message)
+                else [completed(one, wanted) for one in value]
+            )
+        setattr(made, field.name, value)
+    return made
 
 
 def is_part(asked: Any, part: str, kind: Any) -> bool:
@@ -266,6 +297,21 @@ class Interfaces(Schema):
         if text.strip() and not self.define(full, text):
             return Interfaces().recorded(full, text)
         return self.part(full)
+
+    def earlier(self, full: str) -> list[type[Message]]:
+        """Return the classes that earlier distributions had for a message; often none.
+
+        Each differs in fields from the present class, by itself or by a message in it.
+        """
+        found: list[type[Message]] = []
+        for texts in definitions.EARLIER:
+            interfaces = Interfaces()
+            for name, text in texts.items():
+                interfaces.define(name, text.replace("; ", "\n"))
+            kind = interfaces.message(full)
+            if _layout_of(kind) not in map(_layout_of, [self.message(full), *found]):
+                found.append(kind)
+        return found
 
     def part(self, full: str) -> type[Message]:
         """Return the class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.

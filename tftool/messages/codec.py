@@ -13,7 +13,7 @@ from operator import attrgetter
 from typing import Any, Final
 
 from tftool.base.errors import MalformedMessage
-from tftool.messages.classes import Message, MessageField
+from tftool.messages.classes import Interfaces, Message, MessageField
 from tftool.messages.field_checks import packed, typecode
 from tftool.messages.layouts import (
     BIG,
@@ -83,6 +83,51 @@ class Codec:
         message = self._plan.read(reader)
         check_rest(self.name, len(payload) - reader.position)
         return message
+
+
+class RecordedCodec:
+    """Serialiser of a recorded type without definition, whose distribution only bytes tell.
+
+    A message of an earlier distribution becomes one of its own class, and is written as such.
+    """
+
+    def __init__(self, interfaces: Interfaces, full: str, layout: Layout) -> None:
+        """Plan the layouts of the present and the earlier classes.
+
+        Args:
+            interfaces: The present definitions.
+            full: The type's full name.
+            layout: The rules that the bytes follow.
+
+        Raises:
+            InputError: If the type is not known.
+        """
+        self.kind = interfaces.message(full)
+        kinds = [self.kind, *(interfaces.earlier(full) if layout is CDR else [])]
+        self._codecs = [Codec(kind, layout) for kind in kinds]
+
+    def encode(self, message: Any) -> bytes:
+        """Return the bytes of one message.
+
+        Raises:
+            MalformedMessage: If a value does not fit its field.
+        """
+        return next(one for one in self._codecs if one.kind is type(message)).encode(message)
+
+    def decode(self, payload: Payload) -> Any:
+        """Return the message in some bytes, of the class that fits them.
+
+        Raises:
+            MalformedMessage: If none does.
+        """
+        first: MalformedMessage | None = None
+        for one in self._codecs:
+            try:
+                return one.decode(payload)
+            except MalformedMessage as error:
+                first = first or error
+        assert first is not None
+        raise first
 
 
 _codecs: dict[Any, Codec] = {}

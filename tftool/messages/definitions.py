@@ -6,6 +6,7 @@ apart by `---`. Classes are made from these in `classes`.
 """
 
 from functools import cache
+from typing import Final
 
 _TEXT = """
 builtin_interfaces/msg/Time = int32 sec; uint32 nanosec
@@ -233,3 +234,29 @@ def table() -> dict[str, dict[tuple[str, str], str]]:
     for new, old in _SAME.items():
         packages[new] = packages[old]
     return packages
+
+
+EARLIER: Final = (
+    # Up to Humble.
+    {
+        "sensor_msgs/msg/Range": "uint8 ULTRASOUND=0; uint8 INFRARED=1; std_msgs/Header header; "
+        "uint8 radiation_type; float32 field_of_view; float32 min_range; float32 max_range; "
+        "float32 range",
+    },
+    # Up to Foxy.
+    {
+        "sensor_msgs/msg/Range": "uint8 ULTRASOUND=0; uint8 INFRARED=1; std_msgs/Header header; "
+        "uint8 radiation_type; float32 field_of_view; float32 min_range; float32 max_range; "
+        "float32 range",
+        "shape_msgs/msg/SolidPrimitive": "uint8 type; float64[<=3] dimensions",
+        "visualization_msgs/msg/Marker": "std_msgs/Header header; string ns; int32 id; "
+        "int32 type; int32 action; geometry_msgs/Pose pose; geometry_msgs/Vector3 scale; "
+        "std_msgs/ColorRGBA color; builtin_interfaces/Duration lifetime; bool frame_locked; "
+        "geometry_msgs/Point[] points; std_msgs/ColorRGBA[] colors; string text; "
+        "string mesh_resource; bool mesh_use_embedded_materials",
+    },
+)
+"""Definitions that earlier distributions had for some types, the latest distribution first.
+
+A recording made before Iron has no definitions, so the bytes have to tell which one they follow.
+"""

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from typing import Final, NamedTuple
 
 from tftool.base.errors import InputError
-from tftool.messages.classes import INTERFACES, Interfaces
-from tftool.messages.codec import Codec
+from tftool.messages.classes import INTERFACES, Interfaces, completed
+from tftool.messages.codec import Codec, RecordedCodec
 from tftool.messages.layouts import CDR, ROS1
 from tftool.messages.schema import full_name
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
@@ -82,6 +82,7 @@ def as_ros1(channel: Channel) -> Conversion:
         return Conversion(channel, bytes)
     full, interfaces = _known(channel, "cdr")
     kind = interfaces.message(full)
+    write = Codec(kind, ROS1)
     metadata = {"md5sum": ros1_md5(full, interfaces)}
     if channel.extra("callerid"):
         metadata["callerid"] = channel.extra("callerid")
@@ -95,7 +96,12 @@ def as_ros1(channel: Channel) -> Conversion:
         ros1_definition(full, interfaces).encode(),
         tuple(metadata.items()),
     )
-    read, write = Codec(kind, CDR), Codec(kind, ROS1)
+    if interfaces is INTERFACES:
+        any_release = RecordedCodec(interfaces, full, CDR)
+        return Conversion(
+            written, lambda payload: write.encode(completed(any_release.decode(payload), kind))
+        )
+    read = Codec(kind, CDR)
     return Conversion(written, lambda payload: write.encode(read.decode(payload)))
 
 

@@ -17,9 +17,10 @@ from tftool.buffer.buffer import NO_LIMIT, Buffer, adopt_records
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.messages.classes import Interfaces
-from tftool.messages.codec import Codec
+from tftool.messages.classes import Interfaces, completed
+from tftool.messages.codec import Codec, RecordedCodec
 from tftool.messages.layouts import CDR, ROS1
+from tftool.messages.schema import full_name
 from tftool.recordings.column_cache import ColumnCache, KeptColumns
 from tftool.recordings.container_reader import Recorded
 from tftool.recordings.contract import (
@@ -403,9 +404,15 @@ class Recording:
                 f"The messages of '{topic}' are written as '{found.encoding}', which is not "
                 "decoded here: raw_messages gives their bytes."
             )
-        kind = Interfaces().recorded(found.type, found.definition)
-        decode = Codec(kind, layout).decode
-        return ((raw.log_time, decode(raw.payload)) for raw in self.raw_messages(topic))
+        interfaces = Interfaces()
+        if found.definition.strip():
+            decode = Codec(interfaces.recorded(found.type, found.definition), layout).decode
+            return ((raw.log_time, decode(raw.payload)) for raw in self.raw_messages(topic))
+        codec = RecordedCodec(interfaces, full_name(found.type), layout)
+        return (
+            (raw.log_time, completed(codec.decode(raw.payload), codec.kind))
+            for raw in self.raw_messages(topic)
+        )
 
     def _topic(self, name: str) -> RecordedTopic:
         for topic in self.topics:

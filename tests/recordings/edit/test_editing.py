@@ -29,8 +29,10 @@ from tftool.base.errors import UsageError
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.recordings import chunked, container
+from tftool.recordings.channel import Channel
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
+from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.recording import open_recording
 
 
@@ -608,3 +610,68 @@ def text(value):
 
 def schema(number, name):
     return record(3, struct.pack("<H", number) + text(name) + text("ros2msg") + bytes(4))
+
+
+def humble_range(path, ranges):
+    """An MCAP file without definitions, as recorders of Humble's sqlite files leave them out."""
+    writer = McapWriter(path)
+    number = writer.channel(Channel("/sonar", "sensor_msgs/msg/Range", "cdr", "ros2msg", b""))
+    for stamp, metres in enumerate(ranges, start=1):
+        head = struct.pack("<iII6s", stamp, 0, 6, b"sonar\0")
+        # One byte follows the name at once; numbers of four bytes are aligned.
+        payload = b"\0\1\0\0" + head + struct.pack("<Bx4f", 0, 0.5, 0.1, 4.0, metres)
+        writer.write(number, stamp * 10**9, payload)
+    writer.finish()
+    return path
+
+
+def test_a_message_of_an_earlier_distribution_is_read_by_the_layout_that_fits(tmp_path):
+    path = humble_range(tmp_path / "a.mcap", [1.5, 2.5])
+
+    with open_recording(path) as recording:
+        found = [message for _, message in recording.messages("/sonar")]
+    assert [(one.header.frame_id, one.range, one.variance) for one in found] == [
+        ("sonar", 1.5, 0.0),
+        ("sonar", 2.5, 0.0),
+    ]
+
+    report = edit([str(path)], tmp_path / "b.bag", Edits())
+    assert (report.messages, report.notes) == (2, [])
+    with open_recording(tmp_path / "b.bag") as recording:
+        assert [message.range for _, message in recording.messages("/sonar")] == [1.5, 2.5]
+
+
+def test_messages_that_no_layout_fits_are_left_out_of_a_conversion_and_named(tmp_path):
+    path = tmp_path / "a.mcap"
+    writer = McapWriter(path)
+    for topic, payload in (("/good", b"\0\1\0\0\7"), ("/odd", b"\0\1\0\0" + bytes(9))):
+        channel = Channel(topic, "std_msgs/msg/UInt8", "cdr", "ros2msg", b"")
+        writer.write(writer.channel(channel), 10**9, payload)
+    writer.finish()
+
+    report = edit([str(path)], tmp_path / "b.bag", Edits())
+
+    assert report.messages == 1
+    assert [note.split(":")[0] for note in report.notes] == [
+        "'/odd' is left out where it cannot be read"
+    ]
+
+
+def test_a_bag_keeps_its_encoding_in_an_mcap_file_unless_it_is_asked_for_ros_2(tmp_path):
+    bag = write_rosbag1(tmp_path / "a.bag", SENT)
+
+    kept = edit([str(bag)], tmp_path / "kept.mcap", Edits())
+    made = edit([str(bag)], tmp_path / "made.mcap", Edits(), ros2=True)
+    again = edit([str(tmp_path / "kept.mcap")], tmp_path / "again.mcap", Edits(), ros2=True)
+
+    assert ["--ros2 converts" in " ".join(one.notes) for one in (kept, made, again)] == [
+        True,
+        False,
+        False,
+    ]
+    for name, encoding in (("kept", "ros1"), ("made", "cdr"), ("again", "cdr")):
+        with open_recording(tmp_path / f"{name}.mcap") as recording:
+            assert {topic.encoding for topic in recording.topics} == {encoding}
+        assert edges(tmp_path / f"{name}.mcap") == edges(bag)
+    with pytest.raises(UsageError, match=r"with --ros2 write 'b\.mcap'"):
+        edit([str(bag)], tmp_path / "b.bag", Edits(), ros2=True)

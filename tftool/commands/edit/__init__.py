@@ -140,6 +140,10 @@ def edit(
             panel=OUTPUT,
         ),
     ] = 0,
+    ros2: Annotated[
+        bool,
+        option("Convert messages of ROS 1 to ROS 2's, in an .mcap too.", "--ros2", panel=OUTPUT),
+    ] = False,
     force: Force = False,
     dry_run: Annotated[
         bool, option("Say what would be done, and write nothing.", "--dry-run", panel=OUTPUT)

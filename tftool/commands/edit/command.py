@@ -188,6 +188,7 @@ def run(
     shift: int,
     restamp: str | None,
     split_every: int,
+    ros2: bool,
     force: bool,
     dry_run: bool,
     for_programs: bool,
@@ -218,7 +219,9 @@ def run(
     bar = Bar(f"Editing {visible(names[0])}")
     try:
         with interruptible():
-            report = rewrite(names, output, edits, force=force, dry_run=dry_run, progress=bar)
+            report = rewrite(
+                names, output, edits, force=force, dry_run=dry_run, ros2=ros2, progress=bar
+            )
     finally:
         bar.stop()
     _tell(report, output, dry_run=dry_run, for_programs=for_programs)

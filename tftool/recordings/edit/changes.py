@@ -15,7 +15,7 @@ from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import Interfaces, Message
-from tftool.messages.codec import Codec
+from tftool.messages.codec import Codec, RecordedCodec
 from tftool.messages.schema import PRIMITIVES, full_name
 from tftool.messages.splice import TransformRow, TransformRows
 from tftool.messages.transform_rows import Bytes
@@ -475,7 +475,7 @@ def _with_stamp(payload: bytes, encoding: str, stamp: Stamp) -> bytes:
 class Renamer:
     """Editor of frame names in messages of one type, wherever they contain a header."""
 
-    def __init__(self, codec: Codec, edits: Edits) -> None:
+    def __init__(self, codec: Codec | RecordedCodec, edits: Edits) -> None:
         self._codec = codec
         self._edits = edits
         # A quick look at the bytes spares most messages the way through their fields.
@@ -529,8 +529,10 @@ def renamer_of(channel: Channel, edits: Edits) -> Renamer | None:
         interfaces.define(full, text)
     if not _has_header(interfaces, full):
         return None
-    kind = interfaces.message(full)
-    return Renamer(Codec(kind, LAYOUTS[channel.encoding]), edits)
+    layout = LAYOUTS[channel.encoding]
+    if not text.strip():
+        return Renamer(RecordedCodec(interfaces, full, layout), edits)
+    return Renamer(Codec(interfaces.message(full), layout), edits)
 
 
 def _has_header(interfaces: Interfaces, full: str) -> bool:

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from tftool.base.errors import InputError, TftoolError
+from tftool.base.errors import InputError, MalformedMessage, TftoolError
 from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.schema import full_name
 from tftool.messages.transform_rows import walk
@@ -35,6 +35,8 @@ _LARGEST_CHUNK: Final = 1 << 26
 _HEAD = struct.Struct("<qQQ")
 _HEADS = np.dtype([("log_time", "<i8"), ("publish_time", "<u8"), ("sequence", "<u8")])
 
+_UNREAD: Final = "is left out where it cannot be read"
+
 
 class EditedFile:
     """One output file, with the facts for the final comparison.
@@ -47,7 +49,7 @@ class EditedFile:
         copied: Bytes of each chunk that was copied, by its place in the file.
         start: Log time of the first message.
         end: Of the last.
-        left_out: Topics that the container cannot hold, and why.
+        refused: Topics that cannot be converted: what becomes of each, and why.
     """
 
     def __init__(
@@ -87,7 +89,7 @@ class EditedFile:
         self.copied: dict[int, int] = {}
         self.start: Stamp = LAST_STAMP
         self.end: Stamp = 0
-        self.left_out: dict[str, str] = {}
+        self.refused: dict[str, str] = {}
         self._kinds: dict[Channel, Kinds] = {}
         self.writer = self._opened(tape)
         # A database is written row by row; whole chunks are copied elsewhere.
@@ -107,7 +109,7 @@ class EditedFile:
             profile = "ros1" if tape.container == "bag" and not self._ros2 else "ros2"
             return McapWriter(
                 self.path,
-                profile=style.get("profile", profile),
+                profile="ros2" if self._ros2 else style.get("profile", profile),
                 library=library,
                 compression=style.get("compression") or best_compression(),
                 chunk_size=size if chunked else 0,
@@ -133,9 +135,15 @@ class EditedFile:
             try:
                 self._conversions[key] = self._converted(channel, tape)
             except TftoolError as error:
-                self._conversions[key] = None
-                self.left_out.setdefault(channel.topic, str(error).rstrip("."))
+                # An MCAP file takes messages in any encoding, other containers do not.
+                keeps = self.container == "mcap"
+                self._conversions[key] = Conversion(channel, bytes) if keeps else None
+                fate = "keeps its encoding" if keeps else "is left out"
+                self._note_refusal(channel.topic, fate, error)
         return self._conversions[key]
+
+    def _note_refusal(self, topic: str, fate: str, error: TftoolError) -> None:
+        self.refused.setdefault(topic, f"{fate}: {str(error).rstrip('.')}.")
 
     def _converted(self, channel: Channel, tape: ContainerReader) -> Conversion:
         if self.container == "bag":
@@ -215,7 +223,11 @@ class EditedFile:
             return False
         conversion = self._conversions[source, message.channel]
         assert conversion is not None
-        payload = conversion.payload(message.payload)
+        try:
+            payload = conversion.payload(message.payload)
+        except MalformedMessage as error:
+            self._note_refusal(channel.topic, _UNREAD, error)
+            return False
         self.append(number, message._replace(payload=payload))
         return True
 
@@ -273,7 +285,11 @@ class EditedFile:
                     change.put(numbers[fit], kind.changed(rows[fit], length))
             which = np.concatenate(others)
         for row in which.tolist():
-            change.put_one(row, conversion.payload(change.table.payload(row)))
+            try:
+                change.put_one(row, conversion.payload(change.table.payload(row)))
+            except MalformedMessage as error:
+                self._note_refusal(channel.topic, _UNREAD, error)
+                change.keep[row] = False
 
     def _note_table(self, table: MessageTable) -> None:
         """Record messages for the comparison."""

@@ -64,6 +64,7 @@ def edit(
     *,
     force: bool = False,
     dry_run: bool = False,
+    ros2: bool = False,
     progress: Progress | None = None,
 ) -> EditReport:
     """Rewrite recordings as one, with changes.
@@ -74,6 +75,7 @@ def edit(
         edits: What to change.
         force: Whether it may replace existing files.
         dry_run: Whether only to find out what would be done.
+        ros2: Whether an MCAP file gets ROS 1's messages converted to ROS 2's.
         progress: Is told how far it has come.
 
     Raises:
@@ -87,7 +89,7 @@ def edit(
         _refuse_twice(inputs)
         _refuse_the_input(inputs, output)
         recordings = [stack.enter_context(open_recording(name)) for name in names]
-        job = _Job(inputs, recordings, output, container, edits, progress)
+        job = _Job(inputs, recordings, output, container, edits, progress, ros2=ros2)
         if dry_run:
             return job.tried()
         return job.done(force=force)
@@ -140,6 +142,8 @@ class _Job:
         container: str,
         edits: Edits,
         progress: Progress | None,
+        *,
+        ros2: bool,
     ) -> None:
         self._inputs = inputs
         self._recordings = recordings
@@ -148,7 +152,11 @@ class _Job:
         self._progress = progress
         self._tapes: list[ContainerReader] = [tape for one in inputs for tape in one.tapes]
         self._is_folder = not container
-        self._ros2 = container == "db3"
+        if ros2 and container == "bag":
+            raise UsageError(
+                f"A .bag has ROS 1's messages: with --ros2 write '{output.stem}.mcap' or .db3."
+            )
+        self._ros2 = ros2 or container == "db3"
         if edits.split_every and container:
             raise UsageError(
                 f"--split-every writes several files into a folder: '{output.stem}', not "
@@ -160,7 +168,7 @@ class _Job:
             # A folder of bags is no recording of rosbag2's, but what splitting one gives.
             if kinds == {"bag"} and edits.split_every:
                 container = "bag"
-            self._ros2 = container != "bag"
+            self._ros2 = ros2 or container != "bag"
         self._container = container
         first = inputs[0]
         self._mode = first.mode if self._is_folder and container == "db3" else ""
@@ -529,14 +537,19 @@ class _Job:
             for tape in one.tapes:
                 report.notes += tape.damage
         for output in self._outputs.values():
-            for topic, reason in output.left_out.items():
-                text = f"'{topic}' is left out: {reason}."
+            for topic, fate in output.refused.items():
+                text = f"'{topic}' {fate}"
                 if text not in report.notes:
                     report.notes.append(text)
         for topic, reason in self._changer.passed_over.items():
             report.notes.append(f"'{topic}' keeps its names: {reason.rstrip('.')}.")
         if self._edits.names and not self._edits.everywhere:
             report.notes += self._old_names()
+        ros1 = any(one.encoding == "ros1" for tape in self._tapes for one in tape.channels.values())
+        if ros1 and self._container == "mcap" and not self._ros2:
+            report.notes.append(
+                "Messages keep ROS 1's encoding (profile ros1): --ros2 converts them to ROS 2's."
+            )
         if not report.files:
             report.files = [self._path.name]
 
