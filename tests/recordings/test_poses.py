@@ -246,3 +246,11 @@ def test_what_export_writes_is_read_again(tftool, in_folder, tmp_path, form):
     assert edge.translations == pytest.approx(poses[:, :3], abs=5.1e-10)
     sign = np.sign((edge.rotations * poses[:, 3:]).sum(axis=1))[:, None]
     assert edge.rotations * sign == pytest.approx(poses[:, 3:], abs=2e-9)
+
+
+def test_a_file_of_zero_quaternions_holds_no_poses(tmp_path):
+    file = tmp_path / "zero.tum"
+    file.write_text("1.0 0 0 0 0 0 0 0\n2.0 0 0 0 0 0 0 0\n", encoding="utf-8")
+
+    with pytest.raises(InputError, match=r"holds no poses\. .*2 rows"):
+        open_frames(str(file))

@@ -61,7 +61,7 @@ def calibrate(
         ),
     ] = None,
     seed: Annotated[
-        int, typer.Option(metavar="N", help="Seed of the numbers drawn for intervals.")
+        int, typer.Option(metavar="N", min=0, help="Seed of the numbers drawn for intervals.")
     ] = 0,
     no_cache: Annotated[
         bool, option("Read recordings anew, and keep no columns.", "--no-cache")

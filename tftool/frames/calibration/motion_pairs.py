@@ -70,7 +70,7 @@ def kabsch(pairs: MotionPairs) -> tuple[Floats, Floats]:
     for _ in range(10):
         matrix = _aligned(pairs.turns_a * weights[:, None], pairs.turns_b)
         off = np.linalg.norm(pairs.turns_a - pairs.turns_b @ matrix.T, axis=1)
-        weights = 1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2)
+        weights = _weights(off)
     return np.array(quaternion_from_matrix(matrix.tolist())), weights
 
 
@@ -78,6 +78,22 @@ def _aligned(target: Floats, source: Floats) -> Floats:
     u, _, v = np.linalg.svd(target.T @ source)
     signs = np.diag([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(v))])
     return np.asarray(u @ signs @ v)
+
+
+def _weights(off: Floats) -> Floats:
+    """Return weights that errors above twice their median lose."""
+    return np.asarray(1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2))
+
+
+def _solved(design: Floats, right: Floats, weights: Floats, ridge: float) -> tuple[Floats, Floats]:
+    """Solve linear equations of three rows a pair robustly; return the errors by pair as well."""
+    for _ in range(10):
+        square = np.einsum("n,nij,nik->jk", weights, design, design)
+        square += ridge * max(np.trace(square), 1e-9) * np.eye(len(square))
+        found = np.linalg.solve(square, np.einsum("n,nij,ni->j", weights, design, right))
+        off = np.linalg.norm(design @ found - right, axis=1)
+        weights = _weights(off)
+    return found, off
 
 
 def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, float]:
@@ -89,14 +105,7 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
     rows = matrices(pairs.rotations_a) - np.eye(3)
     moves = batch.rotate(np.broadcast_to(turn, pairs.rotations_a.shape), pairs.moves_b)
     right = moves - pairs.moves_a
-    for _ in range(10):
-        square = np.einsum("n,nij,nik->jk", weights, rows, rows)
-        shift = np.linalg.solve(
-            square + 1e-6 * max(np.trace(square), 1e-9) * np.eye(3),
-            np.einsum("n,nij,ni->j", weights, rows, right),
-        )
-        off = np.linalg.norm(rows @ shift - right, axis=1)
-        weights = 1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2)
+    shift, off = _solved(rows, right, weights, 1e-6)
     return shift, float(np.median(off))
 
 
@@ -123,14 +132,7 @@ def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Flo
     design = np.concatenate([rows @ plane.T, -across[:, :, None], -side[:, :, None]], axis=2)
     right = along - pairs.moves_a
     weights = np.ones(len(rows))
-    for _ in range(10):
-        square = np.einsum("n,nij,nik->jk", weights, design, design)
-        found = np.linalg.solve(
-            square + 1e-9 * max(np.trace(square), 1e-9) * np.eye(4),
-            np.einsum("n,nij,ni->j", weights, design, right),
-        )
-        off = np.linalg.norm(np.einsum("nij,j->ni", design, found) - right, axis=1)
-        weights = 1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2)
+    found, _ = _solved(design, right, weights, 1e-9)
     angle = float(np.arctan2(found[3], found[2]))
     about = np.concatenate([axis * np.sin(angle / 2.0), [np.cos(angle / 2.0)]])
     turn = batch.multiply(about[None], start[None])[0]

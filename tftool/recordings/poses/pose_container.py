@@ -45,7 +45,6 @@ class PoseContainer:
         self.kind = f"poses ({form.name})"
         self.channels: list[Channel] = []
         parts: list[tuple[int, Stamps, np.ndarray]] = []
-        total = sum(map(len, links))
         solved = [(link, *_solved(link, form, options, file)) for link in links]
         moments = [stamps for link, stamps, _ in solved if not link.static and len(stamps)]
         start = min((int(one.min()) for one in moments), default=0)
@@ -53,16 +52,14 @@ class PoseContainer:
             number = self._channel(static=link.static)
             when = np.full_like(stamps, start) if link.static else stamps
             parts.append((number, when, _messages(link, options.prefix, when, poses)))
-        if not total:
-            raise InputError(f"'{path}' holds no poses.")
         self.damage += [
             f"{path.name}: {count} {'row' if count == 1 else 'rows'} {what}."
             for what, count in file.oddities.items()
         ]
+        if not any(len(when) for _, when, _ in parts):
+            raise InputError(f"'{path}' holds no poses. {' '.join(self.damage)}".rstrip())
         self._batch = _joined(parts)
-        self.start, self.end = (
-            (int(self._batch.log_times[0]), int(self._batch.log_times[-1])) if parts else (0, 0)
-        )
+        self.start, self.end = int(self._batch.log_times[0]), int(self._batch.log_times[-1])
         self.streams = self.channels
 
     def _channel(self, *, static: bool) -> int:
