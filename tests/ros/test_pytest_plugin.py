@@ -144,6 +144,19 @@ def test_tests_sleep_and_start_threads_in_the_nodes_time_with_ros_free(pytester)
     result.assert_outcomes(passed=1)
 
 
+def test_two_packages_have_test_files_of_one_name(pytester):
+    for name in ("one", "other"):
+        (pytester.path / name).mkdir()
+        (pytester.path / name / "test_node.py").write_text(
+            "import rclpy\n\ndef test_it(ros_runtime):\n    rclpy.init()\n"
+            f"    assert rclpy.create_node('{name}').get_name() in __file__\n"
+        )
+
+    result = pytester.runpytest("--ros-free", "-p", "tftool.ros.pytest_plugin")
+
+    result.assert_outcomes(passed=2)
+
+
 def test_a_fixture_for_many_tests_shares_its_runtime_with_them(pytester):
     pytester.makepyfile(
         """

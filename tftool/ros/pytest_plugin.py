@@ -8,6 +8,7 @@ and the tests it is for share it.
 
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -64,7 +65,13 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(hookwrapper=True)
 def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
-    """Explain a failed `import rclpy` in a test file."""
+    """Explain a failed `import rclpy` in a test file, and let packages have files of one name."""
+    if _imports and isinstance(collector, pytest.Module):
+        # Packages made from one example have tests of one name. pytest imports them by that
+        # name alone, and keeps the first module itself.
+        known = getattr(sys.modules.get(collector.path.stem), "__file__", None)
+        if known and Path(known).name == collector.path.name and Path(known) != collector.path:
+            del sys.modules[collector.path.stem]
     outcome: Any = yield
     report = outcome.get_result()
     if not _imports and report.failed and "No module named 'rclpy" in report.longreprtext:
