@@ -1,4 +1,5 @@
 import math
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -309,6 +310,49 @@ def test_xacro_that_fails_is_a_sentence(tmp_path):
     path.write_text(ARM.replace('xyz="0 0 1"', 'xyz="0 0 ${nothing}"'))
 
     with pytest.raises(InputError, match="cannot be expanded by xacro"):
+        load_description(path)
+
+
+def test_xacro_finds_the_packages_of_its_workspace(tmp_path):
+    pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
+    for package in ("arms/arm_bringup", "arms/arm_description", "tools/gripper"):
+        folder = tmp_path / "ws" / "src" / package
+        (folder / "urdf").mkdir(parents=True)
+        name = folder.name
+        (folder / "package.xml").write_text(f"<package><name>{name}</name></package>")
+        (folder / "urdf" / "part.xacro").write_text(
+            '<robot xmlns:xacro="http://ros.org/wiki/xacro">'
+            f'<xacro:macro name="{name}"><link name="{name}"/></xacro:macro></robot>'
+        )
+    path = tmp_path / "ws" / "src" / "arms" / "arm_bringup" / "urdf" / "arm.urdf.xacro"
+    used = "arm_description"
+    path.write_text(
+        '<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">'
+        f'<xacro:include filename="$(find {used})/urdf/part.xacro"/><xacro:{used}/>'
+        '<xacro:include filename="$(find gripper)/urdf/part.xacro"/>'
+        '<joint name="j" type="fixed"><parent link="arm_description"/><child link="gripper"/>'
+        "</joint><xacro:gripper/></robot>"
+    )
+
+    assert set(load_description(path).links) == {"arm_description", "gripper"}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('<link name="$(arg dof)_base"/>', "needs the xacro argument 'dof': add dof:=VALUE"),
+        (
+            '<xacro:macro name="arm" params="p"><link name="${p}base"/></xacro:macro>',
+            "it only defines a macro (arm): name the file that uses them",
+        ),
+    ],
+)
+def test_a_missing_argument_and_a_file_of_macros_are_named(tmp_path, text, said):
+    pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
+    path = tmp_path / "arm.urdf.xacro"
+    path.write_text(f'<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">{text}</robot>')
+
+    with pytest.raises(InputError, match=re.escape(said)):
         load_description(path)
 
 

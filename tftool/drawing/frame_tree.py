@@ -85,7 +85,7 @@ def pieces(
     if moving is None:
         yield f"Recorded at time: {display(snapshot.now)}", ""
     else:
-        fixed = len(snapshot.frames) - len(moving) - 1
+        fixed = max(len(snapshot.frames) - len(moving) - 1, 0)
         yield f"{len(moving)} of {len(moving) + fixed} joints move", ""
     if snapshot.at:
         yield f"\nShown at time: {display(snapshot.at)}", ""
@@ -402,7 +402,7 @@ def moment(stamp: Stamp) -> str:
 def _told(snapshot: Snapshot, moving: Collection[str] | None) -> str:
     """Describe the drawing's subject in few words."""
     if moving is not None:
-        return f"{len(moving)} of {len(snapshot.frames) - 1} joints move"
+        return f"{len(moving)} of {max(len(snapshot.frames) - 1, 0)} joints move"
     if snapshot.at:
         return f"at {moment(snapshot.at)}, seen at {moment(snapshot.now)}"
     return f"at {moment(snapshot.now)}"

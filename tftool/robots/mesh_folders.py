@@ -39,6 +39,9 @@ LARGEST = 256 * 1024 * 1024
 DEEPEST = 5
 """How far below a given folder a package is looked for."""
 
+UPWARDS = 3
+"""Folders above a package in which other packages of its workspace are searched."""
+
 MOST_FOLDERS = 5000
 """Folders that are looked at for one package."""
 
@@ -214,6 +217,26 @@ def package_name(folder: Path) -> str:
         return (ElementTree.fromstring(raw).findtext("name") or "").strip()
     except (OSError, ElementTree.ParseError, ValueError):
         return ""
+
+
+def packages_around(file: Path, name: str) -> Iterator[Path]:
+    """Yield packages of a name in the workspace of a file: its own, then those around it.
+
+    The search goes up from the file's package to the workspace's src, at most `UPWARDS` folders.
+    """
+    above = file.resolve().parents
+    own = next((folder for folder in above if (folder / "package.xml").is_file()), None)
+    if own is None:
+        yield from _below(above[0], name)
+        return
+    if package_name(own) == name:
+        yield own
+    for root in own.parents[:UPWARDS]:
+        if root in (Path(root.anchor), Path.home()):
+            return
+        yield from _below(root, name)
+        if root.name == "src":
+            return
 
 
 def _below(folder: Path, name: str) -> Iterator[Path]:

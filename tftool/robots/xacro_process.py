@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Final
 
 from tftool.base.errors import InputError, UsageError
+from tftool.robots.mesh_folders import packages_around
 
 TIME_LIMIT: Final = 20.0
 """Seconds that an expansion may take."""
@@ -23,6 +24,8 @@ MEMORY_LIMIT: Final = 1 << 30
 """Bytes of address space it may take beyond what Python and xacro themselves do."""
 
 _NO_PACKAGE = re.compile(r"Package not found: (\S+)")
+_NO_ARGUMENT = re.compile(r"Undefined substitution argument (\w+)")
+_MACRO = re.compile(r"<xacro:macro[^>]*\bname\s*=\s*[\"'](\w+)")
 
 
 def expand(path: Path, arguments: Mapping[str, str]) -> str:
@@ -58,6 +61,10 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
             "the folder it lies in into the environment variable ROS_PACKAGE_PATH, or source "
             "its workspace"
         )
+    if missing := _NO_ARGUMENT.search(said["error"]):
+        raise InputError(
+            f"'{path}' needs the xacro argument '{missing[1]}': add {missing[1]}:=VALUE"
+        )
     raise InputError(f"{refused}: {said['error']}")
 
 
@@ -70,14 +77,32 @@ def _main(path: str, arguments: str) -> None:
 
 
 def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
-    from xacrodoc import XacroDoc, xacrodoc
+    from xacrodoc import XacroDoc, packages, xacrodoc
 
+    installed = packages.get_path
+
+    def get_path(name: str) -> str:
+        try:
+            return str(installed(name))
+        except packages.PackageNotFoundError:
+            for folder in packages_around(Path(path), name):
+                return folder.as_posix()
+            raise
+
+    packages.get_path = get_path
     _bound_memory()
     try:
         # What a file includes lies beside it, wherever it is read from.
         xacrodoc.xacro.init_stacks(str(Path(path).resolve()))
         # Names of meshes stay as written: what finds them comes later, or never.
         expanded = XacroDoc.from_file(path, subargs=arguments, resolve_packages=False)
+        if not expanded.dom.getElementsByTagName("link"):
+            macros = _MACRO.findall(Path(path).read_text(encoding="utf-8", errors="replace"))
+            if macros:
+                return {
+                    "error": f"it only defines {'macros' if len(macros) > 1 else 'a macro'} "
+                    f"({', '.join(macros[:5])}): name the file that uses them"
+                }
         return {"text": str(expanded.dom.toprettyxml(indent="  "))}
     except BaseException as error:  # xacro raises whatever an expression in the file raises.
         if _lacks_memory(error):
