@@ -11,6 +11,7 @@ import pytest
 
 pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -92,7 +93,7 @@ def test_a_turtle_left_alone_draws_and_arrow_keys_drive_it(chromium, tmp_path):
         assert page.complaints() == []
 
 
-def test_axes_are_seen_through_solids_until_they_are_switched_off(chromium, tmp_path):
+def test_axes_are_seen_through_solids_which_are_on_the_ground_and_are_measured(chromium, tmp_path):
     file = tmp_path / "cube.urdf"
     file.write_text(ROBOT)
     seen = """
@@ -112,6 +113,19 @@ def test_axes_are_seen_through_solids_until_they_are_switched_off(chromium, tmp_
         page.until(lambda: page.driver.execute_script(seen) > 10)
         page.find("#through").click()
         page.until(lambda: page.driver.execute_script(seen) == 0)
+
+        # The cube's lower side; and two points of it, the one right above the other on its edge.
+        assert page.said("tftool.ground().level") == -1
+        page.find("#measure").click()
+        for place in ((-1, -1, 0.5), (-1, -1, -0.5)):
+            x, y = page.said(f"tftool.pixelOf({','.join(map(str, place))})")
+            middle = page.find("#over").rect
+            at = round(x - middle["width"] / 2), round(y - middle["height"] / 2)
+            ActionChains(chromium).move_to_element_with_offset(
+                page.find("#over"), *at
+            ).click().perform()
+        told = page.until(lambda: "in base: " in page.text("#measured") and page.text("#measured"))
+        assert float(re.search(r"in base: ([\d.]+) m", told)[1]) == pytest.approx(1, abs=0.05)
 
 
 def test_a_recording_is_called_recorded_and_opens_at_its_start_with_its_whole_path(

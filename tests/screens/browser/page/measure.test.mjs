@@ -21,16 +21,16 @@ test("two frames are measured as they move; a third click begins anew", () => {
   assert.match(measure.told(poseOf), /second point/);
   measure.click({ name: "b" });
   assert.equal(measure.told(poseOf), "a to b: 5.000 m (x 3.000, y 4.000, z 0.000)");
-  assert.equal(measure.told((name) => (name === "a" ? [4, 6, 4] : POSES.b)), "a to b: 1.000 m (x 0.000, y 0.000, z -1.000)");
-  measure.click({ place: [0, 0, 0] });
-  assert.deepEqual(measure.places(poseOf), [[0, 0, 0]]);
+  assert.equal(measure.told((name) => (name === "a" ? [4, 6, 4, 0, 0, 0, 1] : POSES.b)), "a to b: 1.000 m (x 0.000, y 0.000, z -1.000)");
+  measure.click({ name: "a", place: [0, 0, 1] });
+  assert.deepEqual(measure.places(poseOf), [[1, 2, 4]]);
 });
 
-test("a frame without a pose is told, and a place stays where it was", () => {
+test("a frame without a pose is told, and a place goes along with its frame", () => {
   const measure = new Measure();
-  measure.click({ place: [1, 2, 0] });
+  measure.click({ name: "b", place: [-3, -4, -3] });
   measure.click({ name: "gone" });
   assert.match(measure.told(poseOf), /no pose/);
   measure.ends[1] = { name: "a" };
-  assert.equal(measure.told(poseOf), "(1.00, 2.00, 0.00) to a: 3.000 m (x 0.000, y 0.000, z 3.000)");
+  assert.equal(measure.told(poseOf), "(-3.00, -4.00, -3.00) in b to a: 3.000 m (x 0.000, y 0.000, z 3.000)");
 });

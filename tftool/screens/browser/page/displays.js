@@ -64,6 +64,23 @@ export class Displays {
     }
   }
 
+  /**
+   * The frame and the place of the nearest point a ray meets; null if it meets none.
+   * @param {import("three").Raycaster} ray
+   */
+  pick(ray) {
+    /** @type {any} */
+    let best = null;
+    for (const { message, shape } of this.shown.values()) {
+      if (!shape.visible) continue;
+      shape.updateMatrixWorld();
+      for (const { point, distance } of ray.intersectObject(shape, false)) {
+        if (!best || distance < best.distance) best = { frame: message.root ?? message.frame, point: point.toArray(), distance };
+      }
+    }
+    return best;
+  }
+
   drop(topic, shape) {
     this.group.remove(shape);
     shape.geometry.dispose();

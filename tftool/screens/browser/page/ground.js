@@ -24,11 +24,12 @@ export class Ground {
 
   /**
    * @param {boolean} shown
+   * @param {number} level metres above the origin
    * @param {{ pixel: number, middle: number[], reach: number, flat: boolean }} seen metres of a pixel, where one
    *   looks, and how far from there one sees or the world goes, metres; flat: seen from above
    * @param {string[]} colors of strong and weak lines
    */
-  draw(shown, { pixel, middle, reach, flat }, colors) {
+  draw(shown, level, { pixel, middle, reach, flat }, colors) {
     this.lines.visible = shown;
     this.cell = cellFor(pixel);
     if (!shown) return;
@@ -36,7 +37,8 @@ export class Ground {
     const wide = 10 * cell;
     const count = Math.max(10, Math.min(60, 10 * Math.ceil(reach / wide + 0.5)));
     const centre = middle.map((value) => Math.round(value / wide) * wide);
-    const key = `${cell} ${count} ${centre} ${flat} ${colors}`;
+    this.lines.position.z = level - 1e-4;
+    const key = `${level} ${cell} ${count} ${centre} ${flat} ${colors}`;
     if (key === this.key) return;
     this.key = key;
     const places = [];

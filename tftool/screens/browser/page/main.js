@@ -1,5 +1,6 @@
 // @ts-check
 // The page: joins the server, the model, the choices, the time and the picture.
+import { Raycaster, Vector3 } from "three";
 import { Bounds, spread } from "./bounds.js";
 import { FLAT, ray } from "./cameras.js";
 import { Choices, LIMITS, VIEWS } from "./choices.js";
@@ -16,6 +17,7 @@ import { naturalPair, planar, trailsPay, wholePays } from "./opening.js";
 import {
   $, fill, makeCollapsible, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
 } from "./panels.js";
+import { compose, invert } from "./maths.js";
 import { Pace } from "./pace.js";
 import { Past } from "./past.js";
 import { Picker } from "./picker.js";
@@ -32,6 +34,7 @@ import { Tree } from "./tree.js";
 import { same, Wire } from "./wire.js";
 
 const FLIGHT = 350; // milliseconds
+const NEAR_POINT = 6; // pixels from a point of a cloud that is measured
 const LOW = 500; // pixels of a window that has no room for panels
 const STEP = 0.1; // seconds one press of [ or ] goes
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole"];
@@ -300,7 +303,7 @@ function paint() {
   const { pair } = server;
   robot.place(shown.frames, choices);
   displays.place(model.poses?.at ?? null, model, choices.undrawn);
-  stage.draw(drawn, { ...choices, scale: 10 ** Number($("scale").value) });
+  stage.draw(drawn, { ...choices, scale: 10 ** Number($("scale").value), level: robot.box?.min.z ?? 0 });
   const special = new Set([choices.chosen, hovered, ...(pair?.found ? [pair.source, pair.target] : [])]);
   const labels = drawn
     .filter(({ name }) => choices.names || special.has(name))
@@ -364,25 +367,34 @@ function poseOf(name) {
   return model.absolute[model.index.get(name) ?? -1] ?? null;
 }
 
-/** What is measured from or to, under the pointer: a frame, or a place on the plane looked at. */
+/** What is measured from or to, under the pointer: a frame, or a place on a solid, in a cloud, on the ground. */
 function under(event) {
   const frame = nearest(event);
   if (frame) return { name: frame.name };
   const { from } = FLAT[choices.view] ?? FLAT.top;
-  const place = onPlane(ray(stage.camera, event.clientX / innerWidth, event.clientY / innerHeight), from, [0, 0, 0]);
-  return place ? { place } : null;
+  const { origin, way } = ray(stage.camera, event.clientX / innerWidth, event.clientY / innerHeight);
+  const caster = new Raycaster(new Vector3(...origin), new Vector3(...way));
+  caster.params.Points.threshold = caster.params.Line.threshold = NEAR_POINT * stage.pixel();
+  const hits = [robot.pick(caster), displays.pick(caster)].filter((hit) => hit !== null);
+  hits.sort((one, other) => one.distance - other.distance);
+  const point = hits[0]?.point ?? onPlane({ origin, way }, from, [0, 0, robot.box?.min.z ?? 0]);
+  const name = hits[0]?.frame ?? choices.fixed;
+  const pose = poseOf(name);
+  return point && pose && name !== undefined ? { name, place: compose(invert(pose), [...point, 0, 0, 0, 1]).slice(0, 3) } : null;
 }
 
 /** Draw what is measured, over everything else. */
 function paintMeasure() {
   const spots = measure.places(poseOf).map((place) => place && stage.project(place[0], place[1], place[2]));
-  stage.drawMeasure(spots.filter((spot) => spot !== null));
+  measure.told(poseOf);
+  stage.drawMeasure(spots.filter((spot) => spot !== null), measure.length);
 }
 
 /** Keep everything drawn in view, until a person takes the camera. */
 function follow() {
   const { drawn, lines } = shown;
-  const box = bounds.grow([...drawn.map(({ pose }) => pose), ...lines.flatMap(({ points, ahead }) => [...points, ...ahead])]);
+  const solid = robot.box ? [robot.box.min.toArray(), robot.box.max.toArray()] : [];
+  const box = bounds.grow([...solid, ...drawn.map(({ pose }) => pose), ...lines.flatMap(({ points, ahead }) => [...points, ...ahead])]);
   if (box) fit(box);
 }
 
@@ -848,7 +860,7 @@ Object.assign(globalThis, {
     fade,
     hovered: () => hovered,
     distance: () => distance(server.pair),
-    ground: () => ({ cell: stage.ground.cell, reach: stage.seen().reach }),
+    ground: () => ({ cell: stage.ground.cell, level: robot.box?.min.z ?? 0, reach: stage.seen().reach }),
     moment: () => model.poses?.at ?? null,
     pair: () => server.pair,
     reach: () => timeline.reach,

@@ -1,8 +1,9 @@
 // @ts-check
-// Measures between two points: frames, which it goes along with, or places on a plane.
+// Measures between two points: frames, or places in frames, and goes along with them.
 import { number } from "./format.js";
+import { compose } from "./maths.js";
 
-/** @typedef {{ name: string } | { place: number[] }} End */
+/** @typedef {{ name: string, place?: number[] }} End a frame, or a place in it */
 
 /**
  * Where a ray meets a plane, in front of where it begins; null if it does not.
@@ -22,6 +23,7 @@ export function onPlane({ origin, way }, normal, through) {
 export class Measure {
   constructor() {
     this.on = false;
+    this.length = ""; // between the two, as `told` says it
     /** @type {End[]} */
     this.ends = [];
   }
@@ -48,7 +50,10 @@ export class Measure {
    * @returns {(number[] | null)[]}
    */
   places(poseOf) {
-    return this.ends.map((end) => ("place" in end ? end.place : (poseOf(end.name)?.slice(0, 3) ?? null)));
+    return this.ends.map(({ name, place = [0, 0, 0] }) => {
+      const pose = poseOf(name);
+      return pose && compose(pose, [...place, 0, 0, 0, 1]).slice(0, 3);
+    });
   }
 
   /**
@@ -57,15 +62,17 @@ export class Measure {
    */
   told(poseOf) {
     const [from, to] = this.places(poseOf);
+    this.length = "";
     if (this.ends.length < 2) return this.ends.length ? "Click the second point" : "Click the first point: a frame, or a place";
     if (!from || !to) return "A frame that is measured has no pose here";
     const way = to.map((value, axis) => value - from[axis]);
+    this.length = `${number(Math.hypot(...way), 3)} m`;
     const [x, y, z] = way.map((value) => number(value, 3));
-    return `${this.named(0)} to ${this.named(1)}: ${number(Math.hypot(...way), 3)} m (x ${x}, y ${y}, z ${z})`;
+    return `${this.named(0)} to ${this.named(1)}: ${this.length} (x ${x}, y ${y}, z ${z})`;
   }
 
   named(which) {
-    const end = this.ends[which];
-    return "name" in end ? end.name : `(${end.place.map((value) => number(value, 2)).join(", ")})`;
+    const { name, place } = this.ends[which];
+    return place ? `(${place.map((value) => number(value, 2)).join(", ")}) in ${name}` : name;
   }
 }

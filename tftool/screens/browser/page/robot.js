@@ -2,6 +2,7 @@
 // A robot's links as solids: the shapes of its description, meshes fetched from our own server.
 import {
   ArrowHelper,
+  Box3,
   BoxGeometry,
   CapsuleGeometry,
   Color,
@@ -13,6 +14,8 @@ import {
   Matrix4,
   Mesh,
   MeshLambertMaterial,
+  ShaderMaterial,
+  PlaneGeometry,
   Quaternion,
   SphereGeometry,
   SRGBColorSpace,
@@ -23,6 +26,7 @@ import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
+import { toCreasedNormals } from "three/addons/utils/BufferGeometryUtils.js";
 import { fetchFile } from "./files.js";
 
 import { Places, Solids } from "./solids.js";
@@ -33,7 +37,10 @@ const MISSING = [0.95, 0.25, 0.3, 0.8];
 const MISSING_SIZE = 0.1; // metres
 const AXIS = "#ffd400";
 const AXIS_LENGTH = 0.2; // metres
-const SIDES = { fine: 24, plain: 10 }; // of what is round
+const SIDES = { fine: 48, plain: 32, crowd: 12 }; // of what is round
+const CROWD = 120; // shapes, of which the processor draws each with fewer sides
+const CREASE = 0.7; // radians between two facets from which on their edge is sharp
+const SHADOW = 2.2; // of the robot's width
 
 /**
  * @typedef {{ kind: string, origin: number[], size?: number[], radius?: number, length?: number,
@@ -42,7 +49,7 @@ const SIDES = { fine: 24, plain: 10 }; // of what is round
  * @typedef {{ name: string, links: Link[], missing: string[], motion: import("./kinematics.js").Joint[],
  *   joints: { name: string, frame: string, axis: number[], slides: boolean }[],
  *   sliders: { name: string, unit: string, range: number[], position: number }[] }} Description
- * @typedef {{ visuals: boolean, collisions: boolean, jointaxes: boolean, opacity: number, bare: Set<string> }} Look
+ * @typedef {{ fixed?: string, grid: boolean, visuals: boolean, collisions: boolean, jointaxes: boolean, opacity: number, bare: Set<string> }} Look
  */
 
 export class Robot {
@@ -54,7 +61,8 @@ export class Robot {
   constructor(scene, changed, plain) {
     this.scene = scene;
     this.changed = changed;
-    this.sides = plain ? SIDES.plain : SIDES.fine;
+    this.plain = plain;
+    this.sides = SIDES.fine;
     this.group = new Group();
     this.group.visible = false;
     /** @type {Map<string, { number: number, all: Group, visuals: Group, collisions: Group, axes: Group, loose: boolean }>} */
@@ -74,6 +82,11 @@ export class Robot {
     sun.position.set(-3, -4, 8);
     this.group.add(above, sun, sun.target);
     scene.add(this.group);
+    this.shadow = shade();
+    scene.add(this.shadow);
+    /** @type {Box3 | null} around its shapes, in the frame they were drawn in first */
+    this.box = null;
+    this.boxed = ""; // for what `box` was made
   }
 
   /** Frames that have a shape. */
@@ -107,6 +120,11 @@ export class Robot {
     this.solids = { visuals: new Solids(this.places), collisions: new Solids(this.places) };
     this.group.add(this.solids.visuals.mesh, this.solids.collisions.mesh);
     this.missing = [...description.missing];
+    this.boxed = "";
+    if (this.plain) {
+      const shapes = description.links.reduce((sum, { visuals, collisions }) => sum + visuals.length + collisions.length, 0);
+      this.sides = shapes > CROWD ? SIDES.crowd : SIDES.plain;
+    }
     for (const link of description.links) {
       for (const shape of link.visuals) this.add(link.frame, "visuals", shape, shape.color ?? GREY);
       for (const shape of link.collisions) this.add(link.frame, "collisions", shape, COLLISION);
@@ -217,6 +235,41 @@ export class Robot {
     material.color = new Color(1, 1, 1);
   }
 
+  /**
+   * Find the box around the robot, once its meshes are there, where the fixed frame is one of its own:
+   * the ground is at its lowest point then.
+   * @param {string | undefined} fixed
+   */
+  settle(fixed) {
+    const key = `${fixed} ${this.waiting}`;
+    if (key === this.boxed) return;
+    this.boxed = key;
+    this.box = null;
+    if (fixed === undefined || !this.links.has(fixed)) return;
+    const box = new Box3();
+    this.solids.visuals.surround(box);
+    for (const { all, loose } of this.links.values()) {
+      if (!loose || !all.visible) continue;
+      all.updateMatrixWorld(true);
+      box.expandByObject(all);
+    }
+    if (box.isEmpty()) return;
+    this.box = box;
+    const size = box.getSize(new Vector3());
+    box.getCenter(this.shadow.position).setZ(box.min.z);
+    this.shadow.scale.set(SHADOW * size.x, SHADOW * size.y, 1);
+  }
+
+  /**
+   * The link's frame and the place where a ray meets the robot; null if it does not.
+   * @param {import("three").Raycaster} ray
+   */
+  pick(ray) {
+    const hit = this.group.visible ? this.solids.visuals.pick(ray) : null;
+    const frame = hit && [...this.links].find(([, { number }]) => number === hit.link)?.[0];
+    return hit && frame ? { frame, point: hit.point.toArray(), distance: hit.distance } : null;
+  }
+
   /** A mesh, fetched once whatever the number of links that have it. */
   mesh(address) {
     let found = this.meshes.get(address);
@@ -253,6 +306,8 @@ export class Robot {
       link.axes.visible = look.jointaxes;
     }
     this.solids.visuals.show(look.visuals, look.opacity);
+    this.settle(look.fixed);
+    this.shadow.visible = this.box !== null && look.grid && look.visuals;
     this.solids.collisions.show(look.collisions, 1);
     if (this.opacity !== look.opacity || this.painted !== this.waiting) {
       this.opacity = look.opacity;
@@ -260,6 +315,20 @@ export class Robot {
       for (const { visuals } of this.links.values()) visuals.traverse((part) => fadePart(part, look.opacity));
     }
   }
+}
+
+/** A soft dark disc on the ground below the robot. */
+function shade() {
+  const material = new ShaderMaterial({
+    transparent: true,
+    depthWrite: false,
+    vertexShader: "varying vec2 at; void main() { at = 2.0 * uv - 1.0; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+    fragmentShader: "varying vec2 at; void main() { float near = max(0.0, 1.0 - length(at)); gl_FragColor = vec4(0.0, 0.0, 0.0, 0.42 * near * near * (3.0 - 2.0 * near)); }",
+  });
+  const mesh = new Mesh(new PlaneGeometry(1, 1), material);
+  mesh.renderOrder = -1;
+  mesh.visible = false;
+  return mesh;
 }
 
 /**
@@ -335,7 +404,7 @@ async function load(address) {
   if (!answer.ok) throw new Error((await answer.text()).trim() || `status ${answer.status}`);
   const folder = address.slice(0, address.lastIndexOf("/") + 1);
   const kind = address.slice(address.lastIndexOf(".")).toLowerCase();
-  if (kind === ".stl") return new Mesh(new STLLoader().parse(await answer.arrayBuffer()));
+  if (kind === ".stl") return new Mesh(toCreasedNormals(new STLLoader().parse(await answer.arrayBuffer()), CREASE));
   if (kind === ".obj") return cleaned(new OBJLoader().parse(await answer.text()));
   if (kind === ".dae") {
     const found = new ColladaLoader().parse(await answer.text(), folder);

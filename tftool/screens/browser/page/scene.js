@@ -338,7 +338,7 @@ export class Stage {
     if (frames.length) {
       this.extent = Math.max(1, ...frames.map(({ pose }) => Math.max(Math.abs(pose[0]), Math.abs(pose[1]))));
     }
-    this.ground.draw(look.grid, this.seen(), this.theme.grid);
+    this.ground.draw(look.grid, look.level, this.seen(), this.theme.grid);
     this.drawTurtles(frames);
     const [xs, ys, zs, hubs, shafts, heads] = this.meshes;
     const length = 0.2 * look.scale;
@@ -661,10 +661,11 @@ export class Stage {
   }
 
   /**
-   * What is measured: up to two pixels, and the line between.
+   * What is measured: up to two pixels, the line between, and its length.
    * @param {number[][]} spots
+   * @param {string} length
    */
-  drawMeasure(spots) {
+  drawMeasure(spots, length) {
     const pen = flat(this.over);
     pen.strokeStyle = pen.fillStyle = this.theme.accent;
     pen.lineWidth = 2.5;
@@ -676,6 +677,10 @@ export class Stage {
       pen.arc(x, y, 5, 0, 7);
       pen.fill();
     }
+    if (spots.length < 2 || !length) return;
+    pen.font = FONT;
+    const [x, y] = [(spots[0][0] + spots[1][0]) / 2, (spots[0][1] + spots[1][1]) / 2];
+    this.write(pen, length, this.theme.accent, Math.round(x - pen.measureText(length).width / 2), Math.round(y - LINE));
   }
 
   /** A name painted once, to be put down in every picture: outlines of letters are costly. */

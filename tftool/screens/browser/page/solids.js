@@ -3,11 +3,13 @@
 // texture. Hundreds of shapes are drawn at once, and nothing but the links' places is sent to move them.
 import {
   BufferAttribute,
+  Box3,
   BufferGeometry,
   DataTexture,
   DoubleSide,
   FloatType,
   Matrix3,
+  Matrix4,
   Mesh,
   MeshBasicMaterial,
   NearestFilter,
@@ -30,7 +32,8 @@ const SHADED = `
 mat4 place = placeOf(link);
 vec3 transformed = (place * vec4(position, 1.0)).xyz;
 vec3 outward = normalize(mat3(place) * normal + vec3(0.0, 0.0, 1e-9));
-vShade = 0.62 + 0.2 * outward.z + 0.28 * max(0.0, dot(outward, vec3(-0.32, -0.42, 0.85)));
+float lamp = 0.5 + 0.5 * dot(outward, vec3(-0.32, -0.42, 0.85));
+vShade = 0.5 + 0.14 * (1.0 + outward.z) + 0.34 * lamp * lamp;
 `;
 
 /** Places of links, for every `Solids` that is drawn of them. */
@@ -57,6 +60,7 @@ export class Places {
 export class Solids {
   /** @param {Places} places */
   constructor(places) {
+    this.places = places;
     /** @type {{ link: number, geometry: BufferGeometry, matrix: import("three").Matrix4, color: number[] }[]} */
     this.parts = [];
     this.isDirty = false;
@@ -141,6 +145,37 @@ export class Solids {
     joined.setAttribute("link", new BufferAttribute(links, 1));
     joined.setIndex(new BufferAttribute(index, 1));
     this.mesh.geometry = joined;
+  }
+
+  /** Where a part is: its place on its link, and the link's. */
+  matrixOf({ link, matrix }) {
+    return new Matrix4().fromArray(this.places.numbers, 16 * link).multiply(matrix);
+  }
+
+  /** Grow a box around all parts whose links are placed. @param {Box3} box */
+  surround(box) {
+    for (const part of this.parts) {
+      if (!this.places.numbers[16 * part.link + 15]) continue;
+      if (!part.geometry.boundingBox) part.geometry.computeBoundingBox();
+      if (part.geometry.boundingBox) box.union(new Box3().copy(part.geometry.boundingBox).applyMatrix4(this.matrixOf(part)));
+    }
+  }
+
+  /**
+   * Where a ray meets the nearest part, and the number of its link; null if it meets none.
+   * @param {import("three").Raycaster} ray
+   */
+  pick(ray) {
+    /** @type {any} */
+    let best = null;
+    for (const part of this.mesh.visible ? this.parts : []) {
+      if (!this.places.numbers[16 * part.link + 15]) continue;
+      const solid = new Mesh(part.geometry, this.material);
+      solid.matrixWorld.copy(this.matrixOf(part));
+      const [hit] = ray.intersectObject(solid, false);
+      if (hit && (!best || hit.distance < best.distance)) best = { link: part.link, point: hit.point, distance: hit.distance };
+    }
+    return best;
   }
 
   dispose() {
