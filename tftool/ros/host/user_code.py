@@ -117,10 +117,12 @@ def _warn_of_unserved(owner: program.Program) -> None:
     waiting = [*owner.unserved, *((node.name, node.unserved()) for node in owner.nodes)]
     for name, count in () if owner.interrupted else waiting:
         if count:
-            owner.warn(
-                f"node '{name}' has ended without being spun, so none of its "
-                f"{count} callbacks was called: rclpy.spin(node) serves them"
+            told = (
+                "its callback was not called: rclpy.spin(node) serves it"
+                if count == 1
+                else f"none of its {count} callbacks was called: rclpy.spin(node) serves them"
             )
+            owner.warn(f"node '{name}' has ended without being spun, so {told}")
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:
