@@ -311,3 +311,21 @@ def test_a_recording_has_no_cache_time_of_lookups(tftool, run, words):
     assert (refused.status, refused.out) == (2, "")
     assert f"'{run}' is read completely" in " ".join(refused.err.split())
     assert tftool("monitor", run, "--cache-time", "1").status == 0
+
+
+def test_a_recording_that_goes_on_without_transforms_names_both_lengths(tftool, tmp_path):
+    run = tmp_path / "run.mcap"
+    with write_recording(run) as recording:
+        chat = recording.new_message("std_msgs/String")
+        for tenth in range(100):
+            log = 1_000_000_000_000 + tenth * 100_000_000
+            if tenth <= 20:
+                recording.transforms([TransformStamped(log, "map", "base", Transform())], log)
+            recording.message("/chat", chat, log)
+
+    asked = tftool("echo", "map", "base", str(run), "--at", "5")
+    judged = tftool("doctor", str(run))
+
+    assert asked.status == 2
+    assert "end at 2 s (messages were received for 9.9 s): 5 s is after their end" in asked.err
+    assert "MCAP, 9.9 s (its transforms end at 2.0 s)" in judged.out

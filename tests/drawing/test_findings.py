@@ -8,6 +8,7 @@ import pytest
 from rich.console import Console
 
 from tests.doctor.robots import NO_TURN, Robot, robot
+from tftool.doctor import wording
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS
 from tftool.drawing import finding_view as findings
@@ -175,3 +176,13 @@ def test_on_a_terminal_an_explanation_is_broken_between_words(check):
 def test_all_checks_are_listed():
     text = shown(findings.listing())
     assert [name for name in CHECKS if f"\n{name} " not in text] == []
+
+
+def test_nothing_is_told_in_units_too_small_to_read():
+    assert [wording.span(one) for one in (-128, 999, 42_000, 0)] == [
+        "0 ms",
+        "1 µs",
+        "42 µs",
+        "0 ms",
+    ]
+    assert [wording.metres(one) for one in (5.96e-9, 0.00031)] == ["0 mm", "0.31 mm"]

@@ -10,7 +10,7 @@ def short_duration(duration: Duration) -> str:
     number = as_seconds(duration)
     size = abs(number)
     if size < 0.995:
-        return f"{number:.2f} s"
+        return f"{number if size >= 0.005 else 0.0:.2f} s"
     if size < 99.95:
         return f"{number:.1f} s"
     for most, unit, length in ((99.95 * 60, "min", 60), (47.95 * 3600, "h", 3600)):

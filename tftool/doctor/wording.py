@@ -30,7 +30,7 @@ def span(nanoseconds: float) -> str:
         return f"{seconds * 1e3:.0f} ms"
     if size >= 1e-4:
         return f"{seconds * 1e3:.3g} ms"
-    return f"{seconds * 1e6:.3g} µs" if nanoseconds else "0 ms"
+    return f"{seconds * 1e6:.0f} µs" if size >= 5e-7 else "0 ms"
 
 
 def arrival(latency: float) -> str:
@@ -60,7 +60,7 @@ def metres(length: float) -> str:
     size = abs(length)
     if size >= 0.1:
         return f"{length:.2f} m"
-    return f"{length * 1e3:.3g} mm"
+    return f"{length * 1e3:.3g} mm" if size >= 5e-6 else "0 mm"
 
 
 def several(names: Sequence[object], most: int = MOST_NAMED) -> str:

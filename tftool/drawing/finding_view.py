@@ -9,7 +9,7 @@ import numpy as np
 from tftool.base.counts import count
 from tftool.base.escaping import visible
 from tftool.base.report import Judgement, Report
-from tftool.base.stamps import as_seconds
+from tftool.base.stamps import Stamp, as_seconds
 from tftool.doctor.check import Check
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
@@ -106,13 +106,24 @@ def head(model: Model) -> str:
     material = model.evidence
     facts = [material.kind]
     if material.end > material.start and material.timed:
-        facts.append(f"{as_seconds(material.end - material.start):.1f} s")
+        received = as_seconds(material.end - material.start)
+        facts.append(f"{received:.1f} s")
+        known = as_seconds(_last_arrival(model) - material.start)
+        if received - known > 1.0:
+            facts[-1] += f" (its transforms end at {known:.1f} s)"
     if material.topics:
         facts.append(count(len(material.topics), "topic"))
     facts.append(count(len(model.frames), "frame"))
     facts.append(count(len(model.trees), "tree"))
     facts.append(count(len(material.transforms), "transform"))
     return f"{material.name}: {', '.join(facts)}"
+
+
+def _last_arrival(model: Model) -> Stamp:
+    """Return when the last moving transform arrived; the end of the source if none moves."""
+    transforms = model.evidence.transforms
+    arrivals = [transforms.log_times_of(edge) for edge in transforms.edges if not edge.static]
+    return max((int(one.max()) for one in arrivals if len(one)), default=model.evidence.end)
 
 
 def areas(diagnosis: Diagnosis) -> str:

@@ -162,4 +162,8 @@ class Frames:
             UsageError: If it lies before the beginning or after the end.
         """
         start, end = self.span
-        return checked_moment(at, self.title, start, end - start)
+        received = 0
+        if self._recording is not None:
+            source = self._recording.source
+            received = source.end - source.start
+        return checked_moment(at, self.title, start, end - start, received)

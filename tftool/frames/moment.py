@@ -29,7 +29,9 @@ class At:
         return digits if self.is_stamp else f"{digits} s"
 
 
-def checked_moment(at: At, title: str, epoch: Stamp, duration: Duration | None) -> Stamp:
+def checked_moment(
+    at: At, title: str, epoch: Stamp, duration: Duration | None, received: Duration = 0
+) -> Stamp:
     """Return the stamp of a time, checked to be between start and end.
 
     Args:
@@ -37,6 +39,7 @@ def checked_moment(at: At, title: str, epoch: Stamp, duration: Duration | None) 
         title: Name of the recording or session, as the beginning of a sentence.
         epoch: Its start.
         duration: Its length; None for no end.
+        received: Time over which a recording received messages of any topic.
 
     Raises:
         UsageError: If the moment lies outside.
@@ -46,7 +49,15 @@ def checked_moment(at: At, title: str, epoch: Stamp, duration: Duration | None) 
         if at.is_stamp:
             end = At(epoch + duration, is_stamp=True)
             raise UsageError(f"{title} ends at {end}: {at} is after that.")
-        raise UsageError(f"{title} lasts {as_seconds(duration):g} s: {at} is after its end.")
+        lasts = f"{title} lasts {as_seconds(duration):g} s"
+        # Other topics may go on long after the last transform.
+        if received > duration + NANOSECONDS:
+            lasts = (
+                f"The transforms of {title} end at {as_seconds(duration):g} s (messages were "
+                f"received for {as_seconds(received):.1f} s)"
+            )
+            raise UsageError(f"{lasts}: {at} is after their end.")
+        raise UsageError(f"{lasts}: {at} is after its end.")
     if stamp < epoch:
         raise UsageError(f"{title} begins at {At(epoch, is_stamp=True)}: {at} is before that.")
     return stamp
