@@ -38,7 +38,7 @@ class BufferCore:
 
     @property
     def hints(self) -> LookupHints:
-        """What is known about its failed lookups."""
+        """Hints about its failed lookups."""
         return self._hints
 
     def _log(self, level: str, text: str) -> None:
