@@ -7,6 +7,7 @@ the help of every command.
 import contextlib
 import io
 import os
+from pathlib import Path
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
@@ -26,6 +27,7 @@ myst_heading_anchors = 3
 exclude_patterns = ["requirements*"]
 
 html_theme = "furo"
+html_logo = html_favicon = "../tftool/screens/browser/page/icon.svg"
 html_title = "tftool"
 html_show_sphinx = False
 html_show_copyright = False
@@ -73,6 +75,15 @@ class EveryCommand(Directive):
         return sections
 
 
+def _write_scene(app: Sphinx) -> None:
+    """Write the scene that the first page shows: the carrot scenario, as `view -o` writes it."""
+    if app.builder.format == "html":
+        scene = Path(app.outdir) / "carrot.html"
+        scene.unlink(missing_ok=True)
+        _printed("view", "carrot", "-o", str(scene))
+
+
 def setup(app: Sphinx) -> None:
-    """Add the directive."""
+    """Add the directive, and the scene beside the pages."""
     app.add_directive("commands", EveryCommand)
+    app.connect("builder-inited", _write_scene)

@@ -108,6 +108,8 @@ def test_the_site_is_built_without_a_warning(tmp_path):
 
     assert status == 0
     front = (tmp_path / "site" / "index.html").read_text(encoding="utf-8")
+    scene = re.search(r'<iframe src="([^"#]+)#', front)[1]
+    assert "<title>tftool view</title>" in (tmp_path / "site" / scene).read_text("utf-8")
     # Nothing is fetched from elsewhere.
     assert not re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"(?:https?:)?//", front)
 

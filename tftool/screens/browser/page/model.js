@@ -15,6 +15,7 @@ export function fade(age, timeout) {
 }
 
 const HUES = 10;
+const HALF = HUES / 2;
 
 /**
  * A number for every name, for its colour: the same for the same names, in whatever order they come, and
@@ -28,9 +29,12 @@ export function placesOf(names) {
     [...names].sort().map((name) => {
       let first = 7;
       for (const letter of name) first = (31 * first + (letter.codePointAt(0) ?? 0)) % 1_000_003;
-      const fewest = Math.min(...given);
-      const order = given.map((_, step) => (first + step) % HUES);
-      const hue = order.find((one) => given[one] === fewest) ?? 0;
+      // Neighbours among the first half differ most: they are given out before the second.
+      const [one, other] = [given.slice(0, HALF), given.slice(HALF)];
+      const half = Math.min(...one) <= Math.min(...other) ? 0 : HALF;
+      const fewest = Math.min(...(half ? other : one));
+      const order = one.map((_, step) => half + ((first + step) % HALF));
+      const hue = order.find((at) => given[at] === fewest) ?? 0;
       return [name, hue + HUES * given[hue]++];
     }),
   );
