@@ -211,7 +211,7 @@ def test_session_has_nothing_to_host(tftool):
     result = tftool("session", "--host")
 
     assert result.status == 2
-    assert "nothing to --host" in result.err
+    assert "leave out --host" in result.err
 
 
 def test_every_command_but_check_says_how_it_shares(tftool):

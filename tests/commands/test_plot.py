@@ -172,7 +172,7 @@ def test_without_matplotlib_the_extra_is_named(tftool, run, tmp_path, monkeypatc
     ("words", "status", "told"),
     [
         (["RUN"], 2, "TARGET SOURCE"),
-        (["map", "car", "RUN", "--only", "wobble"], 2, "nothing to plot"),
+        (["map", "car", "RUN", "--only", "wobble"], 2, "cannot be plotted"),
         (["map", "car", "RUN", "--only", "x", "--xy"], 2, "leave one out"),
         (["map", "car", "RUN", "--dark"], 2, "-o FILE"),
         (["map", "car", "RUN", "-o", "a.gif"], 2, ".svg, .pdf or .png"),

@@ -177,7 +177,7 @@ def test_a_pdf_is_not_thrown_at_a_terminal(tftool, monkeypatch):
     result = tftool("tree", "turtles", "--format", "pdf")
 
     assert result.status == 2
-    assert "say where it goes with -o FILE" in result.err
+    assert "name a file with -o FILE" in result.err
 
 
 def test_it_is_drawn_again_and_again_on_the_worlds_own_ticks(tftool, simulated, monkeypatch):

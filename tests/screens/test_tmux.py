@@ -93,7 +93,7 @@ def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, wi
 
 def test_a_demo_that_was_stopped_is_drawn_as_a_whole_when_it_goes_on(terminal):
     demo = terminal(80, 24, *DEMO)
-    demo.shows("╭─ Tree")
+    demo.until(lambda text: apart(text) is not None, "a distance")
 
     demo.press("C-z")
     demo.until(lambda _: demo.facts()[0] == "0", "the terminal as it was")
