@@ -1,7 +1,6 @@
 """Notices and a world's log on stderr, separate from a command's results."""
 
 import os
-import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -17,10 +16,6 @@ MOST_NAMED = 12
 
 _COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
 """ROS 2's: green, yellow, red; INFO keeps the terminal's own."""
-
-
-# A number by itself: the digits of turtle2 are part of a name.
-_NUMBER = re.compile(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 def notice(sentence: str) -> None:
@@ -121,10 +116,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
 
 class FoldedLog:
-    """Printer of a world's log that shows the first of similar lines and counts the others.
-
-    Lines are alike if one node said both, and they differ in nothing but numbers.
-    """
+    """Printer of a world's log that shows the first of equal lines and counts the others."""
 
     def __init__(self, *, whole: bool = False) -> None:
         """Start without lines.
@@ -137,7 +129,7 @@ class FoldedLog:
 
     def tell(self, record: "LogRecord") -> None:
         """Print a line, or count it."""
-        kind = (record.node, record.level, _NUMBER.sub("#", record.text))
+        kind = (record.node, record.level, record.text)
         first, more = self._more.get(kind, (record, -1))
         self._more[kind] = (first, more + 1)
         if self._whole or more < 0:
@@ -148,8 +140,8 @@ class FoldedLog:
         for first, more in () if self._whole else self._more.values():
             if more:
                 text = visible(first.text.splitlines()[0] if first.text else "")
-                lines = "1 more line" if more == 1 else f"{more} more lines"
-                notice(f"[{visible(first.node)}]: {lines} like '{text}'; --verbose shows them")
+                times = "once more" if more == 1 else f"{more} more times"
+                notice(f"[{visible(first.node)}]: {times} '{text}'; --verbose shows each")
         self._more.clear()
 
 
