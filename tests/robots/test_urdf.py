@@ -324,17 +324,28 @@ def test_xacro_finds_the_packages_of_its_workspace(tmp_path):
             '<robot xmlns:xacro="http://ros.org/wiki/xacro">'
             f'<xacro:macro name="{name}"><link name="{name}"/></xacro:macro></robot>'
         )
-    path = tmp_path / "ws" / "src" / "arms" / "arm_bringup" / "urdf" / "arm.urdf.xacro"
+    # Installed, description/parts is parts/, beside package.xml.
+    own = tmp_path / "ws" / "src" / "arms" / "arm_bringup"
+    (own / "CMakeLists.txt").write_text(
+        "install(\n  DIRECTORY description/parts\n  DESTINATION share/arm_bringup\n)\n"
+    )
+    (own / "description" / "parts").mkdir(parents=True)
+    (own / "description" / "parts" / "tool.xacro").write_text(
+        '<robot xmlns:xacro="http://ros.org/wiki/xacro"><link name="tool"/><joint name="t" '
+        'type="fixed"><parent link="gripper"/><child link="tool"/></joint></robot>'
+    )
+    path = own / "urdf" / "arm.urdf.xacro"
     used = "arm_description"
     path.write_text(
         '<robot name="arm" xmlns:xacro="http://ros.org/wiki/xacro">'
         f'<xacro:include filename="$(find {used})/urdf/part.xacro"/><xacro:{used}/>'
         '<xacro:include filename="$(find gripper)/urdf/part.xacro"/>'
         '<joint name="j" type="fixed"><parent link="arm_description"/><child link="gripper"/>'
-        "</joint><xacro:gripper/></robot>"
+        '</joint><xacro:gripper/><xacro:include filename="$(find arm_bringup)/parts/tool.xacro"/>'
+        "</robot>"
     )
 
-    assert set(load_description(path).links) == {"arm_description", "gripper"}
+    assert set(load_description(path).links) == {"arm_description", "gripper", "tool"}
 
 
 @pytest.mark.parametrize(

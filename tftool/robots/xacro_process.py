@@ -3,13 +3,16 @@
 The process is given the path and the arguments on its command line, and says one JSON object.
 """
 
+import atexit
 import contextlib
 import importlib.util
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
@@ -25,6 +28,7 @@ MEMORY_LIMIT: Final = 1 << 30
 
 _NO_PACKAGE = re.compile(r"Package not found: (\S+)")
 _NO_ARGUMENT = re.compile(r"Undefined substitution argument (\w+)")
+_INSTALLED = re.compile(r"install\(\s*DIRECTORY\s+([^()]*?)\s+DESTINATION\s+[\"']?share/")
 _MACRO = re.compile(r"<xacro:macro[^>]*\bname\s*=\s*[\"'](\w+)")
 
 
@@ -80,14 +84,14 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
     from xacrodoc import XacroDoc, packages, xacrodoc
 
     installed = packages.get_path
+    found: dict[str, str] = {}
 
     def get_path(name: str) -> str:
-        try:
-            return str(installed(name))
-        except packages.PackageNotFoundError:
-            for folder in packages_around(Path(path), name):
-                return folder.as_posix()
-            raise
+        # Asked for again with every file that is included.
+        if name not in found:
+            around = next(packages_around(Path(path), name), None)
+            found[name] = str(installed(name)) if around is None else str(_as_installed(around))
+        return found[name]
 
     packages.get_path = get_path
     _bound_memory()
@@ -108,6 +112,29 @@ def _expanded(path: str, arguments: dict[str, str]) -> dict[str, str]:
         if _lacks_memory(error):
             return {"error": f"it needs more than {MEMORY_LIMIT >> 30} GB of memory"}
         return {"error": " ".join(str(error).split()) or type(error).__name__}
+
+
+def _as_installed(package: Path) -> Path:
+    """Return a package's share folder: the sources, with nested folders that CMake installs.
+
+    `install(DIRECTORY description/urdf DESTINATION share/…)` puts urdf/ beside package.xml. A
+    temporary folder of links shows that; without such lines it is the sources themselves.
+    """
+    try:
+        text = (package / "CMakeLists.txt").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return package
+    words = (word for found in _INSTALLED.findall(text) for word in found.split())
+    # A slash at the end installs what is inside, under another name at times: left alone.
+    nested = [package / word for word in words if "/" in word.strip("/") and word[-1] != "/"]
+    moved = {one.name: one for one in nested if one.is_dir() and package in one.parents}
+    if not moved:
+        return package
+    share = Path(tempfile.mkdtemp(prefix="tftool-xacro-"))
+    atexit.register(shutil.rmtree, share, ignore_errors=True)
+    for name, source in {**{one.name: one for one in package.iterdir()}, **moved}.items():
+        (share / name).symlink_to(source)
+    return share
 
 
 def _lacks_memory(error: BaseException | None) -> bool:
