@@ -118,8 +118,8 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (["-o", "b.mcap", "--from", "900"], 2, "Nothing was recorded after --from: it ends "),
         (["-o", "b.mcap", "--from", "900", "--record-time"], 2, "recorded after --from"),
         (["-o", "b.mcap", "--to", "100000000"], 2, "Nothing was recorded before --to: it begins "),
-        (["./a.mcap", "-o", "b.mcap"], 2, "'./a.mcap' was named before, in 'a.mcap'"),
-        (["a.mcap", "-o", "b.mcap", "--force"], 2, "'a.mcap' was named before, in 'a.mcap'"),
+        (["./a.mcap", "-o", "b.mcap"], 2, "'./a.mcap' is already an input, as 'a.mcap'"),
+        (["a.mcap", "-o", "b.mcap", "--force"], 2, "'a.mcap' is already an input, as 'a.mcap'"),
         (["missing.mcap", "-o", "b.mcap"], 3, "There is no file"),
     ],
 )

@@ -182,7 +182,7 @@ class KeptColumns:
         """Record the current state of the recording's files.
 
         Args:
-            cache: Where they are kept.
+            cache: Where the columns are kept.
             found: The recording.
         """
         self._cache = cache

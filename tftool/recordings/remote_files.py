@@ -68,7 +68,7 @@ def _opened(place: str) -> tuple[Any, str]:
         import fsspec
     except ImportError:
         raise UsageError(
-            f"'{place}' needs an extra to be fetched: pip install 'tftool-tf2[fleet]'"
+            f"Fetching '{place}' needs an extra: pip install 'tftool-tf2[fleet]'"
         ) from None
     with _failures_told(place):
         system, path = fsspec.core.url_to_fs(place)

@@ -1,7 +1,7 @@
 """Readers of a document by its expected structure; all mistakes are reported together.
 
 A reader is a function from a node to a value. It notes the mistake and
-raises `Unreadable`; what reads several things catches that and goes on with
+raises `Unreadable`; a reader of several things catches it and continues with
 the next, so that one pass finds all mistakes. The readers of single values are
 in `units`.
 """

@@ -25,7 +25,7 @@ class EditedInput:
         paths: Where they are.
         is_folder: Whether it is a folder of rosbag2's.
         metadata: What its metadata.yaml says.
-        mode: "file" or "message" where rosbag2 compressed it beyond its storage.
+        mode: "file" or "message" if rosbag2 compressed whole files or each message.
         damage: Damage of the folder.
         notes: What else is worth saying of it.
     """

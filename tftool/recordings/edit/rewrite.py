@@ -106,8 +106,8 @@ def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
         for path in {path.resolve() for path in one.paths}:
             if path in seen:
                 raise UsageError(
-                    f"'{one.name}' was named before, in '{seen[path]}': a recording is not joined "
-                    "to itself."
+                    f"'{one.name}' is already an input, as '{seen[path]}': a recording is not "
+                    "joined to itself."
                 )
             seen[path] = one.name
 

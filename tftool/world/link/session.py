@@ -43,7 +43,7 @@ class Link(LinkContext):
     """A process's connection to a session, which carries its world's traffic.
 
     Attributes:
-        departures: How many of the processes have left that transforms came from.
+        departures: How many processes that sent transforms have left.
     """
 
     def __init__(self, options: Options) -> None:

@@ -261,7 +261,7 @@ class Noise(Node):
 
         super().__init__(world, name)
         if min(position, angle, drift, turn_drift) < 0:
-            raise UsageError("a deviation is zero or more; noise has no other sign")
+            raise UsageError("a standard deviation must be zero or more")
         self.parent, self.child = parent, child
         self.period = require_period(period)
         self._true = Transform(offset)
