@@ -59,6 +59,7 @@ def open_frames(
     connects: Sequence[str] = (),
     session: "Session | None" = None,
     watch: "Callable[[World], object] | None" = None,
+    glance: "Callable[[Frames, Duration], object] | None" = None,
     progress: "Progress | None" = None,
     **reach: Any,
 ) -> Frames:
@@ -90,6 +91,8 @@ def open_frames(
         connects: Endpoints of other machines' sessions: "tcp/192.168.1.5:7448".
         session: A session that was joined already, to listen to.
         watch: Called with the world of a scenario or session before it lives.
+        glance: Called in another thread, again and again while a session is listened to, with
+            the frames heard so far and for how long, nanoseconds.
         progress: Called with how many bytes of how many are read.
         reach: How else to reach a session, by the names of the command line's options.
 
@@ -126,7 +129,7 @@ def open_frames(
         if word is not None:
             refuse_beside_address(word, domain, given)
         session = session or join_to_listen(domain, far or read_reach(given))
-        return listened(session, nanoseconds(listen_for), cache_time, watch)
+        return listened(session, nanoseconds(listen_for), cache_time, watch, glance)
     found = named(word)
     if found.kind is Kind.SCENARIO:
         refuse_options_of_files(robot, recording, found.name)

@@ -14,6 +14,12 @@ pytest.importorskip("mcap", reason="writes the test files")
 from tests.patience import PATIENCE
 from tests.recordings.writers import content, write_mcap
 from tests.terminals import ROOT, Terminal
+from tftool.opener import open_frames, scenario_named
+from tftool.scenario.play import build
+from tftool.world.clock import WallClock
+from tftool.world.link.session_world import Session
+
+CONTROLS = re.compile(r"\x1b\[[\d;?]*[A-Za-z]")
 
 SLOW = """
 import sys
@@ -73,6 +79,43 @@ def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
 
     shown = re.findall(r"[\d.]+/[\d.]+ MB", screen.getvalue())
     assert set(shown) == {"25.0/100.0 MB"}
+
+
+def test_a_session_is_listened_to_with_a_bar_above_what_shows_so_far(monkeypatch):
+    from rich.text import Text
+
+    from tftool.commands.shared.listening_bar import ListeningBar
+
+    class Screen(io.StringIO):
+        def isatty(self):
+            return True
+
+    screen = Screen()
+    monkeypatch.setattr("sys.stderr", screen)
+    monkeypatch.setenv("TERM", "xterm-256color")
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("LINES", "6")
+    play = build(scenario_named("two_trees"), WallClock())
+    session = Session(play.world, True, "test", play.live)
+    seen = []
+
+    def look(frames):
+        seen.append([(edge.parent, edge.child) for edge in frames.log.transforms().edges])
+        return [Text(f"warning  number {number}: " + "long " * 30) for number in range(9)]
+
+    with ListeningBar(0.6, look) as bar:
+        frames = open_frames(session=session, listen_for=0.6, glance=bar)
+
+    shown = CONTROLS.sub("", screen.getvalue())
+    assert "of 0.6 s" in shown
+    assert ("world", "turtle1") in seen[-1]
+    assert len(frames.log) >= len(seen[-1])
+    # A line that does not fit is cut, and what would scroll is counted.
+    assert "number 1: long" in shown
+    assert "number 2" not in shown
+    assert "… and 7 more" in shown
+    # Nothing of it is left at the end.
+    assert screen.getvalue().endswith("\x1b[1A\x1b[2K")
 
 
 def test_without_a_terminal_there_is_no_bar(file):

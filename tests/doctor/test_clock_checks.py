@@ -1,11 +1,15 @@
 """The checks of clocks and stamps, each on a small robot of its own."""
 
+import io
+
 import pytest
+from rich.console import Console
 
 from tests.doctor.judged import found, ids
 from tests.doctor.robots import LASTS, START, Robot, drives, robot, stands
 from tftool.base.stamps import seconds
 from tftool.doctor.findings import Severity
+from tftool.drawing import finding_view
 
 
 def test_two_clocks_name_the_edges_of_the_fewer():
@@ -233,3 +237,21 @@ def test_a_scan_that_arrives_one_scan_later_is_on_time():
     simulated = robot(start=12.0, scans=False)
     simulated.hears("/scan", "laser", 20.0, latency=0.252)
     assert "clock-offset" not in ids(simulated, notes=True)
+
+
+def test_many_frames_that_say_the_same_are_one_line_of_evidence():
+    made = robot()
+    for number in range(12):
+        made.moving("base_link", f"link{number}", hz=20, latency=0.0, offset=0.5, node="/rsp")
+    made.moving("base_link", "gripper", hz=20, latency=0.0, offset=0.9, node="/rsp")
+    made.moving("base_link", "hand", hz=20, latency=0.0, offset=0.9, node="/rsp")
+    finding = found(made, "future-stamp")
+
+    assert len(finding.edges) == 14
+    assert finding.evidence == (
+        "12 frames of /rsp: 500 ms ahead (median)",
+        "gripper in base_link, hand in base_link: 900 ms ahead (median)",
+    )
+    verbose = io.StringIO()
+    Console(file=verbose, width=2000).print(finding_view.render(made.judged(), verbose=True))
+    assert "link11 in base_link" in verbose.getvalue()

@@ -23,6 +23,7 @@ from tftool.doctor import shape_checks as shape
 from tftool.doctor import value_checks as values
 from tftool.doctor.check import NEEDS, Check
 from tftool.doctor.evidence import Evidence, described_by, evidence_of
+from tftool.doctor.evidence_lines import evidence_lines
 from tftool.doctor.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
 from tftool.doctor.model import Limits, Model, Settings
 from tftool.doctor.wording import filled, several
@@ -273,7 +274,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
         "where": several(concerned, 3),
         "concerned": len(concerned),
     }
-    evidence = [filled(check.detail, {"frames": several(hit.frames), **hit.facts}) for hit in hits]
+    evidence = evidence_lines(check.detail, hits)
     changed = {name: value for name, value in limits.items() if value != check.limits[name]}
     if changed:
         told = ", ".join(f"{name} = {value:g}" for name, value in changed.items())

@@ -2,6 +2,7 @@
 
 import string
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -70,6 +71,14 @@ def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
     return f"{', '.join(shown)} and {rest} more" if rest else ", ".join(shown)
 
 
+@dataclass(frozen=True, slots=True)
+class Between:
+    """Numbers that are nearly the same, by their ends."""
+
+    low: float
+    high: float
+
+
 def filled(template: str, facts: Mapping[str, Fact]) -> str:
     """Fill a sentence of a check with its facts."""
     return _FORMATTER.vformat(template, (), facts)
@@ -81,6 +90,12 @@ class _Words(string.Formatter):
     """
 
     def format_field(self, value: Any, format_spec: str) -> Any:
+        if isinstance(value, Between):
+            low, high = (self.format_field(end, format_spec) for end in (value.low, value.high))
+            if low == high:
+                return low
+            number, _, unit = low.rpartition(" ")
+            return f"{number if high.endswith(f' {unit}') and number else low} to {high}"
         one, is_choice, many = format_spec.partition("|")
         if is_choice:
             number = len(value) if isinstance(value, list | tuple) else value

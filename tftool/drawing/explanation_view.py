@@ -43,7 +43,7 @@ def render(found: Explanation) -> "RenderableType":
         if found.because
         else _exactly(found.asked),
     )
-    parts: list[RenderableType] = [_headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
+    parts: list[RenderableType] = [headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
     if found.links:
         parts += [Text(""), Padding(_Links(found), (0, 0, 0, 2))]
     told = Table.grid(padding=(0, 2), pad_edge=False)
@@ -61,7 +61,8 @@ def render(found: Explanation) -> "RenderableType":
     return Group(*parts)
 
 
-def _headline(found: Explanation) -> "Text":
+def headline(found: Explanation) -> "Text":
+    """Return the lookup and whether it answers, in one line."""
     from rich.text import Text
 
     when = "at the latest" if not found.stamp else f"at {_exactly(found.stamp)}"

@@ -11,6 +11,7 @@ from tftool.base.escaping import visible
 from tftool.base.report import Judgement, Report
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.doctor.check import Check
+from tftool.doctor.evidence_lines import MOST_NAMED
 from tftool.doctor.findings import Area, Confidence, Finding, Severity
 from tftool.doctor.judge import CHECKS, Diagnosis
 from tftool.doctor.model import Model
@@ -21,6 +22,7 @@ from tftool.drawing import report_view as judgements
 if TYPE_CHECKING:
     from rich.console import RenderableType
     from rich.table import Table
+    from rich.text import Text
 
 SCHEMA = "tftool.doctor/2"
 
@@ -62,16 +64,28 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> "RenderableType":
     return Group(*parts)
 
 
-def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
-    from rich.padding import Padding
-    from rich.table import Table
+def so_far(diagnosis: Diagnosis) -> "list[Text]":
+    """Return a line for each finding but consequences, worst first, while more may follow."""
+    found = [finding for finding in diagnosis.findings if finding.because_of is None]
+    return [_first_line(one) for one in sorted(found, key=lambda one: one.severity.rank)]
+
+
+def _first_line(finding: Finding, *, verbose: bool = False) -> "Text":
     from rich.text import Text
 
     line = Text(finding.severity.value, _STYLES[finding.severity])
     line.append(f"  {finding.id}", "bold")
     if finding.confidence is not Confidence.CERTAIN or verbose:
         line.append(f" ({finding.confidence.value})", "dim")
-    line.append(f": {visible(finding.message)}", "default")
+    return line.append(f": {visible(finding.message)}", "default")
+
+
+def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    line = _first_line(finding, verbose=verbose)
     if finding.known:
         line.append(" (in the baseline)", "dim")
     body = Table.grid(padding=(0, 1), pad_edge=False)
@@ -84,6 +98,10 @@ def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
     if hidden:
         shown.append(f"and {hidden} more (--verbose shows them)")
     lines += [Padding(Text(text), (0, 0, 0, 7)) for text in shown]
+    if verbose and len(finding.edges) > MOST_NAMED:
+        # A line of evidence may be about many of them, which it does not name.
+        edges = ", ".join(f"{child} in {parent}" for parent, child in finding.edges)
+        lines.append(Padding(Text(visible(f"transforms: {edges}")), (0, 0, 0, 7)))
     if finding.publishers and verbose:
         lines.append(
             Padding(Text(f"published by {visible(', '.join(finding.publishers))}"), (0, 0, 0, 7))

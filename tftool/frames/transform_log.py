@@ -54,6 +54,19 @@ class TransformLog:
             self._messages.setdefault(key, []).append(len(self._logs) - 1)
             self._count += 1
 
+    def __len__(self) -> int:
+        return self._count
+
+    def copy(self) -> "TransformLog":
+        """Return what was logged so far, for another thread to read."""
+        copied = TransformLog()
+        copied._rows = {key: rows.copy() for key, rows in self._rows.items()}
+        copied._stamps = {key: stamps.copy() for key, stamps in self._stamps.items()}
+        copied._messages = {key: places.copy() for key, places in self._messages.items()}
+        copied._logs, copied._senders = self._logs.copy(), self._senders.copy()
+        copied._publishers, copied._count = self._publishers.copy(), self._count
+        return copied
+
     def transforms(self) -> "Transforms":
         """Return all transforms in columns, one entry per edge, with log times and publishers."""
         # Most that are played or heard are never judged, and need no numpy.

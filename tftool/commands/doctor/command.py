@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
@@ -19,7 +19,7 @@ from tftool.commands.shared.evidence_sources import evidence_from, rules_of
 from tftool.commands.shared.notices import complain
 from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width, write, write_file
-from tftool.doctor.evidence import Scope, described_by
+from tftool.doctor.evidence import Evidence, Scope, described_by
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
 from tftool.doctor.localisation_steps import steps_of
@@ -30,6 +30,9 @@ from tftool.drawing import step_view
 from tftool.drawing.sarif import as_sarif
 from tftool.frames.moment import At
 from tftool.recordings.remote_files import fetched
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 Judged: TypeAlias = list[tuple[str, Diagnosis | str]]
 """Each source with its diagnosis, or why it cannot be read."""
@@ -309,11 +312,17 @@ def _diagnosed(
     sources: list[str | None] = [*expanded(places)] if places else [None]
     judged: Judged = []
     before: list[MeasuredMount] = []
+    refuse_unknown(settings, selection.select, selection.ignore)
+
+    def look(evidence: Evidence) -> "list[Text]":
+        found = judge(evidence, settings, select=selection.select, ignore=selection.ignore)
+        return view.so_far(found)
+
     for word in sources:
         try:
             with fetched(word or "") as path:
                 rules = rules_of(path or None)
-                evidence = evidence_from(connection, path or None, lasting, scope)
+                evidence = evidence_from(connection, path or None, lasting, scope, look)
         except InputError as error:
             if len(sources) == 1:
                 raise

@@ -2,7 +2,7 @@
 
 import json
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
@@ -15,7 +15,7 @@ from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import moment
 from tftool.commands.shared.pairs import refuse_file_as_frame
 from tftool.commands.shared.printer import write
-from tftool.doctor.evidence import LIVE
+from tftool.doctor.evidence import LIVE, Evidence
 from tftool.doctor.explanation import over_time, traced
 from tftool.doctor.joint_chain import chained
 from tftool.doctor.model import Model, Settings
@@ -25,6 +25,9 @@ from tftool.frames.moment import At
 from tftool.frames.notes import beyond_limits
 from tftool.opener import named
 from tftool.recordings.find import Kind
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 
 def run(
@@ -57,7 +60,13 @@ def run(
     if behind:
         at = moment(behind)
     settings = Settings(cache_time=cache_time or seconds(10))
-    model = Model(evidence_from(connection, place, lasting), settings)
+
+    def look(evidence: Evidence) -> "list[Text]":
+        asked = Question(target, source, LATEST, None, settings, timeout, topic)
+        return [explanation_view.headline(traced(Model(evidence, settings), asked))]
+
+    evidence = evidence_from(connection, place, lasting, look=None if topic else look)
+    model = Model(evidence, settings)
     stamp = LATEST if at is None else at.stamp(model.epoch)
     if topic:
         heard, stamp = message_of(model, topic, stamp or None)

@@ -1,6 +1,8 @@
 """Evidence for `doctor` and `explain`: from a recording, a scenario, a session."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
@@ -9,11 +11,15 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.doctor.evidence import Evidence, Scope, evidence_of_frames
+from tftool.frames.frames import Frames
 from tftool.frames.source_options import RobotOptions
 from tftool.opener import named, scenario_named
 from tftool.recordings.find import Kind
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, rules_beside
 from tftool.world.header_listener import HeaderListener
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 EVERYTHING = Scope()
 """All of a source."""
@@ -24,6 +30,7 @@ def evidence_from(
     word: str | None,
     lasting: Duration | None = None,
     scope: Scope = EVERYTHING,
+    look: "Callable[[Evidence], Sequence[Text]] | None" = None,
 ) -> Evidence:
     """Return the evidence about the frames of FROM.
 
@@ -34,6 +41,7 @@ def evidence_from(
         word: What FROM names; None for the session that runs, else the turtle world.
         lasting: How long to listen, nanoseconds; the usual time when None.
         scope: What of a recording is looked at.
+        look: Says in lines what shows so far in a session, while it is listened to.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.
@@ -64,7 +72,13 @@ def evidence_from(
     # Of a robot read by its address the headers are heard, too; it writes to no topic.
     heard = HeaderListener() if connection.reach.only_reads else None
     watch = None if heard is None else heard.begin
-    with open_from(connection, word, lasting, until=WHOLE, tells=False, watch=watch) as frames:
+
+    def glance(frames: Frames) -> "Sequence[Text]":
+        return () if look is None else look(evidence_of_frames(frames, scope))
+
+    with open_from(
+        connection, word, lasting, until=WHOLE, tells=False, watch=watch, look=glance
+    ) as frames:
         evidence = evidence_of_frames(frames, scope)
     return evidence if heard is None else replace(evidence, headers=heard.headers())
 

@@ -17,6 +17,7 @@ from tftool.opener import LISTEN_FOR, named, open_frames, refuse_options_of_file
 from tftool.recordings.find import Kind
 
 if TYPE_CHECKING:
+    from tftool.commands.shared.listening_bar import ListeningBar, Look
     from tftool.commands.shared.reading_bar import Bar
     from tftool.world.world import World
 
@@ -42,6 +43,7 @@ def open_from(
     tells: bool = True,
     shares: bool = False,
     watch: "Callable[[World], object] | None" = None,
+    look: "Look | None" = None,
 ) -> Frames:
     """Open the frames of FROM; they are closed together with the connection.
 
@@ -58,6 +60,7 @@ def open_from(
         tells: Whether to print oddities of the frames.
         shares: Whether the options of sharing are for another of several sources.
         watch: Called with the world of a scenario or a session before it lives.
+        look: Says in lines, below the progress bar, what shows so far in a session's frames.
 
     Raises:
         InputError: If FROM names nothing, or it cannot be read.
@@ -67,7 +70,7 @@ def open_from(
     if lasting is not None:
         until, margin = as_seconds(lasting), 0.0
     if place is None and not isinstance(until, At):
-        frames = listen_from(connection, lasting, cache_time=cache_time, watch=watch)
+        frames = listen_from(connection, lasting, cache_time=cache_time, watch=watch, look=look)
         if frames is not None:
             return frames
     if place is None and isinstance(until, At) and not connection.reach.only_reads:
@@ -104,6 +107,7 @@ def listen_from(
     *,
     cache_time: Duration | None = None,
     watch: "Callable[[World], object] | None" = None,
+    look: "Look | None" = None,
 ) -> Frames | None:
     """Listen to the running session; return None if there is none. See `open_from`.
 
@@ -118,11 +122,28 @@ def listen_from(
     if session is None:
         return None
     listen_for = LISTEN_FOR if lasting is None else as_seconds(lasting)
-    notice(f"Listening for {listen_for:g} s ...")
-    options = connection.file_options
-    return open_frames(
-        **options, listen_for=listen_for, cache_time=cache_time, session=session, watch=watch
-    )
+    with _listening_bar(listen_for, look) as glance:
+        return open_frames(
+            **connection.file_options,
+            listen_for=listen_for,
+            cache_time=cache_time,
+            session=session,
+            watch=watch,
+            glance=glance,
+        )
+
+
+@contextmanager
+def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[ListeningBar | None]":
+    """Return a progress bar if a person waits, and print how long it takes if none does."""
+    if not sys.stderr.isatty():
+        notice(f"Listening for {listen_for:g} s ...")
+        yield None
+        return
+    from tftool.commands.shared.listening_bar import ListeningBar
+
+    with ListeningBar(listen_for, look) as bar:
+        yield bar
 
 
 @contextmanager
