@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from tftool.base.stamps import NANOSECONDS
 from tftool.doctor.findings import Fact, Hit
-from tftool.doctor.wording import Between, filled, several
+from tftool.doctor.wording import NearNumbers, filled, several
 
 ALIKE = 0.1
 """Share by which numbers may differ that are told in one line."""
@@ -68,7 +68,7 @@ def _line(name: str, rest: str, hits: Sequence[Hit], told: Sequence[tuple[str, s
         values = [_facts(hit).get(key) for hit in hits]
         numbers = [value for value in values if isinstance(value, int | float)]
         if numbers and min(numbers) != max(numbers):
-            facts[key] = Between(min(numbers), max(numbers))
+            facts[key] = NearNumbers(min(numbers), max(numbers))
     return f"{_subject(name, hits)}: {filled(rest, facts)}"
 
 

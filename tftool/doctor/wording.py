@@ -72,7 +72,7 @@ def several(names: Sequence[object], most: int = MOST_NAMED) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Between:
+class NearNumbers:
     """Numbers that are nearly the same, by their ends."""
 
     low: float
@@ -90,7 +90,7 @@ class _Words(string.Formatter):
     """
 
     def format_field(self, value: Any, format_spec: str) -> Any:
-        if isinstance(value, Between):
+        if isinstance(value, NearNumbers):
             low, high = (self.format_field(end, format_spec) for end in (value.low, value.high))
             if low == high:
                 return low

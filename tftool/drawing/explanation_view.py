@@ -43,7 +43,7 @@ def render(found: Explanation) -> "RenderableType":
         if found.because
         else _exactly(found.asked),
     )
-    parts: list[RenderableType] = [headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
+    parts: list[RenderableType] = [_headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
     if found.links:
         parts += [Text(""), Padding(_Links(found), (0, 0, 0, 2))]
     told = Table.grid(padding=(0, 2), pad_edge=False)
@@ -61,8 +61,16 @@ def render(found: Explanation) -> "RenderableType":
     return Group(*parts)
 
 
-def headline(found: Explanation) -> "Text":
-    """Return the lookup and whether it answers, in one line."""
+def so_far(found: Explanation) -> "list[Text]":
+    """Return in lines whether a lookup answers, and why not, while more may follow."""
+    from rich.text import Text
+
+    line = Text(visible(f"so far: {found.source} in {found.target} "))
+    line.append(*(("answers", "green") if found.available else ("is refused", "bold red")))
+    return [line, *(Text(visible(f"        {why}")) for why in found.why)]
+
+
+def _headline(found: Explanation) -> "Text":
     from rich.text import Text
 
     when = "at the latest" if not found.stamp else f"at {_exactly(found.stamp)}"

@@ -63,7 +63,7 @@ def run(
 
     def look(evidence: Evidence) -> "list[Text]":
         asked = Question(target, source, LATEST, None, settings, timeout, topic)
-        return [explanation_view.headline(traced(Model(evidence, settings), asked))]
+        return explanation_view.so_far(traced(Model(evidence, settings), asked))
 
     evidence = evidence_from(connection, place, lasting, look=None if topic else look)
     model = Model(evidence, settings)
