@@ -72,7 +72,7 @@ def complete(words: Sequence[str], shell: str) -> None:
 
     Args:
         words: The words after `tftool`; the last is the one that is being typed.
-        shell: Which script asks.
+        shell: The shell whose script asks.
     """
     offered: Sequence[Offer] = ()
     with contextlib.suppress(TftoolError, OSError, ValueError):

@@ -96,7 +96,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
 
     Args:
         argv: The words after `tftool`; those of the process when None.
-        providers: Where clocks and links come from; the real ones when None.
+        providers: Sources of clocks and links; the real ones if None.
 
     Returns:
         An `ExitStatus`, or the status of the program that `tftool run` ran.

@@ -19,7 +19,7 @@ def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
     """Return the edges from a frame up to its root, lowest first; in a loop, each edge once.
 
     Args:
-        frame: Where to begin.
+        frame: The frame to start from.
         parent: Gives the edge above a frame; None above a root.
     """
     edges: list[EdgeT] = []

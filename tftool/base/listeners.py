@@ -44,7 +44,7 @@ class Listeners(Generic[*Values]):
         """Register a callback.
 
         Args:
-            callback: What to call.
+            callback: Function to call.
             owner: Under whose name its failure is reported.
 
         Returns:

@@ -39,7 +39,7 @@ def events(
 
     Args:
         text: The YAML.
-        loader: Whose scanner and parser to use.
+        loader: Loader whose scanner and parser are used.
         largest: Characters it may have.
         deepest: Levels of nesting it may have.
         most_values: Values it may have, with every alias written out.

@@ -68,7 +68,7 @@ class Shortened(NamedTuple):
 
     Attributes:
         child: Its frame.
-        authority: Who sent its newest sample.
+        authority: Sender of its newest sample.
         samples: How many it had.
         kept: How many it has now.
     """
@@ -120,7 +120,7 @@ class Buffer(Door):
                 NO_LIMIT for a buffer that prunes nothing.
             log: Is called when a sample is refused: level ("WARN", "ERROR") and sentence.
                 Without one, Python's own `logging` is.
-            max_frames: How many names it takes, as names come from outside.
+            max_frames: Limit of frame names, as they may come from outside.
             max_name: How many bytes a name may have, likewise.
             report: Takes what a listener or the callback of a request raises, and the name of
                 its owner; without one, that is an error in the log.
@@ -161,7 +161,7 @@ class Buffer(Door):
         Args:
             transform: The pose of a child in its parent. One leading slash is taken off
                 either name; any finite quaternion but zero is scaled to length one.
-            authority: Who sent it.
+            authority: Its sender.
 
         Returns:
             Whether it was taken. If not, the log was told why, and nothing is lost.
@@ -292,7 +292,7 @@ class Buffer(Door):
             stamps: Whole nanoseconds, shape (n,), in any order.
             translations: Metres, shape (n, 3).
             rotations: Quaternions in xyzw order, shape (n, 4); any finite one but zero.
-            authority: Who sent them.
+            authority: Their sender.
 
         Returns:
             Which rows were taken, and why the others were not; true if all were. The log
@@ -334,7 +334,7 @@ class Buffer(Door):
             child: The frame whose poses they are.
             records: One row a sample, shape (n, 8): nanoseconds, and bit by bit the seven
                 doubles x y z and x y z w.
-            authority: Who sent them.
+            authority: Their sender.
 
         Returns:
             Which rows were taken, and why the others were not; None if all were.
@@ -411,7 +411,7 @@ class Buffer(Door):
         """Return the pose of source in target, which maps points from source to target.
 
         Args:
-            target_frame: What the answer is expressed in.
+            target_frame: Frame in which the result is expressed.
             source_frame: Frame to look up.
             time: The moment; 0 for the newest one for which the whole chain has data.
 
@@ -497,7 +497,7 @@ class Buffer(Door):
         """Return `lookup_transform` for many times at once, in numpy.
 
         Args:
-            target_frame: What the answers are expressed in.
+            target_frame: Frame in which the results are expressed.
             source_frame: Frame to look up.
             times: Whole nanoseconds, shape (n,), in any order; 0 for the latest.
             missing: What becomes of a moment for which there is no pose: "raise", or "nan"
@@ -721,7 +721,7 @@ class Buffer(Door):
         """Return all frames at one time.
 
         Args:
-            now: What the clock reads; ages are told against it.
+            now: The clock's time, from which ages are counted.
             at: The moment to show; 0 for each frame at the latest moment of its chain.
         """
         return snapshot.snapshot(self._tree, whole(now), whole(at))

@@ -89,8 +89,8 @@ class Frame:
     Attributes:
         name: Its name.
         number: Its place in the order of first registration.
-        link: What it hangs by; None if no sample of it was ever set.
-        authority: Who sent its newest sample; None if no sample of it was ever set.
+        link: Link to its parent; None if no sample was ever set.
+        authority: Sender of its newest sample; None if there was none.
     """
 
     __slots__ = ("authority", "link", "name", "number")
@@ -118,8 +118,8 @@ class Walk:
         ended: ARRIVED, UNCONNECTED, REFUSED or LOOP.
         up: Frames whose links lead from the source toward the meeting point.
         down: The same from the target.
-        top: Where the source's side ended.
-        end: Where the target's side ended.
+        top: Last frame on the source's side.
+        end: Last frame on the target's side.
         refused: The frame whose link has nothing for the moment, if REFUSED.
         timeless: Whether it would go the same way at any moment: nothing was refused, and
             no link that was passed leads elsewhere at times.

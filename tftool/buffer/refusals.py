@@ -137,9 +137,9 @@ def objections(
         child: Without its leading slash.
         parent: Without its leading slash.
         stamp: Nanoseconds.
-        translation: As it came.
+        translation: The translation as given.
         rotation: Scaled to length one; NaN if that cannot be done.
-        authority: Who sent it.
+        authority: Its sender.
     """
     lines: list[str] = []
     if child == parent:

@@ -33,9 +33,9 @@ class FrameInfo(NamedTuple):
 
     Attributes:
         frame: Its name.
-        parent: What it hangs from at the moment shown; None for a root.
+        parent: Its parent at the shown time; None for a root.
         is_static: Whether that link holds at all times.
-        authority: Who sent its newest sample; None for a frame that was never sent.
+        authority: Sender of its newest sample; None for a frame without samples.
         samples: How many are remembered.
         rate: Samples per second by tf2's formula, hertz: a single one, or a static, shows 10000.
         oldest: Stamp of its oldest sample; 0 for a static.
@@ -68,7 +68,7 @@ class Snapshot:
     """All frames at one time, immutable.
 
     Attributes:
-        now: What the clock read.
+        now: The clock's time.
         at: The moment shown; 0 for the latest data of every chain.
         frames: In the order in which their names first came up, roots included.
     """

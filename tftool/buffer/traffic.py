@@ -121,8 +121,8 @@ class FrameTraffic:
 
     Attributes:
         frame: Its name.
-        parent: What its newest message hangs it from.
-        sender: Who sent that.
+        parent: Parent in its newest message.
+        sender: The sender of that message.
         is_static: Whether that was a static one.
         series: Its messages.
     """

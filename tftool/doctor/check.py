@@ -36,7 +36,7 @@ class Check:
 
     Attributes:
         id: Its name, for ever.
-        area: What it looks at.
+        area: Its subject.
         severity: How bad what it finds is; a hit may say otherwise.
         summary: What is wrong, in one line and in general: the docstring of its function.
         run: Its function.
@@ -44,7 +44,7 @@ class Check:
         headline: What is wrong, with a finding's facts; `{where}` names all of them,
             `{concerned:one|many}` chooses by how many they are, as of any number or list.
         detail: A line of evidence for each hit.
-        consequence: What it breaks.
+        consequence: Its consequence.
         fixes: What to do, beside what the hit itself says.
         causes: What people found to be behind it, the most frequent first.
         links: Threads about it, and standards.

@@ -418,7 +418,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     Args:
         model: The frames and their history.
         heard: The messages.
-        fixed: Where they are to be placed.
+        fixed: Frame in which messages are placed.
         warm: Whether the first and the last second of the recording are left out.
     """
     path = model.path(heard.frame, fixed)

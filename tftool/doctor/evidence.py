@@ -45,14 +45,14 @@ class Evidence:
     """Evidence about the frames: everything that a diagnosis reads.
 
     Attributes:
-        name: What it is called, for people.
-        kind: What it is: "MCAP", "scenario".
+        name: Its name in messages.
+        kind: Kind of source: "MCAP", "scenario".
         transforms: In columns, with log times.
         headers: Of messages, by topic.
         clock: What `/clock` read and when it was received, nanoseconds.
         topics: Every topic.
         publishers: Every stream of messages.
-        damage: What could not be read, as sentences.
+        damage: Unreadable parts, as sentences.
         start: Log time of the first message.
         end: Log time of the last.
         timed: Whether it has log times; a buffer has none.
@@ -333,9 +333,9 @@ def evidence_of_log(log: TransformLog, name: str, kind: str, start: Stamp, end: 
     """Return the evidence in transforms recorded as they arrived.
 
     Args:
-        log: What arrived.
+        log: The received transforms.
         name: The name of the source, for people.
-        kind: What the source is.
+        kind: Kind of the source.
         start: When listening began.
         end: When it ended.
     """

@@ -437,8 +437,8 @@ class Explanation:
         because: Why then: "when /scan of that stamp arrived"; empty where it was said.
         after: How long after the stamp that is, on the clock of the stamps, nanoseconds.
         available: Whether it answers.
-        exception: What tf2 raises; empty where it answers.
-        text: What that says.
+        exception: Name of tf2's exception; empty if the lookup succeeds.
+        text: Text of that error.
         epoch: The first stamp of moving links.
         links: The way from source to target, in this order.
         refusing: The edge that refuses; None where none does, or there is no way.
@@ -446,8 +446,8 @@ class Explanation:
         answerable_until: Log time at which what it needs is pruned; None where it never is.
         cause: Why.
         why: The same in sentences.
-        remedies: What helps, the least first.
-        useless: What people try and does not help, in sentences.
+        remedies: Remedies, the smallest first.
+        useless: Common attempts that do not help, as sentences.
         failed: Of a session that was listened to, for which share of that time the same
             question would have been refused; None elsewhere.
         in_whole: Whether it answers with all that was ever recorded, as `echo` asks it.

@@ -79,7 +79,7 @@ class Finding:
     Attributes:
         id: Which check found it; `tftool doctor --explain ID` tells more.
         severity: How bad it is.
-        area: What the check looks at.
+        area: Subject of the check.
         message: The fault, in one line.
         confidence: How sure that is.
         edges: Parent and child of each transform concerned.
@@ -91,7 +91,7 @@ class Finding:
         count: How often it was seen.
         facts: The numbers behind it; stamps and durations in whole nanoseconds.
         evidence: Observations, a line each.
-        consequence: What it breaks.
+        consequence: Its consequence.
         fixes: What to do, the likeliest first.
         because_of: The id of the finding that explains this one; None where none does.
         known: Whether a report that was given as the baseline has it already.
@@ -139,7 +139,7 @@ class Skipped:
     """A check that could not run.
 
     Attributes:
-        id: Which one.
+        id: Id of the check.
         reason: Why.
     """
 

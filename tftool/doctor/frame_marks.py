@@ -16,7 +16,7 @@ def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
     A frame is marked `two-parents`, `clock-mixture` or `edge-stopped`.
 
     Args:
-        buffer: Which.
+        buffer: The buffer.
         snapshot: All its frames, as they are now.
     """
     if _is_calm(buffer, snapshot):

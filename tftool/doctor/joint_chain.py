@@ -43,8 +43,8 @@ class ChainExplanation:
     Attributes:
         target: The link asked for.
         source: The link asked about.
-        exception: What tf2 raises; empty where it answers.
-        text: What that says.
+        exception: Name of tf2's exception; empty if the lookup succeeds.
+        text: Text of that error.
         cause: "works", "unknown-frame" or "split".
         links: The joints from source to target, in this order.
         why: The same in sentences.

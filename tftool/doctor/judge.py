@@ -48,7 +48,7 @@ class Diagnosis:
         findings: By area, errors first; consequences directly behind their cause.
         skipped: Checks that could not run, and why.
         ran: How many did.
-        model: What they looked at.
+        model: Model that was judged.
     """
 
     findings: tuple[Finding, ...]
@@ -78,7 +78,7 @@ def judge(
 
     Args:
         evidence: The frames and their history.
-        settings: What the listener is like, and thresholds.
+        settings: Settings of the listener, and thresholds.
         select: Ids or areas to run; all where empty.
         ignore: Ids or areas to leave out.
 

@@ -106,8 +106,8 @@ class Model:
     """The evidence, prepared once for all checks.
 
     Attributes:
-        evidence: What it was made of.
-        settings: What the listener is like.
+        evidence: Evidence it was made from.
+        settings: Settings of the listener.
         tracks: One for each edge, without what no listener can use (see `nameless`).
         nameless: Edges with an empty name, or whose ends are the same frame.
         heard: One for each topic and frame of its messages.

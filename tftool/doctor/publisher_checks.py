@@ -309,8 +309,8 @@ def _conflict(
     """Return the finding about two publishers.
 
     Args:
-        track: What both publish.
-        names: What the two are called.
+        track: The edge that both publish.
+        names: Names of the two.
         owned: Rows of the one, and for each the row of the other to compare it with, shape (n,).
         confidence: How sure it is that they are two.
     """

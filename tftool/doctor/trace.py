@@ -47,7 +47,7 @@ class TracedLink:
         newest: Stamp of the newest one held.
         period: Median step of its stamps, nanoseconds; 0 where there is none.
         latency: Median of arrival minus stamp, nanoseconds.
-        verdict: What it says.
+        verdict: Its outcome.
         short_by: How far the question lies outside, nanoseconds.
     """
 

@@ -84,8 +84,8 @@ class Ink:
     Args:
         columns: Cells across.
         rows: Cells down.
-        left: Where the rectangle begins, metres.
-        bottom: Where the rectangle begins, metres.
+        left: Left or lower edge of the rectangle, metres.
+        bottom: Left or lower edge of the rectangle, metres.
         size: How wide it is, metres.
         height: How high it is, metres; a square if None.
 

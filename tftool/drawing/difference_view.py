@@ -22,7 +22,7 @@ def lines(found: Differences, width: int | None = None, *, everything: bool = Fa
     """Return a line for each link that differs, and a summary.
 
     Args:
-        found: What to write.
+        found: Values to write.
         width: Cells a line may take: the rest goes below its link. None for no limit.
         everything: Whether to write the links that do not differ, too.
     """

@@ -36,7 +36,7 @@ def block(
     is `5.12`. `as_object` has the exact stamp.
 
     Args:
-        found: What a lookup gave.
+        found: Result of a lookup.
         precision: Decimals of every number.
         with_distance: Whether a last line gives the length of the translation.
         quaternion_tag: What newer releases add after "Quaternion": " (xyzw)".
@@ -114,7 +114,7 @@ def failure(now: Stamp, error: TransformException, frames: str) -> str:
     """Format tf2_echo's message for a lookup that fails after it had worked.
 
     Args:
-        now: What the clock read.
+        now: The clock's time.
         error: The refusal.
         frames: The buffer's `all_frames_as_string()`.
     """

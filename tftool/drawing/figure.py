@@ -98,8 +98,8 @@ def plot(
     Args:
         frames: Opened frames, a recording, a buffer or a robot, whose pair is asked for at
             the stamps of the fastest link between the two; or poses, or several of them.
-        target: What the poses of a pair are expressed in.
-        source: Whose poses they are.
+        target: Frame in which the poses of a pair are expressed.
+        source: Frame whose poses they are.
         ax: Where to draw one panel; a new figure with all of them if None.
         what: "position", "rotation", "distance", "speed", "turn rate", or a single one such
             as "x" or "yaw"; of a new figure all if empty, of `ax` the position.

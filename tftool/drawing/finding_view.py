@@ -311,7 +311,7 @@ def explained(check: Check, width: int | None = None) -> str:
     """Return everything about one check as text.
 
     Args:
-        check: Which.
+        check: The check.
         width: Cells a line may take: it goes on in the next one, between words. None for all.
     """
     lines = [

@@ -74,7 +74,7 @@ def pieces(
     """Yield every tree in pieces, so that a large one starts to appear at once.
 
     Args:
-        snapshot: What to draw.
+        snapshot: Values to draw.
         ascii_only: Whether to keep to ASCII for the branches.
         moving: Of a robot description, the frames whose joint moves; None for other frames.
         marks: Faults of frames: ids of the doctor's checks.
@@ -343,7 +343,7 @@ def compact(
     """Draw every tree with one line per frame.
 
     Args:
-        snapshot: What to draw.
+        snapshot: Values to draw.
         width: Columns there are.
         ascii_only: Whether to keep to ASCII for the guides.
         moving: Of a robot description, the frames whose joint moves; None for other frames.

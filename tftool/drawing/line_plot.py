@@ -307,7 +307,7 @@ def pair_plot(
 
     Args:
         path: The poses, a row a moment, NaN where there is none.
-        span: Which seconds.
+        span: Seconds to draw.
         width: Cells across.
         height: Lines there are.
         palette: The screen's colours.

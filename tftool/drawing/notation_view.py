@@ -42,7 +42,7 @@ def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
     """Return one notation in full precision, a line per row.
 
     Args:
-        transform: What to write.
+        transform: Values to write.
         form: One of `TARGETS`.
         degrees: Whether angles are written in degrees.
     """
@@ -66,7 +66,7 @@ def lines(
     """Return every notation in one or a few lines each.
 
     Args:
-        transform: What to write.
+        transform: Values to write.
         with_translation: Whether it says where, too.
         precision: Decimals.
         all_orders: Whether to add the 24 orders of Euler angles.

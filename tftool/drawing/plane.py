@@ -30,8 +30,8 @@ class PlaneFrame:
 
     Attributes:
         name: Its name, from which its colour comes.
-        x: Where its origin is, metres.
-        y: Where its origin is, metres.
+        x: Coordinate of its origin, metres.
+        y: Coordinate of its origin, metres.
         axes: The ends of its unit x, y and z axes, from its origin, as the plane shows them.
         parent: The origin of its parent; None for a root.
         age: Seconds without news, for one that is not static.
@@ -59,10 +59,10 @@ class TurtleField:
     """The turtles' square field, in the plane of its own frame.
 
     Attributes:
-        x: Where its lower left corner is, metres.
-        y: Where its lower left corner is, metres.
+        x: Coordinate of its lower left corner, metres.
+        y: Coordinate of its lower left corner, metres.
         theta: How far it is turned, radians.
-        color: What it is painted with.
+        color: Its colour.
         walls: The sides a turtle just ran into: "left", "right", "bottom", "top".
     """
 

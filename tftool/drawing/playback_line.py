@@ -29,7 +29,7 @@ class PlaybackMark:
 
     Attributes:
         since: Where it begins, nanoseconds from the start.
-        until: Where it ends.
+        until: Its end.
         message: The finding, in one line.
         is_error: Whether it is an error, not a warning.
     """
@@ -48,7 +48,7 @@ class Playback:
         done: How much is played, nanoseconds.
         total: How much there is.
         rate: How many of its seconds pass in a real one.
-        is_paused: Whether it stands still.
+        is_paused: Whether it is paused.
         laps: How often it has started over.
         marks: Findings of the doctor, the worst first.
     """
@@ -67,7 +67,7 @@ def line(
     """Return a line of at most `width` columns: state, seconds, rate, bar, and the keys that fit.
 
     Args:
-        playback: Where the player stands.
+        playback: State of the player.
         width: Columns.
         with_keys: Whether keys are taken.
         ascii_only: Whether to draw in ASCII.

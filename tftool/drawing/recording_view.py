@@ -28,7 +28,7 @@ def as_text(recording: Recording, width: int | None = None, name: str | None = N
     """Return everything about a recording as lines.
 
     Args:
-        recording: Which.
+        recording: The recording.
         width: Cells a line may take: sentences go on in the next one, columns that have no room
             are left out. None for all.
         name: Its name, if that is not the opened path.
@@ -304,7 +304,7 @@ def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str
     """Return a line for each of several recordings, with its faults below.
 
     Args:
-        rows: What each holds, or why it cannot be read.
+        rows: Contents of each, or why it is unreadable.
         width: As `as_text` takes it.
     """
     heads = ("recording", "kind", "length", "messages", "transforms", "frames", "trees")

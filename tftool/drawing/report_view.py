@@ -124,8 +124,8 @@ def as_junit(
     """Return a JUnit XML document; times are those of the scenarios' own clocks.
 
     Args:
-        reports: What came of each thing.
-        command: What looked at them.
+        reports: Outcome of each.
+        command: Name of the command that judged them.
         whole: The case that stands for one without results of its own.
     """
     root = ElementTree.Element("testsuites", name=command)

@@ -80,7 +80,7 @@ def solids_of(
 
     Args:
         links: The links; those without a visual shape show their collision shapes.
-        folders: Where meshes may be read.
+        folders: Folders from which meshes may be read.
         prefix: What precedes the name of a link in its frame's.
         most: About as many triangles are made.
 

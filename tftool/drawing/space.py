@@ -38,7 +38,7 @@ class SpaceFrame:
 
     Attributes:
         name: Its name.
-        pose: Where it is in the fixed frame.
+        pose: Pose in the fixed frame.
         parent: The name of its parent; None for a root.
         age: Seconds without news, for one that is not static.
     """
@@ -63,7 +63,7 @@ class SpacePicture:
 
     Attributes:
         fixed: The fixed frame.
-        frames: Those of its tree.
+        frames: Frames of its tree.
         solids: The shapes that move with them.
         lines: Trails and other lines.
         chosen: The frame under the cursor: its name is bold, its solid coloured.

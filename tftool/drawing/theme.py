@@ -112,9 +112,9 @@ def of_age(color: Color, age: float, palette: Palette) -> Color:
     """Return the colour of a silent frame: its own, then amber, then red when it counts as lost.
 
     Args:
-        color: Its own.
+        color: The frame's own colour.
         age: Seconds since its latest stamp last changed; 0 for static frames.
-        palette: Of the screen.
+        palette: Palette of the screen.
     """
     if not is_stale(age):
         return color

@@ -41,7 +41,7 @@ def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False)
     """Format a report as tf2_monitor does.
 
     Args:
-        traffic: What came.
+        traffic: The received messages.
         chain: The pair it is about; None for all frames.
         as_tf2: Whether to print tf2_monitor's own numbers; see `frames.traffic`.
 
@@ -102,9 +102,9 @@ def table(
     of for many periods; those silent for longer still are red.
 
     Args:
-        now: What the clock reads.
+        now: The clock's time.
         began: When listening began.
-        traffic: What came.
+        traffic: The received messages.
         chain: The pair it is about; None for all frames.
         width: Columns there are.
         height: Lines there are; the rest is counted.

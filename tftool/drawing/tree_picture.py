@@ -36,7 +36,7 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
     """Draw a snapshot in one of `FORMATS`.
 
     Args:
-        snapshot: What to draw.
+        snapshot: Values to draw.
         form: The format.
         marks: Faults of frames: ids of the doctor's checks.
 

@@ -31,7 +31,7 @@ def diff(
 
     Args:
         a: Frames, or the path of a file of them.
-        b: What they are compared with.
+        b: The other side.
         mm: Largest distance that a frame may have moved, millimetres.
         deg: How much it may be turned, degrees.
         rate_percent: How much a rate may differ; None where rates do not count.
@@ -52,7 +52,7 @@ def side_of(frames: Comparable, name: str) -> Side:
     """Return frames as one side of a comparison.
 
     Args:
-        frames: What they come from.
+        frames: Their source.
         name: What it is called where it has no name of its own.
 
     Raises:

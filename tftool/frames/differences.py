@@ -67,7 +67,7 @@ class Side:
     """One of the two sets of frames.
 
     Attributes:
-        name: What it is called, for people.
+        name: Its name in messages.
         buffer: Its frames.
         start: The first moment there is data of, nanoseconds.
         joints: The frames whose place a description leaves open.
@@ -84,8 +84,8 @@ class LinkState:
     """One link in one of the sets.
 
     Attributes:
-        parent: What it hangs from, at last.
-        kind: How it behaves.
+        parent: Its last parent.
+        kind: Its kind.
         count: How many samples there are.
         rate: Hertz, by the median of its periods; None if it does not move.
         pose: The child in the parent, where it holds at all times; else None.
@@ -160,9 +160,9 @@ class Differences:
     """All links of both sides.
 
     Attributes:
-        first: What A is called.
-        second: What B is called.
-        tolerance: What counted as a difference.
+        first: Name of A.
+        second: Name of B.
+        tolerance: Tolerance of the comparison.
         links: Every link, by the order of A, then of B.
         start: The first moment of A, from which times are told, nanoseconds.
         shift: Nanoseconds added to stamps of A to find those of B.
@@ -204,7 +204,7 @@ def compare(
     Args:
         first: A.
         second: B.
-        tolerance: What may differ.
+        tolerance: Tolerated difference.
         align_starts: Whether both count from their own start in any case.
 
     Raises:

@@ -28,7 +28,7 @@ class Frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
 
     Attributes:
-        kind: What it was opened from.
+        kind: Kind of the source.
         name: What that is called: "run.mcap", "turtles".
         found: The files it was read from; None for a session.
         log: Every transform as it arrived, of a scenario or a session; else None.
@@ -50,12 +50,12 @@ class Frames:
         """Make frames from opened files; a recording provides its buffer, span, robot and notes.
 
         Args:
-            kind: What it was opened from.
-            name: What that is called.
+            kind: Kind of the source.
+            name: Its name.
             buffer: All that is known of the frames.
             span: First and last stamp; None for static transforms.
-            recording: What they were read from.
-            robot: What they describe.
+            recording: The recording they were read from.
+            robot: The robot.
             log: Every transform as it arrived.
             found: The files they were read from.
             notes: Notes on them, as sentences.

@@ -97,8 +97,8 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
     """Look a pair up at many times.
 
     Args:
-        buffer: Whose frames.
-        target: What the answers are expressed in.
+        buffer: Source of the frames.
+        target: Frame in which the results are expressed.
         source: Frame to look up.
         moments: When to ask; at the stamps of the fastest link between the two if None.
 

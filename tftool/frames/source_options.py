@@ -25,7 +25,7 @@ class RobotOptions:
         """Refuse these options if FROM is not a robot description.
 
         Args:
-            what: What it is, as the beginning of a sentence.
+            what: Name of the source, as the beginning of a sentence.
 
         Raises:
             UsageError: If one was given.
@@ -55,7 +55,7 @@ class RecordingOptions:
         """Refuse options that would change the answer if FROM is not a recording.
 
         Args:
-            what: What it is, as the beginning of a sentence.
+            what: Name of the source, as the beginning of a sentence.
 
         Raises:
             UsageError: If that was given.

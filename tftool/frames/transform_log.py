@@ -37,8 +37,8 @@ class TransformLog:
 
         Args:
             now: When it arrived.
-            transforms: What it carried.
-            authority: Who sent it.
+            transforms: The transforms in it.
+            authority: Its sender.
             is_static: Whether it came on the static topic.
         """
         if self._count >= MOST:

@@ -150,7 +150,7 @@ def rotate(
     """Rotate vectors in place; the repeated x and y are not updated.
 
     Args:
-        quaternions: By what.
+        quaternions: Rotations to apply.
         factor: 2 over the square of the quaternions' lengths.
         vectors: Vectors to turn.
         cross: Is overwritten.

@@ -41,7 +41,7 @@ class MessageField:
     """One field of a class.
 
     Attributes:
-        name: What it is called.
+        name: Its name.
         kind: Its element's type: a primitive's name, or a message class.
         size: None for a single value, a number for a fixed array, -1 for a sequence.
         bound: The most elements a bounded sequence may hold, None without a bound.

@@ -42,7 +42,7 @@ def type_hash(schema: Schema, full: str) -> str:
     """Return the hash of a message, a service, or another structure.
 
     Args:
-        schema: Where its definition is.
+        schema: Schema with the definition.
         full: Its full name: "std_msgs/msg/String", "std_srvs/srv/Empty",
             "turtlesim/action/RotateAbsolute_SendGoal".
 

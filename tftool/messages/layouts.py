@@ -42,7 +42,7 @@ class Layout:
     """Rules of one way to serialise messages.
 
     Attributes:
-        name: What it is called in messages to people.
+        name: Its name in messages.
         header: Bytes before the first field when we write.
         headers: The byte order that each header we read announces; empty without a header.
         alignment: The largest power of two that positions are rounded up to; 1 for none.
@@ -171,7 +171,7 @@ class Writer(bytearray):
 
     Attributes:
         before: Bytes in front of those it holds.
-        parts: Those bytes.
+        parts: Parts of the message so far.
     """
 
     # Defaults of the class and no constructor: one is made for every message.

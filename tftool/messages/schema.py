@@ -67,7 +67,7 @@ class FieldDefinition:
     """One field of a structure.
 
     Attributes:
-        name: What it is called.
+        name: Its name.
         type: Its element's type: a primitive, or a structure's full name.
         size: None for a single value, a number for a fixed array, -1 for a sequence.
         bound: The most elements a bounded sequence may hold, None without a bound.
@@ -89,7 +89,7 @@ class Structure:
 
     Attributes:
         name: Its full name, "geometry_msgs/msg/Pose".
-        fields: What it holds.
+        fields: Its fields.
         constants: Name, type and text of each constant.
     """
 

@@ -163,7 +163,7 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
     """Copy rows of equal length from a buffer.
 
     Args:
-        buffer: Where the rows lie.
+        buffer: Buffer with the rows.
         starts: Where each begins, shape (n,); all of it lies in the buffer.
         width: Bytes of a row, a multiple of 8.
 

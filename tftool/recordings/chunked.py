@@ -75,7 +75,7 @@ class MessageHead(NamedTuple):
         channel: Its channel's number.
         log_time: When it was received, nanoseconds.
         first: Where its payload begins.
-        last: Where it ends.
+        last: Its end.
         publish_time: When it was sent.
         sequence: Its number at its publisher.
     """

@@ -233,7 +233,7 @@ class Container(Protocol):
 
         Args:
             wanted: Numbers of streams.
-            progress: Is told how far it has come.
+            progress: Called with the progress.
             head: How many bytes of each message are needed, all if None; more may come.
         """
 

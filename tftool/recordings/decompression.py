@@ -100,7 +100,7 @@ class _Coming:
     """A piece being decompressed.
 
     Attributes:
-        room: Where to.
+        room: Memory to write to.
         future: Who tells when it is there.
     """
 

@@ -127,7 +127,7 @@ def oddities(
     """Return oddities of a recording's transforms as sentences, without damage.
 
     Args:
-        recording: Which.
+        recording: The recording.
         edges: Its edges in numbers.
         forest: Its trees.
     """

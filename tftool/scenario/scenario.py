@@ -138,7 +138,7 @@ class Outcome:
         line: Its line in the scenario's file.
         when: When it was to hold: "by 20 s".
         expected: What the answer had to be: "below 0.5 m".
-        found: What it was.
+        found: Sentence about the error.
         at: When that was found, nanoseconds since the start; None if its time never came.
         ok: Whether it holds.
     """

@@ -107,7 +107,7 @@ class NamedOffers(Generic[T]):
         """Add a server; call the returned function to remove it.
 
         Args:
-            name: What it is called.
+            name: Its name.
             offer: Who answers.
             shares: Whether another of this process may have that name already.
 

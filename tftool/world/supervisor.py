@@ -78,7 +78,7 @@ async def beside(
     A helper that returns early is no reason to end the work.
 
     Args:
-        work: What to do.
+        work: The remedy.
         helper: What runs meanwhile; it begins first.
         on_cancel: Called when both are to be cancelled from outside, before either is.
 

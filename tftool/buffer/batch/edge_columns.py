@@ -143,7 +143,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
 
     Args:
         times: Shape (n,).
-        name: What they are called in a refusal.
+        name: Their name in an error message.
 
     Raises:
         TypeError: If they are no whole numbers.

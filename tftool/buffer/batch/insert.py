@@ -67,8 +67,8 @@ class CheckedRows:
     Attributes:
         stamps: Nanoseconds, shape (n,).
         samples: Position and canonical unit quaternion, shape (n, 7).
-        reasons: Which rows are objected to, by tf2's code.
-        validated: Which rows are not.
+        reasons: Masks of invalid rows, by tf2's code.
+        validated: Mask of the valid rows.
     """
 
     def __init__(
@@ -130,7 +130,7 @@ def insert(
     """Insert many samples of one link.
 
     Args:
-        tree: Where to.
+        tree: The tree to insert into.
         log: Takes the sentences about refused samples.
         max_frames: How many names there may be.
         link: Parent, child and authority.
@@ -196,7 +196,7 @@ def adopt(
     """Give a new child a history that shares recorded samples, without a copy.
 
     Args:
-        tree: Where to.
+        tree: The tree to insert into.
         max_frames: How many names there may be.
         link: Parent, child and authority.
         records: As a history keeps them, shape (n, 8): stamps and seven doubles each.

@@ -41,7 +41,7 @@ class SampleColumns:
         stamps: Nanoseconds, int64, shape (n,), in order.
         parents: The parent of each sample, `str` objects, shape (n,).
         poses: x, y, z in metres and a unit quaternion x, y, z, w, shape (n, 7).
-        authorities: Who sent each sample, `str` objects, shape (n,).
+        authorities: Sender of each sample, `str` objects, shape (n,).
     """
 
     frame: str

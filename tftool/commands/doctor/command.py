@@ -69,7 +69,7 @@ class CheckSelection:
         ignore: Checks or areas left out.
         limits: Other thresholds: "gap.seconds=2".
         cache_time: How far back the listener remembers.
-        fixed_frame: Where sensors are to be placed.
+        fixed_frame: Frame in which sensors are placed.
     """
 
     select: tuple[str, ...]

@@ -112,8 +112,8 @@ class Echo:
         """Prepare to ask.
 
         Args:
-            world: Whose frames.
-            pair: What to look up.
+            world: Source of the frames.
+            pair: The pair to look up.
             printer: How to print it.
             period: Nanoseconds between two answers.
             count: How many answers to print; None for no end.

@@ -39,8 +39,8 @@ def sweep(
 
     Args:
         sources: The recordings; those that the output holds already are passed over.
-        output: Where rows go; None to get them back.
-        workers: Who works.
+        output: File for the rows; None to return them.
+        workers: The executor.
         task: Work to do for each.
 
     Returns:

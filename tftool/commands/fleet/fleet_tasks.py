@@ -78,7 +78,7 @@ class FleetTask(Protocol):
         """Return the rows of one recording; an unreadable one gives a row too, and raises nothing.
 
         Args:
-            source: What to call it.
+            source: Its name.
             place: Where it is.
         """
 
@@ -98,10 +98,10 @@ class Examination:
     """Task of `doctor`: a row for each finding.
 
     Attributes:
-        settings: What the listener is like.
+        settings: Settings of the listener.
         select: Checks to run.
         ignore: Checks to leave out.
-        scope: What of a recording is looked at.
+        scope: Part of a recording to examine.
     """
 
     settings: "Settings"

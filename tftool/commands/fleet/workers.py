@@ -24,7 +24,7 @@ class Workers(Protocol):
     Attributes:
         count: How many recordings are worked on at once.
         window: How many are handed over at once.
-        place: Where a recording is, for the workers.
+        place: A recording's path for the workers.
     """
 
     count: int
@@ -93,7 +93,7 @@ class Cluster:
     """A cluster of Dask workers.
 
     Args:
-        address: Of its scheduler.
+        address: Address of its scheduler.
     """
 
     count = 1

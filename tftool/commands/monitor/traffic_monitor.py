@@ -134,7 +134,7 @@ async def watch_session(
     The last report is at the end of that time, which begins once the frames are connected.
 
     Args:
-        world: Where to listen.
+        world: World to listen to.
         report: The report to fill and to write.
         period: Nanoseconds between two reports.
         lasting: How long, in nanoseconds; None for ever.

@@ -104,7 +104,7 @@ class Connection:
         read_only: Whether to look only.
         robot: Joint positions, xacro arguments, a description for a recording.
         recording: How a recording is read.
-        providers: Where its clocks and links come from.
+        providers: Sources of its clocks and links.
     """
 
     command: str = "tftool"

@@ -37,10 +37,10 @@ def evidence_from(
     A recording is read whole, a scenario played to its end, a session listened to.
 
     Args:
-        connection: What the command's options say.
+        connection: The command's options.
         word: What FROM names; None for the session that runs, else the turtle world.
         lasting: How long to listen, nanoseconds; the usual time when None.
-        scope: What of a recording is looked at.
+        scope: Part of a recording to examine.
         look: Says in lines what shows so far in a session, while it is listened to.
 
     Raises:

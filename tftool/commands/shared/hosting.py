@@ -63,7 +63,7 @@ def join_or_host(
     """Join the running session, or become its host; the decision is locked against other processes.
 
     Args:
-        connection: What the command's options say.
+        connection: The command's options.
         word: The given name, which is hosted; None for the session that runs.
         needs_turtles: Whether only a session with a turtle simulator will do.
         cache_time: How far back the buffer of a joined world remembers.
@@ -142,7 +142,7 @@ def open_session(
     """Return the world for a command; a notice on stderr says if it was created.
 
     Args:
-        connection: What the command's options say.
+        connection: The command's options.
         word: What FROM names, which is hosted; None for the session that runs.
         simulated: Whether a hosted world lives on simulated time, from its beginning on.
         head_start: How much of a scenario on the wall clock is lived through at once.
@@ -256,7 +256,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
     """Join the running session; without one, host an empty world for a user's program.
 
     Args:
-        connection: What the command's options say.
+        connection: The command's options.
         simulated: Whether a hosted world lives on simulated time.
         because: Why a world is hosted, for people.
 

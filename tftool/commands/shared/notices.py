@@ -28,7 +28,7 @@ def complain(who: str, sentence: str) -> None:
 
     Args:
         who: The command.
-        sentence: What it was.
+        sentence: Sentence about the error.
     """
     notice(f"{who}: {visible_lines(sentence.rstrip())}")
 

@@ -85,7 +85,7 @@ def run_app(
     Args:
         scene: The scene to show.
         life: Lives the world through; it is cancelled when the user quits.
-        driver: Who takes the keys.
+        driver: The node that receives keys.
         setting: How to show it.
         idle: Draws while no key is pressed, where something does.
 

@@ -51,7 +51,7 @@ def open_from(
     runs has no past: with a moment it is refused.
 
     Args:
-        connection: What the command's options say.
+        connection: The command's options.
         place: FROM; None for the session that runs.
         lasting: What --for says: how long to listen or to play.
         until: How far to play a scenario, where --for does not say; see `open_frames`.

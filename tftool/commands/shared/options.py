@@ -199,7 +199,7 @@ def option(words: str, *names: str, metavar: str | None = None, panel: str | Non
     """Return an option of a command.
 
     Args:
-        words: What the help says of it.
+        words: Text of the help.
         names: What it is called; by its parameter where none is given.
         metavar: Name of its value in the help.
         panel: The heading it is listed under; None for that of all others.
@@ -223,9 +223,9 @@ def seconds_option(
     The help does not say its default, which would be in nanoseconds: the words do.
 
     Args:
-        words: What the help says of it.
+        words: Text of the help.
         names: What it is called; by its parameter where none is given.
-        check: What number it may be.
+        check: Check of the number.
         panel: The heading it is listed under; None for that of all others.
     """
     return typer.Option(

@@ -29,7 +29,7 @@ def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> Non
     """Handle a key: pause, next message, seek, rate, quit; ignore other keys.
 
     Args:
-        player: Who plays.
+        player: The player.
         key: The key.
         marks: Findings that "n" goes to, one after the other.
     """
@@ -70,7 +70,7 @@ class Display:
         """Start without a line.
 
         Args:
-            player: Who plays.
+            player: The player.
             clock: When to draw.
             marks: Findings of the doctor.
         """

@@ -29,7 +29,7 @@ def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = Non
     """Print a world's log from now on.
 
     Args:
-        world: Which.
+        world: The world.
         label_of: Names the program a line comes from, where there are several.
     """
 

@@ -49,7 +49,7 @@ class RecordingRun:
         """Make a run of a recorder.
 
         Args:
-            recorder: What listens.
+            recorder: The recorder.
             rolling: Writer of the recording.
             clock: When to look.
             finding: Which finding ends it, by its id; None for none.

@@ -39,7 +39,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
     """Press keys, each after the effect of the last one is complete.
 
     Args:
-        connection: What the command's options say.
+        connection: The command's options.
         turtle: The one they drive.
         keys: Words between blanks: "up up left g".
 

@@ -205,7 +205,7 @@ async def _show(
 
     Args:
         page: The page.
-        name: Whose frames it shows.
+        name: Name of the source it shows.
         waiting: Ends when the time is over.
         open_browser: Whether to open it.
     """

@@ -111,8 +111,8 @@ def export(
 
     Args:
         frames: Opened frames, a recording, a buffer, or a robot description.
-        target: What poses are expressed in; None to write links.
-        source: Whose poses they are.
+        target: Frame in which poses are expressed; None to write links.
+        source: Frame whose poses they are.
         path: Where to; its end says what: .tum .kitti .csv .npz .parquet of pairs,
             .urdf .launch.py .launch.xml .launch.yaml .sh .mcap of links.
         pairs: Several of (target, source), in CSV, npz and Parquet.
@@ -121,14 +121,14 @@ def export(
         end: Leave out everything after, nanoseconds.
         period: Ask so often, nanoseconds; at the stamps of the fastest link if None.
         stamps: Ask at these stamps instead, nanoseconds, shape (n,).
-        decimals: See `Style`, as what follows.
+        decimals: See `Style`; also for the following ones.
         rpy: Add roll, pitch and yaw to CSV and Parquet.
         foxglove: Write MCAP as foxglove.FrameTransforms.
         with_moving: Write links that move to a URDF, as floating joints.
         root: Write only the frames below this one.
         time: The moment of links that move, nanoseconds.
         force: Whether the file may replace an existing file.
-        progress: Is told how far it is, in bytes.
+        progress: Called with the progress in bytes.
 
     Raises:
         InputError: If it cannot be written.

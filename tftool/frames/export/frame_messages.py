@@ -29,11 +29,11 @@ def write_frames(
     """Write a buffer's contents: statics first, then moving links in order of stamps.
 
     Args:
-        buffer: Whose transforms.
+        buffer: Source of the transforms.
         path: Where to; its name ends in ".mcap".
         foxglove: Whether as foxglove.FrameTransforms in protobuf, not as tf2_msgs/TFMessage.
         force: Whether it may replace an existing file.
-        progress: Is told how far it is.
+        progress: Called with the progress.
 
     Returns:
         How many transforms were written.

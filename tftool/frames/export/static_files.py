@@ -37,7 +37,7 @@ def fixed_links(
     """Return the static links in the order in which their frames were first seen.
 
     Args:
-        buffer: Whose frames.
+        buffer: Source of the frames.
         with_moving: Whether to add those that move, with their pose at one moment.
         time: That moment, nanoseconds; 0 for each link's latest.
         root: Take only the frames below this one; all if None.

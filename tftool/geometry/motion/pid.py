@@ -77,10 +77,10 @@ def step(
 
     Args:
         gains: How to answer.
-        memory: What the previous step left; `FRESH` at first.
-        measured: Where the quantity is.
+        memory: State after the previous step; `FRESH` at first.
+        measured: Measured value.
         interval: Seconds since the previous step, above zero.
-        setpoint: Where the quantity should be.
+        setpoint: Wanted value.
         angle: Whether the quantity is an angle in radians, whose changes and
             errors go the short way round.
 

@@ -62,7 +62,7 @@ def steer(
 
     Args:
         law: How to steer.
-        memory: What the previous step left; `FRESH` at first.
+        memory: State after the previous step; `FRESH` at first.
         x: How far the goal lies ahead, in metres.
         y: How far the goal lies to the left, in metres.
         interval: Seconds since the previous step.

@@ -83,7 +83,7 @@ def advance(start: Placement, forward: float, sideways: float, turn: float) -> P
     """Compute one update: turn first, then move along the new heading.
 
     Args:
-        start: Where the body is.
+        start: Pose before the update.
         forward: Speed along the heading, in m/s.
         sideways: Speed to the left of the heading, in m/s.
         turn: Turn rate in rad/s.

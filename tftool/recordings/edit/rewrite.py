@@ -76,7 +76,7 @@ def edit(
         force: Whether it may replace existing files.
         dry_run: Whether only to find out what would be done.
         ros2: Whether an MCAP file gets ROS 1's messages converted to ROS 2's.
-        progress: Is told how far it has come.
+        progress: Called with the progress.
 
     Raises:
         UsageError: If the changes cannot be made to these recordings, one is named twice, or the

@@ -61,7 +61,7 @@ class PoseOptions:
         """Refuse these options if FROM is not a pose file.
 
         Args:
-            what: What it is, as the beginning of a sentence.
+            what: Name of the source, as the beginning of a sentence.
 
         Raises:
             UsageError: If one was given.

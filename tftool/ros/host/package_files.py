@@ -22,7 +22,7 @@ class Package:
     """The sources of one package.
 
     Attributes:
-        name: What it is called.
+        name: Its name.
         path: Its folder; stands for its share directory too.
         scripts: Its console scripts: name to "module:function".
         installed: Files that its setup.py installs into its share directory at another place

@@ -124,7 +124,7 @@ class PackedBlock:
         Args:
             header: JSON in front of it.
             most: How many bytes it may take.
-            progress: Is told how far it has come.
+            progress: Called with the progress.
             level: How hard to try, from 1 to 9.
 
         Raises:

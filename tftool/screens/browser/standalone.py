@@ -80,7 +80,7 @@ def standalone_page(
         data: What it shows.
         most: From how many bytes on numbers are rounded, to a micrometre and 1e-7 in
             quaternions. A rounded value may still be larger.
-        progress: Is told how far it has come.
+        progress: Called with the progress.
 
     Raises:
         TftoolError: If the page was not built, which happens in a source tree only.

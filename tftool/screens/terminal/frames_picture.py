@@ -175,7 +175,7 @@ class FrameTrails:
     """Trails of frames in one fixed frame, by repeated lookups.
 
     Args:
-        buffer: Whose frames.
+        buffer: Source of the frames.
 
     Attributes:
         fixed: What they are followed in.

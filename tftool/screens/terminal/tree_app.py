@@ -111,7 +111,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     """Screen of `tftool tree --watch`.
 
     Args:
-        world: Whose frames.
+        world: Source of the frames.
         marks: Finds faults of frames.
         setting: What the terminal can show.
 

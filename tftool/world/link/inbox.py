@@ -61,7 +61,7 @@ class Inbox:
         """Queue `callback(argument)` for the loop (from any thread).
 
         Args:
-            callback: What to call.
+            callback: Function to call.
             argument: With what.
             size: Bytes a message carries; None for events, which are never dropped.
         """

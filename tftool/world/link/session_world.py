@@ -71,7 +71,7 @@ class Session:
         """Do some work while the world runs, on the world's clock.
 
         Args:
-            work: What to do.
+            work: The remedy.
             on_interrupt: Called when a signal ends it, before anything of the world ends.
 
         Returns:

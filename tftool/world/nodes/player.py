@@ -49,7 +49,7 @@ class Player(Node):
 
     Attributes:
         rate: How many of the recording's seconds pass in a real one.
-        is_paused: Whether it stands still.
+        is_paused: Whether it is paused.
         laps: How often it has started over.
     """
 

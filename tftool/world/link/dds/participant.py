@@ -220,7 +220,7 @@ class Participant:
         """Return a reader of one of the library's built-in topics.
 
         Args:
-            topic: Which one.
+            topic: The topic.
             on_change: Called, on a thread of the library's, when there is something to take.
         """
 
