@@ -16,7 +16,7 @@ from tftool.frames.calibration.motion import BodyMotion, Floats
 from tftool.geometry import rigid_arrays as batch
 
 ROUNDS: Final = 12
-_CLIP: Final = 3.0
+_CLIP: Final = 5.0
 """Residuals beyond so many deviations lose their weight."""
 
 MOUNT, SHIFT, DRIFT, SCALE, JOIN = slice(0, 6), 6, 7, 8, slice(9, 15)
@@ -168,7 +168,19 @@ class _Residuals:
         jacobian[:, 3:, 9:12] = matrices(joins) @ cross(problem.positions)
         jacobian[:, 3:, 12:15] = -np.eye(3)
         self.jacobian = jacobian
+        self._separate(of_a, of_x)
         self._weigh()
+
+    def _separate(self, of_a: Floats, of_x: Floats) -> None:
+        """Take out of the translations what the measured rotations explain of them.
+
+        An error of A's rotation swings the arm to B and so shows twice: in the rotation and, by
+        the lever, in the translation. Half of a rotation residual is expected to be A's. Without
+        the shared part the rows are independent of each other, as least squares assumes.
+        """
+        lever = of_a @ (-0.5 * cross(self.fit.shift[None])[0] @ of_x)
+        self.errors[:, 3:] -= np.einsum("nij,nj->ni", lever, self.errors[:, :3])
+        self.jacobian[:, 3:] -= lever @ self.jacobian[:, :3]
 
     def _with_joins(self, problem: Problem, fit: Fit, turns: Floats, places: Floats) -> Fit:
         """Initialise missing Y of segments with their mean."""
