@@ -147,9 +147,9 @@ def view(
     """Show frames in 3-D: in a notebook below the cell, elsewhere by `.save("view.html")`.
 
     Args:
-        shown: Whose frames: all that a buffer remembers, a whole recording, opened frames.
+        shown: Source of the frames: a buffer, a recording, opened frames.
         robot: A robot to draw; that of the recording if None.
-        meshes: Folders in which its meshes lie.
+        meshes: Folders of its meshes.
         height: How tall it is shown, pixels.
 
     Returns:

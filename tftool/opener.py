@@ -73,8 +73,8 @@ def open_frames(
     Args:
         place: Source of the frames, ws://robot:8765 too; None for the session that runs.
         listen_for: How long to listen to a session, seconds.
-        until: Up to which second to play a scenario; 5 s if None, all of it if infinite.
-        margin: How long to play on behind it, seconds, for what arrives after its stamp.
+        until: Second up to which to play a scenario; 5 s if None, all of it if infinite.
+        margin: Seconds to play on after it, for transforms that arrive after their stamp.
         cache_time: How far back the buffer of a scenario or session remembers; all if None.
         joints: Positions of a description's joints, radians or metres.
         arguments: Values of xacro arguments.

@@ -17,7 +17,7 @@ def large_pages(size: int, end: int) -> "mmap.mmap | None":
 
     Args:
         size: How many bytes it has at least. Those that are never written cost nothing.
-        end: No large page begins at this byte or behind it.
+        end: First byte at which no large page may begin.
     """
     if _HUGE is None:
         return None

@@ -33,8 +33,8 @@ class Listeners(Generic[*Values]):
         """Make an empty list of listeners.
 
         Args:
-            report: Takes what a listener raises, after all others were called; Python's own
-                log unless given.
+            report: Called with an exception of a listener, after all others were called; without
+                it the exception goes to Python's log.
         """
         self._report: Report = report or _report_to_logging
         # Replaced and never changed: a list that changes while it is walked skips entries.

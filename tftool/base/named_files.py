@@ -34,7 +34,7 @@ def open_named(path: Path) -> BinaryIO:
     """Open a file, or read a pipe to its end, such as a shell's `<(command)`.
 
     Raises:
-        OSError: If it cannot be opened, no process writes into the pipe, or too much comes.
+        OSError: If it cannot be opened, no process writes into the pipe, or it is too large.
     """
     file, mode = _opened(path)
     if stat.S_ISREG(mode):
@@ -57,7 +57,7 @@ def read_named(path: Path) -> bytes:
     """Read a whole file, or a pipe to its end.
 
     Raises:
-        OSError: As of `open_named`.
+        OSError: As in `open_named`.
     """
     with open_named(path) as file:
         return file.read()
@@ -67,7 +67,7 @@ def read_named_text(path: Path) -> str:
     """Read a whole file or pipe as UTF-8 text, with universal newlines.
 
     Raises:
-        OSError: As of `open_named`.
+        OSError: As in `open_named`.
         UnicodeDecodeError: If it is no UTF-8.
     """
     with io.TextIOWrapper(open_named(path), encoding="utf-8") as file:

@@ -47,7 +47,7 @@ def require_descriptors() -> None:
     """Raise the limit of open files if needed; some libraries crash when it is reached.
 
     Raises:
-        OSError: If not; it says what to do.
+        OSError: If not; the message names the remedy.
     """
     probes: list[int] = []
     try:

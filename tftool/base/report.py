@@ -10,7 +10,7 @@ class Judgement:
     Attributes:
         subject: The subject, a sentence: "by 20 s: distance from a to b below 0.5 m".
         ok: Whether it is as it should be.
-        expected: What should have been: "below 0.5 m".
+        expected: Description of a right answer: "below 0.5 m".
         found: The result.
         at: Time of the check in seconds from the start; None if it was not reached.
         line: Line of the file that asked for it; 0 when there is none.
@@ -30,12 +30,12 @@ class Report:
 
     Attributes:
         name: Name of the scenario.
-        file: The file behind it, as it was given.
+        file: Name of its file, as it was given.
         judgements: One for each thing, in order.
         lasted: Seconds it took, on its own clock.
         failure: Why it could not be looked at to the end; empty when it could.
         warnings: Warnings about a scenario that plays: sentences.
-        why: What the doctor finds in it where it failed: sentences, the cause first.
+        why: Findings of the doctor if it failed: sentences, the cause first.
     """
 
     name: str

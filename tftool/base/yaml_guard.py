@@ -45,7 +45,7 @@ def events(
         most_values: Values it may have, with every alias written out.
 
     Raises:
-        TooMuch: If it is out of bounds; the mark says where.
+        TooMuch: If it exceeds a limit; the mark gives the place.
         yaml.YAMLError: If it is no YAML.
     """
     if len(text) > largest:
@@ -114,7 +114,7 @@ def load(text: str, loader: Any = yaml.SafeLoader) -> Any:
     """Load the plain value of a YAML text.
 
     Raises:
-        yaml.YAMLError: If it is no YAML, out of bounds, or tagged as what it is not.
+        yaml.YAMLError: If it is no YAML, exceeds a limit, or has a wrong tag.
     """
     node = compose(text, loader)
     return None if node is None else construct(node, loader)

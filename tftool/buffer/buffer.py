@@ -122,8 +122,8 @@ class Buffer(Door):
                 Without one, Python's own `logging` is.
             max_frames: Limit of frame names, as they may come from outside.
             max_name: How many bytes a name may have, likewise.
-            report: Takes what a listener or the callback of a request raises, and the name of
-                its owner; without one, that is an error in the log.
+            report: Called with an exception of a listener or of a request's callback, and its
+                owner's name; without one, that is an error in the log.
 
         Raises:
             TypeError: If `cache_time` is not a whole number.
@@ -164,7 +164,7 @@ class Buffer(Door):
             authority: Its sender.
 
         Returns:
-            Whether it was taken. If not, the log was told why, and nothing is lost.
+            Whether it was accepted. If not, the reason is in the log, and nothing is lost.
 
         Raises:
             TypeError: If the stamp is not a whole number.
@@ -209,7 +209,7 @@ class Buffer(Door):
         """Set a static link, valid at all times; it replaces the child's previous samples.
 
         Returns:
-            Whether it was taken. If not, the log was told why, and nothing is lost.
+            Whether it was accepted. If not, the reason is in the log, and nothing is lost.
 
         Raises:
             TypeError: If the stamp is not a whole number.
@@ -295,7 +295,7 @@ class Buffer(Door):
             authority: Their sender.
 
         Returns:
-            Which rows were taken, and why the others were not; true if all were. The log
+            The accepted rows and the reasons for the others; true if all were accepted. The log
             has the first ten.
 
         Raises:
@@ -337,7 +337,7 @@ class Buffer(Door):
             authority: Their sender.
 
         Returns:
-            Which rows were taken, and why the others were not; None if all were.
+            The accepted rows and the reasons for the others; None if all were accepted.
 
         Raises:
             TypeError: If the records are no rows of eight whole numbers.
@@ -361,7 +361,7 @@ class Buffer(Door):
             limit: Bytes, for the samples alone.
 
         Returns:
-            Which links were cut.
+            The shortened links.
         """
         links = [
             (frame, frame.link)
@@ -500,7 +500,7 @@ class Buffer(Door):
             target_frame: Frame in which the results are expressed.
             source_frame: Frame to look up.
             times: Whole nanoseconds, shape (n,), in any order; 0 for the latest.
-            missing: What becomes of a moment for which there is no pose: "raise", or "nan"
+            missing: Answer for a moment that has no pose: "raise", or "nan"
                 for a row of NaN that is not `valid`. A wrong name raises in any case.
             threads: How many to work with; None for one a core where that pays.
 
@@ -862,7 +862,7 @@ def adopt_records(
         Whether they were taken, all of them. Nothing was done if not.
 
     Raises:
-        TypeError: As there.
+        TypeError: As in `set_records`.
     """
     from tftool.buffer.batch import insert
 

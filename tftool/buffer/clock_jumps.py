@@ -20,7 +20,7 @@ def must_clear(
 
     Args:
         change: How far the clock jumped; negative backward. Forward never clears.
-        source_changed: Whether time now comes from somewhere else, which always clears.
+        source_changed: Whether the source of time changed, which always clears.
         least_fall: How far back is too far.
     """
     return source_changed or change <= -least_fall

@@ -157,11 +157,11 @@ class FrameTree:
     """All frames by name and by number, in any number of trees.
 
     Attributes:
-        frames: In the order in which they were first registered.
+        frames: Frames in the order of their first registration.
         numbers: Each frame's place in that order.
-        senders: By name, each frame whose link moves: for their next samples.
+        senders: Frames whose links move, by name: for their next samples.
         authorities: Every name that a sample was sent under, in the order of their numbers.
-        limit: Nanoseconds for which samples are kept.
+        limit: Age up to which samples are kept, nanoseconds.
         max_name: How many bytes a name may have.
     """
 
@@ -363,7 +363,7 @@ class FrameTree:
         Stamps of 0 do not count: that is how links that hold at all times drop out.
 
         Returns:
-            How it ended (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 where no link
+            The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 if no link
             has one.
         """
         if target == source:

@@ -400,7 +400,7 @@ class History(Fields):
                 one and of tf2's sign.
 
         Returns:
-            TOO_OLD if it lies further back than the limit, KNOWN if that very sample is
+            TOO_OLD if it is older than the limit, KNOWN if that very sample is
             there, PARENT_CHANGED if it changes which parents the link has or had, else STORED.
             NEEDS_CHECK, and nothing was done, if the stamp is no `int`, or a number is none.
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING or not IS_NATIVE:
         Attributes:
             _paths: The solver's.
             _senders: The tree's.
-            _listening: Those that each accepted sample is told to.
+            _listening: Functions called with each accepted sample.
             _pending: Requests that wait, by handle.
         """
 

@@ -24,7 +24,7 @@ class Path(NamedTuple):
     Attributes:
         up: Links from the source upward.
         down: Links from the target upward.
-        moving: Those of them that are not static.
+        moving: The links that are not static.
     """
 
     up: tuple[Link, ...]

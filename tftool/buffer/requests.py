@@ -47,7 +47,7 @@ class Requests:
     However many wait, a change costs nothing to those that wait for other frames.
 
     Attributes:
-        pending: By handle.
+        pending: Waiting requests by handle.
     """
 
     __slots__ = ("_examine", "_last", "_watchers", "pending")
@@ -85,7 +85,7 @@ class Requests:
         """Check every request that waits for one of these frames again, oldest first.
 
         Returns:
-            What callbacks raised; it kept no other from being called.
+            Exceptions of callbacks; all others were called nevertheless.
         """
         due: set[int] = set()
         for frame in frames:

@@ -70,7 +70,7 @@ class Snapshot:
     Attributes:
         now: The clock's time.
         at: The moment shown; 0 for the latest data of every chain.
-        frames: In the order in which their names first came up, roots included.
+        frames: Frames, roots included, in the order in which their names appeared.
     """
 
     now: Stamp

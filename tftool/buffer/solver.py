@@ -24,7 +24,7 @@ class Solver:
     """Solver of lookups between two frames.
 
     Attributes:
-        paths: By target and then by source; all dropped when a link leads elsewhere than before.
+        paths: Paths by target and then by source; cleared when a frame gets another parent.
     """
 
     __slots__ = ("_cache_time", "_kept", "_tree", "paths")
@@ -39,7 +39,7 @@ class Solver:
         """Return the pose of source in target and its time, by walking the trees.
 
         Raises:
-            TransformException: As `Buffer.lookup_transform` says.
+            TransformException: As in `Buffer.lookup_transform`.
         """
         time, path, _ = self.way(target, source, time)
         pose = path.solve(time)
@@ -52,7 +52,7 @@ class Solver:
         Keeps the path for the next time where that is possible; whether it did is told last.
 
         Raises:
-            TransformException: As `Buffer.lookup_transform` says.
+            TransformException: As in `Buffer.lookup_transform`.
         """
         trees = self._tree
         if target == source:

@@ -139,8 +139,8 @@ class Traffic:
     """Traffic of all received transforms, by frame and by publisher.
 
     Attributes:
-        links: By frame, in the order of arrival.
-        senders: By authority, in the order of arrival.
+        links: Links by frame, in the order of arrival.
+        senders: Senders by authority, in the order of arrival.
     """
 
     def __init__(self) -> None:

@@ -49,7 +49,7 @@ def full(
     another point element by element instead of by a cross product. `twist` is right.
 
     Raises:
-        TransformException: What the lookups it is worked out from are refused with.
+        TransformException: If a lookup it is computed from is refused.
         TypeError: If a moment or the interval is not a whole number.
     """
     # Times run through float seconds as they do in tf2, which rounds them the same way.
@@ -79,7 +79,7 @@ def twist(
     The mean over `interval` around `time`, or over what part of it the buffer holds.
 
     Raises:
-        TransformException: As the lookups of its two ends.
+        TransformException: If a lookup of its two ends is refused.
         TypeError: If a moment or the interval is not a whole number.
         ValueError: If the interval is not positive.
     """

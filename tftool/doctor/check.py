@@ -37,21 +37,21 @@ class Check:
     Attributes:
         id: Its name, for ever.
         area: Its subject.
-        severity: How bad what it finds is; a hit may say otherwise.
-        summary: What is wrong, in one line and in general: the docstring of its function.
+        severity: Severity of its findings; a hit may state another.
+        summary: The fault in general, in one line: the docstring of its function.
         run: Its function.
         rule: When it speaks, with its thresholds as {names}.
-        headline: What is wrong, with a finding's facts; `{where}` names all of them,
-            `{concerned:one|many}` chooses by how many they are, as of any number or list.
+        headline: The fault with a finding's facts; `{where}` names all of them,
+            `{concerned:one|many}` chooses a word by their number, as for any number or list.
         detail: A line of evidence for each hit.
         consequence: Its consequence.
-        fixes: What to do, beside what the hit itself says.
-        causes: What people found to be behind it, the most frequent first.
+        fixes: Remedies besides those of the hit itself.
+        causes: Causes that people found, the most frequent first.
         links: Threads about it, and standards.
         limits: Its thresholds by name; seconds, metres, radians, shares, counts.
-        needs: Which keys of `NEEDS` it cannot run without.
+        needs: Keys of `NEEDS` without which it cannot run.
         why: Why the rule and its thresholds are as they are; empty where that is plain.
-        because_of: Which findings explain this one: what both must share, and the ids of the
+        because_of: Findings that explain this one: what both must share, and the ids of the
             causes. "edge", "child", "frame": at least one; "stream": an edge or a topic;
             "path": an edge of the way to the sensor, or the topic; "anything": nothing.
             The first that fits counts.

@@ -392,7 +392,7 @@ class Waits:
     """Waiting times until each message of a topic can be placed in a frame.
 
     Attributes:
-        waits: Nanoseconds after its arrival, shape (n,); NEVER for what never can be placed.
+        waits: Time from arrival until it can be placed, nanoseconds, shape (n,); or NEVER.
         link: The edge that holds it up most.
         links: The moving edges on the way.
     """
@@ -563,7 +563,7 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
 
     Args:
         link: The link that holds up a lookup.
-        period: How often it comes, nanoseconds; 0 where that is not known.
+        period: Its period, nanoseconds; 0 if unknown.
         later: How much longer after its stamp it arrives than the message, nanoseconds.
         wait: How long the consumer waits, seconds.
     """

@@ -48,8 +48,8 @@ class Evidence:
         name: Its name in messages.
         kind: Kind of source: "MCAP", "scenario".
         transforms: In columns, with log times.
-        headers: Of messages, by topic.
-        clock: What `/clock` read and when it was received, nanoseconds.
+        headers: Headers of messages, by topic.
+        clock: Times of `/clock` and of their reception, nanoseconds.
         topics: Every topic.
         publishers: Every stream of messages.
         damage: Unreadable parts, as sentences.
@@ -93,9 +93,9 @@ class Described:
     """Outcome of the search for a robot description.
 
     Attributes:
-        robot: What it describes; None where there is none that can be read.
+        robot: The described robot; None if no description can be read.
         mistakes: Mistakes in it, as sentences.
-        namespace: That of its topic, "/arm" for "/arm/robot_description".
+        namespace: Namespace of its topic, "/arm" for "/arm/robot_description".
     """
 
     robot: Robot | None = None
@@ -153,7 +153,7 @@ class Scope:
         described: The robot's description; None for the recorded one, if any.
         tf_topics: Topics of transforms, in place of all; the static one beside each goes with it.
         begin: Log time from which on; None for the recording's start.
-        end: Log time up to which; None for the recording's end.
+        end: Log time of the end; None for the recording's end.
     """
 
     described: Described | None = None
@@ -167,7 +167,7 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
 
     Args:
         recording: The recording.
-        scope: What of it, beside which description; None for all of it.
+        scope: Part of the recording, and a description; None for all of it.
 
     Raises:
         InputError: If it cannot be read, has none of the topics, or nothing in that time.
@@ -369,7 +369,7 @@ def evidence_of_frames(frames: Frames, scope: Scope | None = None) -> Evidence:
 
     Args:
         frames: The frames of a recording, a scenario, a session or a description.
-        scope: What of a recording, beside which description; None for all of it.
+        scope: Part of a recording, and a description; None for all of it.
 
     Raises:
         InputError: See `evidence_of_recording`.

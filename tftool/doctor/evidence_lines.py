@@ -22,7 +22,7 @@ def evidence_lines(detail: str, hits: Sequence[Hit]) -> list[str]:
 
     Args:
         detail: The check's line, with the names of facts.
-        hits: Of one finding.
+        hits: Hits of one finding.
     """
     subject, colon, rest = detail.partition(": ")
     name = subject.strip("{}")

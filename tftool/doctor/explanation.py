@@ -443,12 +443,12 @@ class Explanation:
         links: The way from source to target, in this order.
         refusing: The edge that refuses; None where none does, or there is no way.
         answerable_from: Log time from which on it answers; None where it never does.
-        answerable_until: Log time at which what it needs is pruned; None where it never is.
+        answerable_until: Log time at which the needed samples are pruned; None for never.
         cause: Why.
         why: The same in sentences.
         remedies: Remedies, the smallest first.
         useless: Common attempts that do not help, as sentences.
-        failed: Of a session that was listened to, for which share of that time the same
+        failed: In a session: share of the time of listening in which the same
             question would have been refused; None elsewhere.
         in_whole: Whether it answers with all that was ever recorded, as `echo` asks it.
     """

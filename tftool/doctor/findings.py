@@ -77,7 +77,7 @@ class Finding:
     """One fault of the frames. Names in it are exactly as recorded.
 
     Attributes:
-        id: Which check found it; `tftool doctor --explain ID` tells more.
+        id: Id of its check; `tftool doctor --explain ID` describes it.
         severity: How bad it is.
         area: Subject of the check.
         message: The fault, in one line.
@@ -89,10 +89,10 @@ class Finding:
         since: Log time of the first evidence, else its stamp; None where it is no moment.
         until: The same of the last.
         count: How often it was seen.
-        facts: The numbers behind it; stamps and durations in whole nanoseconds.
+        facts: Its numbers; stamps and durations in whole nanoseconds.
         evidence: Observations, a line each.
         consequence: Its consequence.
-        fixes: What to do, the likeliest first.
+        fixes: Remedies, the likeliest first.
         because_of: The id of the finding that explains this one; None where none does.
         known: Whether a report that was given as the baseline has it already.
     """

@@ -23,7 +23,7 @@ class ChainLink:
 
     Attributes:
         joint: The joint.
-        position: Where it is, radians or metres; None where it takes none.
+        position: Its position, radians or metres; None if the joint is fixed.
         is_given: Whether that was said, of itself or of the joint it follows.
         leader: The joint whose position decides; its own name where it follows none.
         is_known: Whether it gives a frame: a floating joint gives none.
@@ -48,7 +48,7 @@ class ChainExplanation:
         cause: "works", "unknown-frame" or "split".
         links: The joints from source to target, in this order.
         why: The same in sentences.
-        remedies: What helps, each a sentence and a line to type, which may be empty.
+        remedies: Remedies, each a sentence and a line to type, which may be empty.
     """
 
     target: str
@@ -76,7 +76,7 @@ def chained(
         given: Positions by joint.
         target: The link asked for.
         source: The link asked about.
-        name: What the description is called on the command line.
+        name: Name of the description on the command line.
 
     Raises:
         UsageError: If a joint is unknown or does not move.

@@ -45,7 +45,7 @@ class Diagnosis:
     """Outcome of all checks.
 
     Attributes:
-        findings: By area, errors first; consequences directly behind their cause.
+        findings: Findings by area, errors first; consequences directly after their cause.
         skipped: Checks that could not run, and why.
         ran: How many did.
         model: Model that was judged.

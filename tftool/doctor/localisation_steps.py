@@ -40,8 +40,8 @@ class LocalisationStep:
         edge: Its parent and child.
         stamp: The first stamp after it.
         within: The time from the sample before, nanoseconds.
-        moved: Metres beyond what the velocity explains.
-        turned: Radians beyond it.
+        moved: Metres that the velocity does not explain.
+        turned: Radians that the velocity does not explain.
         drift_moved: Metres that the edge moved between the step before (or its start) and this.
         drift_turned: Radians likewise.
     """

@@ -52,7 +52,7 @@ class MeasuredMount:
         name: The recording.
         begin: Its first stamp.
         mount: The mount by the motion.
-        shift: It less the published one, metres and degrees, shape (6,).
+        shift: Difference from the published mount, metres and degrees, shape (6,).
         widths: Half-widths of its 95 % interval, shape (6,); NaN along unseen axes.
         windows: The same in parts of the recording, in the order of time.
         earlier: The same frame's mount in the recording before; None without one.

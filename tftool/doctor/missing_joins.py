@@ -26,7 +26,7 @@ class Join:
 
     Attributes:
         edge: Its parent and child; None where the evidence names none.
-        why: What says so: part of a sentence.
+        why: The evidence: part of a sentence.
         fix: The remedy.
         guess: Whether only names or customs say so.
     """

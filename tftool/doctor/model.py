@@ -40,7 +40,7 @@ class Settings:
 
     Attributes:
         cache_time: How far back its buffer remembers, nanoseconds.
-        fixed_frame: Where it wants to place sensors; empty for the usual one.
+        fixed_frame: Frame in which to place sensors; empty for the usual one.
         limits: Thresholds by check and name, in place of the catalogue's.
         tf_topics: Topics it listens to for transforms; empty for the usual ones.
     """
@@ -60,8 +60,8 @@ class Shift:
     """Constant difference between the stamps' clock and the recorder's.
 
     Attributes:
-        by: How long before their reception most stamps are, nanoseconds; negative if behind it.
-        spread: Within what that is constant: the median of the streams, nanoseconds.
+        by: Time from stamp to reception of most messages, nanoseconds; negative if stamped later.
+        spread: Deviation of `by`: the median of the streams, nanoseconds.
         streams: How many streams have it.
     """
 
@@ -108,12 +108,12 @@ class Model:
     Attributes:
         evidence: Evidence it was made from.
         settings: Settings of the listener.
-        tracks: One for each edge, without what no listener can use (see `nameless`).
+        tracks: One track for each edge that a listener can use (see `nameless`).
         nameless: Edges with an empty name, or whose ends are the same frame.
         heard: One for each topic and frame of its messages.
-        laps: Where time went back; all else is about what came before the first.
+        laps: Points where time went back; all else is about the data before the first.
         reference: How latencies are reckoned, a sentence; empty where that is plain.
-        shift: The constant by which the stamps are off their reception as a whole; None for none.
+        shift: Constant by which all stamps differ from their reception; None for none.
     """
 
     def __init__(self, evidence: Evidence, settings: Settings | None = None) -> None:

@@ -41,14 +41,14 @@ class TracedLink:
         parent: Its parent.
         child: Its child.
         is_static: Whether it holds at all times.
-        publisher: Who sends it; None where that is not known.
+        publisher: Its sender; None if unknown.
         count: Samples held.
         oldest: Stamp of the oldest one held, of a static its arrival; None where none is.
         newest: Stamp of the newest one held.
         period: Median step of its stamps, nanoseconds; 0 where there is none.
         latency: Median of arrival minus stamp, nanoseconds.
         verdict: Its outcome.
-        short_by: How far the question lies outside, nanoseconds.
+        short_by: Distance of the question from the data, nanoseconds.
     """
 
     parent: str

@@ -166,7 +166,7 @@ class LooseInk(Ink):
     """Temporary dots, drawn anew each time: only cells with dots are stored.
 
     Attributes:
-        marks: By row and column, the dots of a cell and the colour drawn there last.
+        marks: Dots and last colour of each cell, by row and column.
     """
 
     def __init__(

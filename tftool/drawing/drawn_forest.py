@@ -17,7 +17,7 @@ class Forest:
 
     Attributes:
         roots: Names without a parent, and one frame of every loop.
-        loops: Of the roots, those that do have a parent: the links that close a loop.
+        loops: Roots that have a parent: the links that close a loop.
         children: The drawn children of every drawn frame, in order of registration.
         hidden: How many frames below a drawn frame are left out, where any are.
         info: Every frame of the snapshot by its name.

@@ -39,7 +39,7 @@ def block(
         found: Result of a lookup.
         precision: Decimals of every number.
         with_distance: Whether a last line gives the length of the translation.
-        quaternion_tag: What newer releases add after "Quaternion": " (xyzw)".
+        quaternion_tag: Text that newer releases add after "Quaternion": " (xyzw)".
 
     Returns:
         Lines, each with its newline.

@@ -100,7 +100,7 @@ def plot(
             the stamps of the fastest link between the two; or poses, or several of them.
         target: Frame in which the poses of a pair are expressed.
         source: Frame whose poses they are.
-        ax: Where to draw one panel; a new figure with all of them if None.
+        ax: Axes for one panel; a new figure with all of them if None.
         what: "position", "rotation", "distance", "speed", "turn rate", or a single one such
             as "x" or "yaw"; of a new figure all if empty, of `ax` the position.
         xy: Draw the path from above instead.

@@ -76,7 +76,7 @@ def pieces(
     Args:
         snapshot: Values to draw.
         ascii_only: Whether to keep to ASCII for the branches.
-        moving: Of a robot description, the frames whose joint moves; None for other frames.
+        moving: Frames of a robot description whose joint moves; None for other frames.
         marks: Faults of frames: ids of the doctor's checks.
 
     Yields:
@@ -295,7 +295,7 @@ class CompactTree:
     """Tree fitted to a terminal's lines.
 
     Attributes:
-        heading: Above the frames: when, how many trees, and what the columns are.
+        heading: Lines above the frames: the time, the number of trees, and the columns' titles.
         rows: One a frame.
         is_cut: Whether a name is not there in full.
     """
@@ -346,10 +346,10 @@ def compact(
         snapshot: Values to draw.
         width: Columns there are.
         ascii_only: Whether to keep to ASCII for the guides.
-        moving: Of a robot description, the frames whose joint moves; None for other frames.
+        moving: Frames of a robot description whose joint moves; None for other frames.
         marks: Faults of frames: ids of the doctor's checks.
-        order: What decides the order; any but the tree's own leaves out guides.
-        wanted: Only frames whose name has these letters, and in the tree what they hang from.
+        order: Sorting key; any but the tree's own leaves out guides.
+        wanted: Part of a name by which to choose frames; a tree shows their ancestors too.
         most: Rows to draw; None for all.
         history: Rates and delays of the last looks.
     """

@@ -14,7 +14,7 @@ class Label:
     """A label to place.
 
     Attributes:
-        name: Name of what it labels.
+        name: Name of the frame.
         text: The written text.
         column: The cell of its owner.
         row: The cell of its owner.

@@ -90,7 +90,7 @@ def over_time(
     Args:
         found: The pairs.
         start: The moment that is 0 on the axis.
-        quantities: What to draw, of `series.QUANTITIES`.
+        quantities: Quantities to draw, of `series.QUANTITIES`.
         look: How to draw it.
         span: First and last second of the axis; those of the data if None.
     """

@@ -109,7 +109,7 @@ def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str
     Args:
         snapshot: The frames.
         most: Frames to draw; the deepest are left out, and counted in the picture.
-        stale: Those that are not sent any more; their cards are marked, and say how old they are.
+        stale: Frames that are not sent any more; their cards are marked with their age.
     """
     forest = grow(snapshot, most=most)
     sheet = _Sheet(forest, _cards(forest, stale), down=True)

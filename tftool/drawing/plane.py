@@ -29,7 +29,7 @@ class PlaneFrame:
     """One frame.
 
     Attributes:
-        name: Its name, from which its colour comes.
+        name: Its name, which decides its colour.
         x: Coordinate of its origin, metres.
         y: Coordinate of its origin, metres.
         axes: The ends of its unit x, y and z axes, from its origin, as the plane shows them.
@@ -106,8 +106,8 @@ class PlanePicture:
     Attributes:
         fixed: The fixed frame; empty where there are no frames.
         frames: All frames of its tree, first come first.
-        field: What the turtles draw on, where it can be placed.
-        pen: What they drew, in the field's own metres.
+        field: Field on which the turtles draw, if it can be placed.
+        pen: Lines of their pens, in metres of the field.
         trails: The ways of frames that move, in metres of the fixed frame.
         pair: Target and source, which are joined by a line of their own.
         apart: The other trees, which nothing joins to this one; each in its own root.

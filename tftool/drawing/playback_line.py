@@ -28,7 +28,7 @@ class PlaybackMark:
     """Finding of the doctor on the bar.
 
     Attributes:
-        since: Where it begins, nanoseconds from the start.
+        since: Its begin, nanoseconds from the start.
         until: Its end.
         message: The finding, in one line.
         is_error: Whether it is an error, not a warning.

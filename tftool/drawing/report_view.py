@@ -126,7 +126,7 @@ def as_junit(
     Args:
         reports: Outcome of each.
         command: Name of the command that judged them.
-        whole: The case that stands for one without results of its own.
+        whole: Test case for a report without results.
     """
     root = ElementTree.Element("testsuites", name=command)
     for report in reports:

@@ -31,7 +31,7 @@ def lines(
     """Return processes, foreign nodes, topics and services as lines; names are escaped.
 
     Args:
-        found: What `tftool session --json` writes.
+        found: Output of `tftool session --json`.
         verbose: Whether to list the services that every node has.
         width: Columns of the terminal, where long lists go on in a line of their own; None for
             one line for each, however long.

@@ -81,7 +81,7 @@ def solids_of(
     Args:
         links: The links; those without a visual shape show their collision shapes.
         folders: Folders from which meshes may be read.
-        prefix: What precedes the name of a link in its frame's.
+        prefix: Prefix of a link's name in its frame's name.
         most: About as many triangles are made.
 
     Returns:

@@ -64,7 +64,7 @@ def body(
         x: Column of its centre, from the left edge, in cells.
         y: Row of its centre, from the top edge, in cells.
         theta: Heading, counter-clockwise.
-        color: Of its skin; the shell is a darker kind of it.
+        color: Colour of the skin; the shell is darker.
         per_metre: Rows a metre takes; twice as many columns.
 
     Yields:

@@ -93,7 +93,7 @@ def fit(
     """Keep as many columns as leave `wanted` cells for the first one.
 
     Args:
-        columns: From left to right; one in which nothing stands goes in any case.
+        columns: Columns from left to right; empty ones are always left out.
         width: Cells there are.
         wanted: How many are wanted for the first.
         longest: How many it can use at all.

@@ -38,7 +38,7 @@ def diff(
         align_starts: Whether moments count from each one's own start.
 
     Returns:
-        Every link with what changed; false where nothing did.
+        All links with their changes; false if there are none.
 
     Raises:
         InputError: If a path cannot be read, or one of the two has no frames.
@@ -53,7 +53,7 @@ def side_of(frames: Comparable, name: str) -> Side:
 
     Args:
         frames: Their source.
-        name: What it is called where it has no name of its own.
+        name: Name for a side without one of its own.
 
     Raises:
         InputError: If a path cannot be read.

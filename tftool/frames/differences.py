@@ -52,9 +52,9 @@ class Allowance:
     """Tolerance: the largest difference that does not count.
 
     Attributes:
-        millimetres: Of places.
-        degrees: Of turns.
-        rate_percent: Of rates; None where rates do not count.
+        millimetres: Tolerance of positions.
+        degrees: Tolerance of rotations.
+        rate_percent: Tolerance of rates; None to ignore rates.
     """
 
     millimetres: float = 1.0
@@ -109,8 +109,8 @@ class Displacement:
         worst_degrees: The largest turn.
         worst_at: The stamp of A of the largest one, measured in tolerances; None of a static.
         moments: At how many moments they were compared.
-        moved_mm: What it moved by, x y z in A's parent, where both hold at all times.
-        turned_deg: What it turned by, roll pitch yaw, likewise.
+        moved_mm: Displacement, x y z in A's parent, if both links are static.
+        turned_deg: Rotation, roll pitch yaw, likewise.
     """
 
     millimetres: float
@@ -129,11 +129,11 @@ class LinkDifference:
 
     Attributes:
         child: The frame.
-        changes: What changed; `Change.same` alone if nothing did, within the tolerance.
+        changes: The changes; `Change.same` alone if both agree within the tolerance.
         before: The link in A; None where it is not there.
         after: The link in B; None where it is not there.
-        displacement: How far apart the two lie; None where that cannot be told.
-        note: Why it cannot be told, where one may wonder.
+        displacement: Distance between the two; None if unknown.
+        note: Reason why the distance is unknown, if it is not obvious.
     """
 
     child: str
@@ -164,7 +164,7 @@ class Differences:
         second: Name of B.
         tolerance: Tolerance of the comparison.
         links: Every link, by the order of A, then of B.
-        start: The first moment of A, from which times are told, nanoseconds.
+        start: First moment of A, from which times are counted, nanoseconds.
         shift: Nanoseconds added to stamps of A to find those of B.
         notes: Assumptions, as sentences.
     """

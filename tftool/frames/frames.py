@@ -29,7 +29,7 @@ class Frames:
 
     Attributes:
         kind: Kind of the source.
-        name: What that is called: "run.mcap", "turtles".
+        name: Name of the source: "run.mcap", "turtles".
         found: The files it was read from; None for a session.
         log: Every transform as it arrived, of a scenario or a session; else None.
     """
@@ -159,7 +159,7 @@ class Frames:
         """Return the stamp of a time given as for `--at`.
 
         Raises:
-            UsageError: If it lies before the beginning or after the end.
+            UsageError: If it is before the beginning or after the end.
         """
         start, end = self.span
         received = 0

@@ -42,7 +42,7 @@ def checked_moment(
         received: Time over which a recording received messages of any topic.
 
     Raises:
-        UsageError: If the moment lies outside.
+        UsageError: If the moment is outside the span.
     """
     stamp = at.stamp(epoch)
     if duration is not None and stamp > epoch + duration:

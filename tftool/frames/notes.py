@@ -60,7 +60,7 @@ def beyond_limits(robot: "Robot", given: Mapping[str, float]) -> Iterator[str]:
     """Return a note on joint positions beyond their limits; they are used nevertheless.
 
     Args:
-        robot: Whose joints they are.
+        robot: Robot of the joints.
         given: Positions by joint, of joints it has.
     """
     for name, position in given.items():

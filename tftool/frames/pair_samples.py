@@ -29,7 +29,7 @@ class RefusedRun:
         first: The first of them, nanoseconds.
         last: The last of them.
         count: How many.
-        reason: What tf2 says of the first.
+        reason: tf2's message for the first.
     """
 
     first: Stamp
@@ -45,8 +45,8 @@ class Trajectory:
     Attributes:
         path: A row for each moment, NaN where the lookup refuses. Quaternions do not jump
             from one sign to the other.
-        refusals: Where it refuses, in the order of time.
-        moments: What the moments are, in words: "at the stamps of 'odom'".
+        refusals: Refused spans, in the order of time.
+        moments: Description of the moments: "at the stamps of 'odom'".
     """
 
     path: TransformArray
@@ -83,7 +83,7 @@ class Moments:
         period: Ask so often, nanoseconds, from the start on; None for the stamps of the link
             that has most of them in a second.
         stamps: Ask at these instead, shape (n,).
-        words: What `stamps` are, for people.
+        words: Description of `stamps` for people.
     """
 
     start: Stamp | None = None
@@ -193,7 +193,7 @@ def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = No
 
     Args:
         rotations: Unit quaternions x y z w, shape (n, 4).
-        valid: Which of them hold one, shape (n,); all if None.
+        valid: Mask of the valid ones, shape (n,); all if None.
     """
     held = rotations if valid is None or valid.all() else rotations[valid]
     if len(held) < 2:

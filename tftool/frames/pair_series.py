@@ -31,8 +31,8 @@ class PlotCurve:
     """One curve of a panel.
 
     Attributes:
-        label: What it shows: "x", or of several pairs "laser in map".
-        place: Which of the pairs it belongs to, counted from 0.
+        label: Its label: "x", or with several pairs "laser in map".
+        place: Number of its pair, counted from 0.
         times: Seconds, shape (n,).
         values: In the panel's unit, shape (n,); NaN where the line is broken.
     """
@@ -48,7 +48,7 @@ class PlotPanel:
     """Curves on one axis.
 
     Attributes:
-        title: What they show: "position".
+        title: Title of the panel: "position".
         unit: "m", "°", "m/s", "°/s".
         curves: In their order.
     """
@@ -137,7 +137,7 @@ def panels(
     Args:
         found: The pairs.
         start: The moment that is 0 on the axis.
-        quantities: What to draw, of `QUANTITIES`.
+        quantities: Quantities to draw, of `QUANTITIES`.
     """
     several = len(found) > 1
     made: list[PlotPanel] = []
@@ -195,8 +195,8 @@ def round_ticks(low: float, high: float, most: int) -> list[float]:
     """Return multiples of 1, 2 or 5 times a power of ten that enclose a span.
 
     Args:
-        low: Where the span begins.
-        high: Where it ends, above `low`.
+        low: Lower end of the span.
+        high: Upper end, above `low`.
         most: How many there may be, at least two.
     """
     power = 10.0 ** math.floor(math.log10((high - low) / max(1, most - 1)))

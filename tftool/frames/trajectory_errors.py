@@ -92,7 +92,7 @@ class TrajectoryErrors:
         pairs: Target and source in A, and in B.
         matched: Number of matched poses.
         counts: Number of poses of A, and of B.
-        scale: Factor by which the fit stretched B; 1 but for "sim3".
+        scale: Factor by which the fit scaled B; 1 except for "sim3".
         fit: Alignment of B with A before the errors were taken.
         match: Rule by which poses were matched.
         step: Length of the pieces of the relative error.

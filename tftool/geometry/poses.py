@@ -25,7 +25,7 @@ def interpolate(pair: Pair, time: float) -> Pose:
     first stamp it is the first pose, to the last bit.
 
     Args:
-        pair: The two poses, each behind its stamp: 16 numbers.
+        pair: The two poses, each after its stamp: 16 numbers.
         time: From the first stamp to the second.
 
     Source:

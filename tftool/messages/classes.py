@@ -46,7 +46,7 @@ class MessageField:
         size: None for a single value, a number for a fixed array, -1 for a sequence.
         bound: The most elements a bounded sequence may hold, None without a bound.
         text_bound: The most characters of a bounded text, None without a bound.
-        check: What an assigned value goes through.
+        check: Function that checks an assigned value.
         make: Gives the default.
         described: Its type as ROS 2 writes it.
     """
@@ -287,7 +287,7 @@ class Interfaces(Schema):
 
         Args:
             name: Its type, "geometry_msgs/PoseStamped" or "geometry_msgs/msg/PoseStamped".
-            text: The definition that the recording has for it, those of its parts behind it
+            text: The recorded definition, followed by those of its parts
                 (see `define`); "" to take ROS 2's own.
 
         Raises:

@@ -49,7 +49,7 @@ class Layout:
         word: The same for lengths.
         texts_end_with_zero: Whether a text's length counts a closing zero byte.
         empty_size: Bytes of a structure without a field.
-        letters: What `struct` calls single fields that differ from their definition, by
+        letters: Codes of `struct` for single fields that differ from their definition, by
             (structure, field).
         hidden: Name and `struct` padding of a structure's first field, where definitions of
             ROS 2 leave it out.

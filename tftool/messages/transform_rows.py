@@ -62,7 +62,7 @@ class Walked:
     Attributes:
         order: Its byte order, as `struct` writes it.
         places: Its transforms.
-        fixed: Where the bytes lie that are the same in every message of its kind, as
+        fixed: Places of the bytes that are equal in every message of its kind, as
             (begin, end).
     """
 
@@ -149,7 +149,7 @@ def row_span(layout: Layout, length: int) -> tuple[int, int]:
     """Return the row length for a message of that length, in whole words.
 
     Returns:
-        Where the row begins, from the first byte of the message on, and its length. Rows begin
+        Offset of the row from the first byte of the message, and its length. Rows begin
         before the message: ROS 1's up to 7 bytes; ROS 2's 4, so that its doubles, which lie on
         a grid of 8 behind the header, do so in the row.
     """
@@ -164,7 +164,7 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
 
     Args:
         buffer: Buffer with the rows.
-        starts: Where each begins, shape (n,); all of it lies in the buffer.
+        starts: Offset of each, shape (n,), all of it within the buffer.
         width: Bytes of a row, a multiple of 8.
 
     Returns:
@@ -213,7 +213,7 @@ class Template:
         """Return a word's value, as far as all its rows share it.
 
         Returns:
-            The word under the mask; -1 where what it covers may differ.
+            The word under the mask; -1 if the covered bytes may differ.
         """
         place = int(np.searchsorted(self._words, word))
         if place == len(self._words) or self._words[place] != word:

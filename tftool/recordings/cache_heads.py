@@ -105,7 +105,7 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
 
     Args:
         data: Its bytes before the columns.
-        key: What the entry is kept under.
+        key: Key of the entry.
 
     Raises:
         ValueError: If it differs from the written one.

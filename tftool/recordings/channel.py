@@ -62,10 +62,10 @@ class Channel:
     Attributes:
         topic: Its name.
         type: The messages' type.
-        encoding: How they are written: "cdr", "ros1", "json", "protobuf".
+        encoding: Encoding of its messages: "cdr", "ros1", "json", "protobuf".
         schema_encoding: How the definition is written: "ros2msg", "ros1msg", "protobuf".
         definition: The type's definition.
-        metadata: What else belongs to the stream, by MCAP's keys: "offered_qos_profiles",
+        metadata: Further facts of the stream, by MCAP's keys: "offered_qos_profiles",
             "topic_type_hash", and of ROS 1 "callerid", "latching", "md5sum".
     """
 

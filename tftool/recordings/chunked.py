@@ -74,7 +74,7 @@ class MessageHead(NamedTuple):
     Attributes:
         channel: Its channel's number.
         log_time: When it was received, nanoseconds.
-        first: Where its payload begins.
+        first: Offset of its payload.
         last: Its end.
         publish_time: When it was sent.
         sequence: Its number at its publisher.
@@ -93,18 +93,18 @@ class Chunk:
     """One chunk of a file with its index; see `Block`.
 
     Attributes:
-        reader: Whose it is.
-        position: Where its record begins.
-        place: Where its data begins, packed; 0 while that is not known.
+        reader: Reader of its file.
+        position: Offset of its record.
+        place: Offset of its packed data; 0 while unknown.
         packed: Bytes of the data there.
         size: Bytes of it unpacked.
-        method: How it is packed.
+        method: Its compression.
         start: Log time of its first message.
-        end: Of its last.
+        end: Log time of its last message.
         crc: The CRC of its data unpacked; 0 for none.
         cut: Whether the file ends within it.
         length: Bytes of its record.
-        behind: Where the record behind its message indexes begins.
+        behind: Offset of the record after its message indexes.
         indexes: For each channel where its message index begins, in MCAP.
         counts: How many messages each channel has in it, by its indexes; None if not known.
         whole: Whether it may be copied as it is.
@@ -286,7 +286,7 @@ class ChunkedReader(File):
 
         Args:
             data: The records.
-            learns: Whether to take what they tell of channels.
+            learns: Whether to register their channels.
 
         Raises:
             InputError: At a record that is damaged; others of `FAULTS` likewise.
@@ -298,11 +298,11 @@ class ChunkedReader(File):
 
         Args:
             chunk: The chunk.
-            ahead: Where it may be on its way.
+            ahead: Pool that may be unpacking it already.
 
         Raises:
             InputError: If not even its packed bytes can be read.
-            UsageError: If what it takes is not installed.
+            UsageError: If the package it needs is not installed.
         """
         coming = None if ahead is None else ahead.take(chunk)
         try:

@@ -36,7 +36,7 @@ class ColumnCache:
         """Use a folder, which is created with the first entry.
 
         Args:
-            folder: Where the entries are.
+            folder: Folder of the entries.
             most_bytes: Bytes of all of them.
         """
         self.folder = folder
@@ -182,7 +182,7 @@ class KeptColumns:
         """Record the current state of the recording's files.
 
         Args:
-            cache: Where the columns are kept.
+            cache: Cache of the columns.
             found: The recording.
         """
         self._cache = cache

@@ -33,7 +33,7 @@ class Batch:
 
     Attributes:
         buffer: The bytes.
-        starts: Where each message begins, shape (n,).
+        starts: Offset of each message, shape (n,).
         lengths: Bytes of each, shape (n,); all of them lie in the buffer.
         log_times: When each was received, shape (n,).
         senders: Each one's publisher, a number of the reader's, shape (n,).
@@ -145,17 +145,17 @@ class Growing:
     """Columns of one edge while reading.
 
     Attributes:
-        parent: As in `Edge`.
+        parent: Parent frame, as in `Edge`.
         child: Likewise.
         static: Likewise.
-        records: As the buffer's histories keep them, who take them uncopied; with room.
-        messages: Of each the message it came in; with room.
+        records: Samples in the layout of histories, which take them uncopied; with room.
+        messages: Number of the message of each sample; with room.
         state: Read and written by the native scan as well: how many rows there are; the last
             message; whether those have come in order; how many rows from the first on a history
             would keep as they are, as far as that was looked at; how many had a slash left out
             of their names; and how often the columns were put elsewhere.
-        first: The first message, and a number that is the greater the farther behind in it the
-            transform stands.
+        first: The first message, and a number that grows with the place of the
+            transform in it.
     """
 
     __slots__ = ("child", "first", "messages", "parent", "records", "state", "static")
@@ -337,7 +337,7 @@ def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:
 
     Args:
         buffer: The bytes.
-        places: Where each number begins, shape (n,); all of it lies in the buffer.
+        places: Offset of each number, shape (n,), all of it within the buffer.
         kind: Its type, "<u4".
     """
     size = np.dtype(kind).itemsize

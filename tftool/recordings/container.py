@@ -65,7 +65,7 @@ class MessageTable:
         log_times: When each was received, nanoseconds, shape (n,).
         publish_times: When each was sent, shape (n,).
         sequences: Its number at its publisher, shape (n,).
-        starts: Where its payload begins, shape (n,).
+        starts: Offset of each payload, shape (n,).
         lengths: Bytes of the payload, shape (n,).
     """
 
@@ -203,7 +203,7 @@ class Container(Protocol):
         kind: In words.
         size: Bytes.
         start: Log time of the first message; 0 where there is none.
-        end: Of the last.
+        end: Log time of the last message.
         streams: Its streams; their numbers in a batch are places in it.
     """
 
@@ -248,7 +248,7 @@ class ContainerReader(Container, Protocol):
         container: "mcap", "db3" or "bag".
         channels: Its streams by the numbers they have in the file, exactly as recorded; more may
             come up while it is read.
-        extras: What it holds beside messages; complete once it is read.
+        extras: Its contents besides messages; complete once it is read.
         style: How its container is written, for a writer of the same kind.
     """
 
@@ -265,7 +265,7 @@ class File:
     """A file read at given offsets, never beyond its size when it was opened.
 
     Attributes:
-        path: Where it is.
+        path: Its path.
         size: Bytes when it was opened; it may grow while it is read.
         read: Bytes read so far.
     """

@@ -49,7 +49,7 @@ class ContainerFormat:
         """Open a file for reading.
 
         Args:
-            path: Where it is.
+            path: Its path.
             by_index: Whether it is read by its index; otherwise from front to back.
 
         Raises:

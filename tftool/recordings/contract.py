@@ -30,7 +30,7 @@ class RecordedTopic:
     """One topic of a recording.
 
     Attributes:
-        name: As recorded; ROS 2 has `tf` without a slash in places.
+        name: Its name as recorded; some ROS 2 recordings have `tf` without a slash.
         type: Name of the message type as ROS 2 writes it short: "tf2_msgs/TFMessage". As
             recorded where it is no ROS type: "foxglove.FrameTransform".
         encoding: "cdr", "ros1", "json", "protobuf", or whatever else is recorded.
@@ -55,7 +55,7 @@ class Publisher:
 
     Attributes:
         topic: Name of the topic.
-        node: Who publishes it, "/robot_state_publisher"; empty where that is not recorded
+        node: Name of its node, "/robot_state_publisher"; empty where it is not recorded
             (ROS 2 records it nowhere).
         durability: Offer to late subscribers: "transient_local" (ROS 1's
             latching too), "volatile", or empty where that is not recorded.
@@ -131,8 +131,8 @@ class Transforms:
         log_times: When each message was received, nanoseconds, shape (m,), in the order
             of the recording (which need not be that of time).
         senders: The publisher of each message: a place in `publishers`, shape (m,).
-        publishers: Who published transforms.
-        damage: What could not be read of them, as sentences.
+        publishers: Publishers of transforms.
+        damage: Unreadable parts of them, as sentences.
     """
 
     edges: tuple[Edge, ...]
@@ -172,7 +172,7 @@ class Headers:
         stamps: Nanoseconds, shape (n,).
         log_times: When each was received, nanoseconds, shape (n,).
         names: The frame names that occur, as recorded (slashes included).
-        frames: Which of them each message has: a place in `names`, shape (n,).
+        frames: Frame of each message: a place in `names`, shape (n,).
     """
 
     topic: str

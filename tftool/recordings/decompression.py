@@ -43,8 +43,8 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
         size: How many it says it will be.
 
     Raises:
-        InputError: If it says too much, is damaged, or becomes another size.
-        UsageError: If what it takes is not installed.
+        InputError: If it states too large a size or a wrong one, or is damaged.
+        UsageError: If the package it needs is not installed.
     """
     if method in ("", "none"):
         if len(packed) != size:
@@ -101,7 +101,7 @@ class _Coming:
 
     Attributes:
         room: Memory to write to.
-        future: Who tells when it is there.
+        future: Future of the result.
     """
 
     def __init__(self, piece: Packed, room: _Room, pool: ThreadPoolExecutor) -> None:
@@ -133,7 +133,7 @@ class Ahead:
         """Take the list of pieces to decompress.
 
         Args:
-            keys: Names of the pieces, each another one, in the order in which they will be asked
+            keys: Distinct names of the pieces, in the order in which they will be asked
                 for; some may be passed over.
             packed: Tells of a piece; None where it is not to be unpacked ahead. Is called in the
                 thread that asks, not long before that piece is asked for.
@@ -243,7 +243,7 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
     """Decompress in large steps up to an offset, and byte by byte after it.
 
     Returns:
-        What came out, and where the step began in which it broke; the end if it did not.
+        The unpacked bytes, and the begin of the step that failed; the end if none did.
 
     Raises:
         InputError: If it is not known how it is packed.

@@ -116,7 +116,7 @@ def add_described(
     """Insert the frames of a description that a buffer lacks.
 
     Args:
-        buffer: What tf gave.
+        buffer: Buffer with the recorded transforms.
         robot: The description.
         joints: The joint states of the same recording.
         frames: The children that tf gave, which are left as they are.

@@ -95,7 +95,7 @@ class Found:
 
     Attributes:
         name: The word.
-        kind: What it is. ROSBAG2 is a folder with rosbag2's metadata.
+        kind: Its kind. ROSBAG2 is a folder with rosbag2's metadata.
         paths: The file or the folder; of SEVERAL, each of its recordings in the order of
             their names, files and folders.
         passed_over: Files beside them, in the folder or of the glob, that are no recordings.

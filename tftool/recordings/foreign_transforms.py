@@ -37,7 +37,7 @@ def decoder_of(kind: str, encoding: str, definition: str, topic: str) -> "Decode
         kind: The type, short.
         encoding: How its messages are written.
         definition: The type's definition, as recorded.
-        topic: The topic, by which a PoseStamped's child frame is called.
+        topic: Its topic, which names a PoseStamped's child frame.
 
     Raises:
         InputError: If the type's definition is wrong or missing.

@@ -18,7 +18,7 @@ class Joined:
 
         Args:
             parts: Each with its name.
-            damage: What else is to be told.
+            damage: Further damage to report.
         """
         self._parts = parts
         self._damage = list(damage)

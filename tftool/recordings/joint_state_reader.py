@@ -38,8 +38,8 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
     """Return the topics that robot_state_publisher would subscribe to.
 
     Args:
-        topics: Those of a recording.
-        namespace: That of the robot's description: `/arm` for `/arm/robot_description`.
+        topics: Topics of a recording.
+        namespace: Namespace of the robot's description: `/arm` for `/arm/robot_description`.
 
     Returns:
         `joint_states` of that namespace; where there is none, of all namespaces.
@@ -105,13 +105,13 @@ class _Template:
 
     Attributes:
         order: "<" or ">".
-        stamp: Where the stamp begins.
+        stamp: Offset of the stamp.
         head: The bytes from `after` to the positions: frame, names, number of positions.
-        after: Where they begin.
-        begin: Where the positions begin.
-        end: Where they end.
+        after: Offset of `head`.
+        begin: Offset of the positions.
+        end: Offset of their end.
         names: The joints.
-        problem: Why it says nothing; empty where it does.
+        problem: Reason why it holds no positions; empty if it does.
     """
 
     order: str

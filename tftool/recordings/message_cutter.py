@@ -276,7 +276,7 @@ class ScanCutter(Cutter):
 
         Args:
             pair: Its number.
-            message: That of the message that brings the next one.
+            message: Number of the message with the next one.
             rank: The place in it.
         """
         number = self._of_pair.get(pair)

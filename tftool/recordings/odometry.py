@@ -27,8 +27,8 @@ def joined(said: Transforms, implied: Transforms) -> Transforms:
     """Merge published transforms with implied ones of frames that tf lacks.
 
     Args:
-        said: Of the topics that carry transforms.
-        implied: Of others of the same recording.
+        said: Transforms of the topics that carry them.
+        implied: Transforms implied by other topics of the same recording.
     """
     known: Collection[str] = {edge.child for edge in said.edges}
     first = len(said.log_times)

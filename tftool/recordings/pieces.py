@@ -19,7 +19,7 @@ class Piece:
 
     Attributes:
         file: The file's number.
-        place: Where they begin.
+        place: Offset of the first.
         length: How many they are.
     """
 
@@ -35,7 +35,7 @@ class Piece:
 
         Args:
             file: The other file's number; it is open for writing and reading.
-            place: Where they are to begin in it.
+            place: Offset in it at which to write them.
             crc: The CRC of the bytes before them, if one is wanted.
 
         Returns:

@@ -66,10 +66,10 @@ class Samples:
 
     Attributes:
         stamps: Nanoseconds, shape (n,).
-        parents: What it hung from each time, shape (n,).
+        parents: Parent of each sample, shape (n,).
         translations: Metres, shape (n, 3).
         rotations: Quaternions x y z w as recorded, shape (n, 4).
-        authorities: Who published each: the node where it is recorded, else the topic,
+        authorities: Publisher of each: the node where it is recorded, else the topic,
             shape (n,).
         log_times: When each was received, nanoseconds, shape (n,).
         static: Whether each holds at all times, shape (n,).
@@ -106,9 +106,9 @@ class Recording:
 
         Args:
             source: The opened container.
-            progress: Is told how far reading has come.
-            robot: What the recorded robot is, in place of a description in the recording.
-            kept: Where its columns are kept from one question to the next.
+            progress: Called with the progress of reading.
+            robot: Description of the robot, in place of the recorded one.
+            kept: Cache of its columns between questions.
             with_odometry: Whether odometry and poses count as transforms.
             tf_topics: Topics of transforms, in place of all.
         """
@@ -395,7 +395,7 @@ class Recording:
 
         Raises:
             InputError: If there is no such topic, or its type or encoding is not known.
-            UsageError: As for `raw_messages`.
+            UsageError: As in `raw_messages`.
         """
         found = self._topic(topic)
         layout = {"cdr": CDR, "ros1": ROS1}.get(found.encoding)
@@ -516,10 +516,10 @@ def open_recording(
 
     Args:
         path: File, folder or glob.
-        progress: Is told how many bytes of how many are read, while they are.
-        robot: What the recorded robot is, where the recording has no description of it, or
+        progress: Called with the bytes read and their total while reading.
+        robot: Description of the recorded robot, if the recording has none, or
             another one; see `load_urdf`.
-        cache: Where the columns of large recordings are kept for the next time; nowhere if None.
+        cache: Cache of large recordings' columns; none if None.
         with_odometry: Whether messages of type Odometry, PoseStamped and
             PoseWithCovarianceStamped count as transforms, of frames that no transform was sent
             of. A pose names no frame: its topic does.

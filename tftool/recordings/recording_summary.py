@@ -33,7 +33,7 @@ class EdgeFacts:
         last: Last stamp.
         offset: Log time against stamp; None of a static.
         simulated: Whether its stamps count from a simulation's start.
-        publishers: Who sent it: nodes where they are recorded, else topics.
+        publishers: Its senders: nodes where they are recorded, else topics.
     """
 
     parent: str

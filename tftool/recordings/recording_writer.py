@@ -29,8 +29,8 @@ class RecordingWriter:
         """Take the target to write to.
 
         Args:
-            target: Where it comes to stand.
-            container: What takes the messages.
+            target: Path of the finished recording.
+            container: The container to write to.
         """
         self._target = target
         self.container = container
@@ -62,7 +62,7 @@ class RecordingWriter:
         Args:
             samples: The transforms in it.
             log_time: When it was received, nanoseconds; the newest stamp where it is not said.
-            topic: Where it was sent.
+            topic: Its topic.
         """
         self._write_transforms(samples, log_time, topic, static=False)
 
@@ -167,12 +167,12 @@ def write_recording(
             rosbag2 records it.
         compression: "zstd", "lz4" or "none" in MCAP (zstd if None, or none where its package is
             missing), "bz2", "lz4" or "none" in ROS 1 bags (none if None).
-        storage: What a folder holds: "mcap" or "sqlite3".
-        profile: Whose rules the channels of an MCAP file follow: "ros2", or "" for none.
+        storage: Storage of a folder: "mcap" or "sqlite3".
+        profile: Profile of an MCAP file: "ros2", or "" for none.
         force: Whether it may replace an existing file.
 
     Raises:
-        UsageError: If something stands there and `force` is not given, the name ends otherwise,
+        UsageError: If the file exists and `force` is not given, the suffix is another,
             or the compression is not known or not installed.
         InputError: If it cannot be written there.
     """

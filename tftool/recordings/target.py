@@ -46,7 +46,7 @@ class Target:
 
     Attributes:
         path: Its name in the end.
-        part: Where it is written until then.
+        part: Path of the unfinished file.
     """
 
     def __init__(self, path: Path, *, folder: bool = False, force: bool = False) -> None:
@@ -143,7 +143,7 @@ def commit_together(targets: Sequence[Target]) -> None:
     The replaced file waits under a hidden name until all is done.
 
     Raises:
-        InputError: If that fails; the names are what they were before.
+        InputError: If that fails; all names are as before.
     """
     held: list[tuple[Path, Path]] = []
     done: list[Path] = []

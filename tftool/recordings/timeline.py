@@ -49,7 +49,7 @@ class PlayClock:
 
         Args:
             transforms: All of the recording.
-            read: What `/clock` read, nanoseconds.
+            read: Times of `/clock`, nanoseconds.
             received: When it was received, nanoseconds.
         """
         self._read, self._received = read, received
@@ -83,10 +83,10 @@ class Due:
 
     Attributes:
         moment: When, on the clock of the stamps.
-        node: Who sent them; empty where that is not recorded.
-        topic: Which they were recorded on.
+        node: Node that sent them; empty if not recorded.
+        topic: Their topic.
         static: Whether they hold at all times.
-        transforms: As recorded, names without a leading slash.
+        transforms: The recorded transforms, names without a leading slash.
     """
 
     moment: Stamp
@@ -115,9 +115,9 @@ class Timeline:
     """A recording's transforms in order of reception.
 
     Attributes:
-        clock: Which moment a log time is.
+        clock: Clock that gives the moment of a log time.
         start: The moment of the first message, nanoseconds.
-        end: Of the last.
+        end: Log time of the last message.
     """
 
     def __init__(self, source: Source, transforms: Transforms) -> None:

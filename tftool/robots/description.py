@@ -51,7 +51,7 @@ class MeshShape:
     """A surface in a separate file.
 
     Attributes:
-        filename: As written: `package://…`, `file://…`, or a path beside the description.
+        filename: File name as written: `package://…`, `file://…`, or a relative path.
         scale: Factors along x, y and z.
     """
 
@@ -84,8 +84,8 @@ class LinkShape:
     Attributes:
         name: Its name, often empty.
         origin: Its pose in the link.
-        geometry: What it is.
-        material: What it looks like; None for collisions and where none is named.
+        geometry: Its shape.
+        material: Its material; None for collisions and where none is named.
     """
 
     name: str
@@ -101,7 +101,7 @@ class RobotLink:
     Attributes:
         name: Its name, and its frame's.
         visuals: Its drawn shapes.
-        collisions: What it collides with.
+        collisions: Its collision shapes.
         mass: Kilograms; None without an inertial element.
     """
 
@@ -149,7 +149,7 @@ class RobotJoint:
         origin: The child's pose in the parent at position zero.
         axis: Unit vector in the joint's frame about which it turns or along which it slides.
         limit: None for a joint without.
-        mimic: What it follows, if anything.
+        mimic: The joint it follows, if any.
     """
 
     name: str
@@ -186,10 +186,10 @@ class RobotDescription:
     Attributes:
         name: The robot's name.
         root: The link that is no joint's child.
-        links: By name, in the order of the file.
-        joints: By name, in the order of the file.
+        links: Contents by name, in the order of the file.
+        joints: Contents by name, in the order of the file.
         notes: Oddities that are still readable, as sentences.
-        text: What it was read from, xacro expanded.
+        text: Its text, with xacro expanded.
     """
 
     name: str

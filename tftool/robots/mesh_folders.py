@@ -85,7 +85,7 @@ class MeshFolders:
         """Return the path under which the page requests a mesh or texture.
 
         Args:
-            name: As the description has it: `package://…`, or a path beside the description.
+            name: File name in the description: `package://…`, or a relative path.
 
         Raises:
             MeshRefused: If there is no such file in the folders, or it may not be served.

@@ -89,7 +89,7 @@ class Robot:
         """Return the position of every movable joint, in radians or metres.
 
         Args:
-            given: Positions by joint; they are taken as they are, beyond limits too.
+            given: Positions by joint; limits are not enforced.
 
         Raises:
             UsageError: If a joint is unknown or does not move, or a position is not finite.
@@ -114,7 +114,7 @@ class Robot:
 
         Args:
             given: Positions by joint, see `positions`.
-            stamp: What to stamp them with, nanoseconds.
+            stamp: Their stamp, nanoseconds.
 
         Raises:
             UsageError: See `positions`.
@@ -150,7 +150,7 @@ class Robot:
 
         Args:
             given: Positions by joint.
-            stamp: What to stamp them with, nanoseconds.
+            stamp: Their stamp, nanoseconds.
         """
         known = {
             name: position
@@ -205,7 +205,7 @@ class Robot:
 
         Args:
             states: Positions over time.
-            wanted: Which joints are asked for; all if None.
+            wanted: Requested joints; all if None.
 
         Returns:
             For each joint its samples, one a row, shape (n, 8), as `Buffer.set_records` takes

@@ -35,8 +35,8 @@ class StaticFrames:
 
     Attributes:
         name: The file, as it was given.
-        links: What it publishes, in its order.
-        notes: What of it could not be read, as sentences.
+        links: Published links, in its order.
+        notes: Unreadable parts of it, as sentences.
         start: They hold at all times: 0.
         end: Likewise.
     """

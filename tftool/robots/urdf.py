@@ -139,7 +139,7 @@ def parse_description(text: str, name: str = "robot_description") -> RobotDescri
 
     Args:
         text: The whole text.
-        name: What to call it in messages, usually its path.
+        name: Its name in messages, usually its path.
 
     Raises:
         DescriptionError: If it has mistakes; all of them, with line and column.

@@ -36,7 +36,7 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
     """Return a description's text with its xacro expanded.
 
     Args:
-        path: The file; what it includes lies beside it.
+        path: The file; included files are relative to it.
         arguments: Values of xacro arguments.
 
     Raises:

@@ -532,7 +532,7 @@ def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
     """Set a node's parameters from a file; print each, with the reason if refused.
 
     Raises:
-        UsageError: If the file cannot be read, or says nothing of that node.
+        UsageError: If the file cannot be read, or does not name that node.
     """
     client = _parameters(node, asked.node)
     try:

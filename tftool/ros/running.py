@@ -42,7 +42,7 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
     """Refuse words that `start_program` would refuse, before a world is made.
 
     Raises:
-        UsageError: If no executable is named, or there is none of that name, or what follows
+        UsageError: If no executable is named, or there is none of that name, or the rest
             `--ros-args` is malformed.
         InputError: If the file cannot be read or is no Python.
     """
@@ -64,7 +64,7 @@ def _file(workspace: Workspace, word: str) -> Path:
     """Return the file that a word names.
 
     Raises:
-        InputError: If there is none, but one of that name in a package: its path is told.
+        InputError: If there is none, with the path of one of that name in a package.
     """
     path = Path(word)
     if not path.exists() and (near := workspace.file_named(path)) is not None:
@@ -95,19 +95,19 @@ def start_program(
     """Start a node's file, or a package's executable, in a world.
 
     Args:
-        world: Where it is to live.
-        workspace: Where packages are looked for.
+        world: World to join.
+        workspace: Workspace of packages.
         target: The file, or the package.
-        rest: What follows; for a package, the executable first.
+        rest: Remaining words; for a package, the executable first.
         on_exit: Called once a program of a user's has ended.
-        name: What it and its node are called, unless `--ros-args` names the node; when
-            empty, what the file or the executable is called.
+        name: Name of the program and its node, unless `--ros-args` names the node; when
+            empty, the name of the file or the executable.
 
     Returns:
-        What it is called.
+        Its name.
 
     Raises:
-        UsageError: If there is no such executable, or what follows is malformed.
+        UsageError: If there is no such executable, or its arguments are malformed.
         InputError: If the file cannot be read or is no Python.
     """
     package: str | None = None
@@ -181,7 +181,7 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
     """Return the launch file named by the first word or two; and the remaining words.
 
     Raises:
-        UsageError: If there is none; the ones of the package are told.
+        UsageError: If there is none, with those of the package.
         InputError: If a file is named that is not there, but in a package.
     """
     first, *rest = words

@@ -26,8 +26,8 @@ class RosRuntime:
 
     Attributes:
         clock: The simulated clock; it starts at 1000 s.
-        world: Where nodes live.
-        program: What the test itself is there.
+        world: World of the nodes.
+        program: The test's own program.
     """
 
     def __init__(self) -> None:
@@ -102,13 +102,13 @@ class RosRuntime:
 
         Args:
             what: The file, or the function.
-            argv: What follows the file's name on the command line, `--ros-args` and all.
+            argv: Arguments after the file's name on the command line, with `--ros-args`.
             on_exit: Called once it has ended, however it did; without it, a program that fails
                 ends the world and fails the test.
 
         Raises:
             InputError: If the file cannot be read or is no Python.
-            UsageError: If what follows `--ros-args` is malformed.
+            UsageError: If the part after `--ros-args` is malformed.
         """
         if callable(what):
             body: Any = what

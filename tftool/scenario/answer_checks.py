@@ -163,9 +163,9 @@ class FrameFacts:
 
     Attributes:
         exists: Whether it is known.
-        parent: What it hangs from.
+        parent: Its parent.
         static: Whether it holds at all times.
-        broadcaster: Who sends it.
+        broadcaster: Its sender.
         known: The frames that there are.
     """
 

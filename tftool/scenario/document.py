@@ -75,10 +75,10 @@ class Document:
 
     Args:
         text: The whole text.
-        name: What to call it in messages, usually its path.
+        name: Its name in messages, usually its path.
 
     Attributes:
-        mistakes: Mistakes behind which the rest could be read.
+        mistakes: Mistakes that did not stop the reading.
     """
 
     def __init__(self, text: str, name: str) -> None:

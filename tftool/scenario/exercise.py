@@ -29,7 +29,7 @@ class Entrant:
     """A user's program.
 
     Attributes:
-        words: What follows `tftool run`: a file, or a package and its executable, then arguments.
+        words: Words after `tftool run`: a file, or a package and its executable, then arguments.
         node: The node of the scenario whose place it takes; empty when it lives beside them.
     """
 
@@ -42,10 +42,10 @@ class Exercise:
     """Programs and launch files that a user adds to a scenario.
 
     Attributes:
-        workspace: Where packages are looked for.
+        workspace: Workspace of packages.
         programs: Programs.
-        launch: What follows `tftool launch`; empty without a launch file.
-        tell: Is told each line of the log.
+        launch: Words after `tftool launch`; empty without a launch file.
+        tell: Called with each line of the log.
     """
 
     workspace: Workspace
@@ -59,7 +59,7 @@ class Exercise:
         A program that fails is part of the verdict; the others go on, as processes do.
 
         Args:
-            scenario: What to play.
+            scenario: Scenario or timeline to play.
             watch: Context managers around the play, such as a recording.
 
         Raises:

@@ -85,8 +85,8 @@ class Reading:
         """Return the text of a single value, with arguments inserted.
 
         Args:
-            node: Where it should stand.
-            wanted: What it should be, with its article: "a frame".
+            node: Node of the document to read.
+            wanted: Expected noun, with its article: "a frame".
         """
         if not isinstance(node, Scalar):
             kind = "a list" if isinstance(node, document.Sequence) else "a mapping"
@@ -139,8 +139,8 @@ class Reading:
 
         Args:
             node: The mapping.
-            known: What each key may hold.
-            what: What the mapping is, with its article: "a broadcaster".
+            known: Readers of the known keys.
+            what: Noun of the mapping, with its article: "a broadcaster".
 
         Returns:
             A value for every known key.
@@ -188,7 +188,7 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
         read: Reader of its value.
         default: Its value when it is left out; without one it must be given.
         key: Its key, where that is no name in Python.
-        beside: Whether it stands beside the key that says what this is, not inside it.
+        beside: Whether the key is a sibling of the one that names the kind, not inside it.
     """
     metadata: dict[str, Any] = {"read": read, "beside": beside}
     if key is not None:
@@ -245,10 +245,10 @@ def tagged(
     Args:
         node: The mapping.
         reading: The pass it is read in.
-        what: What it is, with its article.
-        kinds: The dataclass each such key stands for.
-        common: What may stand beside all of them.
-        beside: What may stand beside each, besides fields of the dataclass that say so.
+        what: Noun for messages, with its article.
+        kinds: Dataclass of each such key.
+        common: Keys allowed beside all of them.
+        beside: Keys allowed beside each, besides the dataclass's own.
 
     Returns:
         The key, its dataclass, and the values beside it.

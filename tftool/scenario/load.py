@@ -69,7 +69,7 @@ def parse(text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> 
 
     Args:
         text: The YAML.
-        name: What to call it in messages, usually its path.
+        name: Its name in messages, usually its path.
         arguments: Values for arguments the scenario declares.
     """
     source = Document(text, name)
@@ -94,7 +94,7 @@ class _ScenarioReader:
         duration: How long the scenario lasts, once that is known.
         names: Names of its nodes, once all are known.
         looks: How often its expectations look so far.
-        not_a_tree: Where its nodes publish what no tree of frames can hold.
+        not_a_tree: Places where its nodes publish links that no tree can hold.
     """
 
     def __init__(self, given: Mapping[str, str]) -> None:

@@ -36,7 +36,7 @@ class Expectations(Node):
     """Judge of every expectation at its time, after everything else of that instant.
 
     Attributes:
-        outcomes: What came of each, None for those whose time has not come.
+        outcomes: Outcome of each, None for those still to come.
     """
 
     phase: ClassVar[Phase] = Phase.WATCH
@@ -102,7 +102,7 @@ class Play:
 
     Attributes:
         scenario: The scenario that is played.
-        world: Where.
+        world: The world.
         start: The moment the play began; times in the scenario count from it.
         failure: Why it ended early, in words; empty as long as it did not.
     """
@@ -117,7 +117,7 @@ class Play:
         """Build the world; nothing moves before `live`.
 
         Args:
-            scenario: What to play.
+            scenario: Scenario or timeline to play.
             clock: On whose time.
             stand_ins: Nodes started in place of some of its own, by their names.
         """
@@ -204,7 +204,7 @@ def build(
     """Build a play.
 
     Args:
-        scenario: What to play.
+        scenario: Scenario or timeline to play.
         clock: On whose time.
         arguments: Values for arguments the scenario declares.
 
@@ -225,7 +225,7 @@ def run_scenario(
     A node that fails ends the play; that is part of the verdict.
 
     Args:
-        scenario: What to play.
+        scenario: Scenario or timeline to play.
         arguments: Values for arguments it declares.
         watch: Context managers around the play, such as a recording.
     """

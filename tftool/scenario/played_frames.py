@@ -32,13 +32,13 @@ def played(
         found: Its file.
         until: The last moment: a duration, infinity for all of it, or a moment that must lie
             inside; `USUAL` if None.
-        margin: How long to play on behind a moment, for what arrives after its stamp.
+        margin: Seconds to play on after a moment, for transforms that arrive after their stamp.
         cache_time: How far back its buffers remember, in place of its own; all of it if None.
         watch: Called with its world before it lives.
 
     Raises:
         NodeFailed: If one of its nodes raised.
-        UsageError: If the moment lies outside.
+        UsageError: If the moment is outside the span.
     """
     scenario = replace(load(found.paths[0], {}), expect=())
     if cache_time is not None:

@@ -55,7 +55,7 @@ class ScenarioWorld:
     """World as questions see it.
 
     Attributes:
-        world: Where the scenario lives.
+        world: World of the scenario.
         start: The moment it began.
     """
 
@@ -103,8 +103,8 @@ class Subject(ABC):
     """Something that can be asked about a scenario at some time.
 
     Attributes:
-        key: What a scenario calls it.
-        form: What its answer may be held to.
+        key: Its key in a scenario.
+        form: Form of its expected answer.
     """
 
     __slots__ = ()

@@ -21,8 +21,8 @@ class NodeEntry:
 
     Attributes:
         kind: Its kind, a key of `kinds.KINDS`.
-        name: Who it is; given, or its kind, numbered when there are several.
-        parameters: What its kind takes, all of it.
+        name: Its name: given, or its kind, numbered if there are several.
+        parameters: All parameters of its kind.
     """
 
     kind: str
@@ -36,7 +36,7 @@ class Step:
 
     Attributes:
         at: When.
-        action: What.
+        action: Action of the step.
         line: Its line in the file.
         name: Its name there: "spawn".
         fails: Whether it is to be refused.
@@ -78,7 +78,7 @@ class Expectation:
     Attributes:
         when: When it is judged.
         question: The question.
-        check: What the answer must be, from `checks`.
+        check: Check of the answer, from `checks`.
         line: Its line in the file.
     """
 
@@ -96,18 +96,18 @@ class Scenario:
     """A world, the actions in it, and its expectations.
 
     Attributes:
-        name: What it is called: its file's name without the ending.
-        file: Where it came from, as it was given.
-        about: What it shows.
-        arguments: What may be set from outside, with the values it was read with.
+        name: Its name: that of the file without the suffix.
+        file: Its file, as it was given.
+        about: Its contents.
+        arguments: Arguments that can be set from outside, with their values.
         duration: How long it lasts on simulated time, in nanoseconds.
         cache_time: How far back its buffer remembers, in nanoseconds.
-        nodes: What lives in it, in order.
-        script: What happens.
-        expect: What must hold.
-        doctor: What the doctor is to leave out, in expectations and in `tftool doctor`.
+        nodes: Its nodes, in order.
+        script: Its steps.
+        expect: Its expectations.
+        doctor: Checks that the doctor leaves out, in expectations and in `tftool doctor`.
         source: The text it was read from, so that it can be read with other arguments.
-        not_a_tree: Where its nodes publish two parents of a frame, a loop, or a frame in itself.
+        not_a_tree: Places where its nodes publish two parents of a frame, a loop, or a self-link.
             Not refused: the doctor may be asked about such a scenario.
     """
 
@@ -137,7 +137,7 @@ class Outcome:
         expectation: The question in words: "distance from turtle2 to turtle1".
         line: Its line in the scenario's file.
         when: When it was to hold: "by 20 s".
-        expected: What the answer had to be: "below 0.5 m".
+        expected: Description of a right answer: "below 0.5 m".
         found: Sentence about the error.
         at: When that was found, nanoseconds since the start; None if its time never came.
         ok: Whether it holds.
@@ -174,7 +174,7 @@ class Verdict:
 
     Attributes:
         scenario: Its name.
-        file: Where it came from.
+        file: Its file.
         outcomes: One for each step that failed or was to, in the order of time; then one for
             each expectation, in the order of the file.
         lasted: How long the run was, nanoseconds on its clock.

@@ -49,7 +49,7 @@ class Script(Node):
 
     Attributes:
         start: The moment the script began.
-        outcomes: What came of the steps that were to fail, and of those that failed.
+        outcomes: Outcomes of the steps that should fail, and of those that failed.
     """
 
     def __init__(self, world: World, steps: Sequence[Step]) -> None:
@@ -119,7 +119,7 @@ class Action(ABC):
     """Something that happens at a time of a scenario.
 
     Attributes:
-        key: What a scenario calls it.
+        key: Its key in a scenario.
     """
 
     __slots__ = ()

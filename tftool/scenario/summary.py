@@ -28,7 +28,7 @@ class Played:
     Attributes:
         scenario: The scenario that was played.
         snapshot: All frames at its end.
-        verdict: What held.
+        verdict: Verdict of the run.
         defaults: The arguments its expectations were written for.
     """
 
@@ -53,8 +53,8 @@ def play_through(
     """Play a scenario with its own script on simulated time.
 
     Args:
-        scenario: What to play.
-        defaults: What its arguments are unless they are set.
+        scenario: Scenario or timeline to play.
+        defaults: Default values of its arguments.
         duration: For how long; for the scenario's own duration when None.
         watch: Context managers around the play, such as a recording.
     """

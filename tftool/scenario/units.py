@@ -263,7 +263,7 @@ class RelativeMoment:
     """A time in a question: relative to the start or the question, or the latest.
 
     Attributes:
-        kind: What `offset` counts from; nothing for "latest".
+        kind: Origin of `offset`; none for "latest".
         offset: Nanoseconds.
     """
 

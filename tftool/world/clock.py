@@ -49,7 +49,7 @@ class Clock(ABC):
         interrupted: Whether a signal has asked the run on it to end; known at once, even
             while something holds up the loop, which would otherwise be the first to know.
         when_killed: Called before a second signal ends the process: restore the terminal there.
-        stopper: What can end the run on it; None while nothing runs.
+        stopper: Stopper that can end the run; None while nothing runs.
     """
 
     epoch: Stamp
@@ -98,7 +98,7 @@ class Clock(ABC):
         """Wait for cancelled tasks, for `PATIENCE` real seconds; without limit after a signal.
 
         Returns:
-            Those that have not returned.
+            The ones that have not returned.
         """
         waiting = set(tasks)
         timer = self.real_timer(PATIENCE)
@@ -248,8 +248,8 @@ class WallClock(Clock):
 
         Args:
             rate: How many of its seconds pass in a real one.
-            epoch: What it reads first, such as the moment a recording began; the moment it
-                is, less the head start, when None.
+            epoch: First time, such as the moment a recording began; the present
+                less the head start if None.
             head_start: How much of the past to live through first, as fast as it can be
                 simulated, so that a world is already under way at the first look at it.
 
@@ -362,14 +362,14 @@ class FollowedClock(WallClock):
     time falls back, or when its source changes.
 
     Attributes:
-        fell_back: Called with by how many nanoseconds, when what it is told lies before now.
+        fell_back: Called with the nanoseconds by which a new time is before the present one.
     """
 
     def __init__(self, told: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
         """Read real time, or stand still at a time from the start.
 
         Args:
-            told: That moment.
+            told: Function called with that moment.
             epoch: When it began, where that was before.
         """
         super().__init__(epoch=told if epoch is None else epoch)
@@ -479,11 +479,11 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
     130, whatever runs in it.
 
     Returns:
-        What the coroutine returns.
+        The result of the coroutine.
 
     Raises:
-        KeyboardInterrupt: If a signal ended it; its cause is what failed on the way out.
-        Exception: What the coroutine raises, or a task that it left behind.
+        KeyboardInterrupt: If a signal ended it; its cause is an error during the stop.
+        Exception: Any of the coroutine, or of a task that it started.
     """
     loop = clock.new_loop()
     clock.interrupted = False

@@ -25,7 +25,7 @@ class Timing:
         deadline: At most so long between two messages, nanoseconds; None for any time.
         lease: After how long without a sign of life a publisher counts as dead; None for never.
         is_manual: Whether a message, or asserting it, is a sign of life, and not just to be there.
-        lifespan: After how long a message is of no use, as told to programs; None for never.
+        lifespan: Age at which a message expires, as shown to programs; None for never.
     """
 
     deadline: Duration | None = None
@@ -88,14 +88,14 @@ class Endpoint:
     """One publisher or subscription.
 
     Attributes:
-        role: Which of the two.
+        role: Publisher or subscription.
         node: The node it belongs to.
         topic: The topic's name, without a leading slash.
         interface: The exchanged type, "std_msgs/msg/String".
-        quality: What it offers or asks for.
+        quality: Offered or requested quality of service.
         is_remote: Whether it is another process's.
-        deliver: Of a latched subscription here: takes what others sent it before, and who did.
-        kept: Of a latched publisher here: what late subscribers get.
+        deliver: Receives, for a latched subscription here, earlier messages and their senders.
+        kept: Messages that late subscribers of a latched publisher here get.
     """
 
     role: Role
@@ -115,7 +115,7 @@ class Endpoints:
         """Start empty.
 
         Args:
-            changed: Called when one comes or goes.
+            changed: Called when an offer is added or removed.
             warn: Called with a node and a sentence it should log.
         """
         self._changed = changed

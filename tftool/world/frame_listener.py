@@ -19,7 +19,7 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
     """Record every transform of a world in a separate buffer, and in order of arrival.
 
     Args:
-        world: Which broadcasts them.
+        world: World that broadcasts them.
         cache_time: How far back the buffer remembers; all of it if None. The world's own buffer
             prunes, and a later question may ask for any moment.
     """

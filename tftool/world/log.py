@@ -25,9 +25,9 @@ class LogRecord:
     Attributes:
         stamp: When it was said, by the world's clock.
         level: How much it matters.
-        node: Who said it.
+        node: Node that logged it.
         text: The logged text. It may hold strangers' names: escape it where it is shown.
-        program: The program whose node it is, where several are told apart: two of them may
+        program: Program of the node, if there are several: two of them may
             have nodes of one name.
     """
 
@@ -87,7 +87,7 @@ class Log:
         Args:
             now: Gives the stamp of a line.
             keep: How many lines are kept.
-            report: Takes what a listener raises; see `Listeners`.
+            report: Called with an exception of a listener; see `Listeners`.
         """
         self.records: deque[LogRecord] = deque(maxlen=keep)
         self._now = now

@@ -30,9 +30,9 @@ class Node(Resident):
     """Base of nodes: override `run`, and wait with `every` or the clock.
 
     Attributes:
-        world: Where it lives.
+        world: Its world.
         name: Its name, in logs and as the authority of its transforms.
-        rank: Its place among the nodes of the world, in the order in which they joined.
+        rank: Its number among the nodes of the world, in the order of joining.
         phase: Its place within an instant.
     """
 

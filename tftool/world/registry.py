@@ -70,7 +70,7 @@ class Offer(Generic[T]):
     """A service or an action.
 
     Attributes:
-        take: What answers requests, or takes goals.
+        take: Function that answers requests or takes goals.
         kind: The ROS class of the service or action. None where it is not stated; it stays inside
             the process then, and takes anything.
         node: The node that answers, "" where it is not stated.
@@ -87,15 +87,15 @@ class NamedOffers(Generic[T]):
     """Services or actions by name, with their servers in order of succession.
 
     Attributes:
-        by_name: Who answers, read-only.
+        by_name: Offers by name, read-only.
     """
 
     def __init__(self, what: str, changed: Callable[[], object]) -> None:
         """Start empty.
 
         Args:
-            what: What they are: "service", "action".
-            changed: Called when one comes or goes.
+            what: Their kind: "service", "action".
+            changed: Called when an offer is added or removed.
         """
         self._what = what
         self._changed = changed
@@ -108,7 +108,7 @@ class NamedOffers(Generic[T]):
 
         Args:
             name: Its name.
-            offer: Who answers.
+            offer: The offer.
             shares: Whether another of this process may have that name already.
 
         Raises:

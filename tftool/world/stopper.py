@@ -64,7 +64,7 @@ class Stopper:
 
         Args:
             loop: The loop that runs, on the calling thread.
-            task: What the first signal cancels.
+            task: Task that the first signal cancels.
             now: Real seconds that pass.
             on_interrupt: Called at the first signal, at once, on any thread.
             when_killed: Called before the process is ended while the loop still runs.
@@ -101,7 +101,7 @@ class Stopper:
 
         Args:
             deadline: Real seconds from now until the end; None for no end in real time.
-            standstill: Real seconds for which a node may hold up the loop; None for any.
+            standstill: Real seconds for which a node may block the loop; None for no limit.
         """
         self._deadline = None if deadline is None else self._now() + deadline
         self._standstill = standstill

@@ -24,7 +24,7 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
     cancelled, and its `finally` waited for.
 
     Args:
-        world: Whose nodes to run, those that join later included.
+        world: World whose nodes run, including those that join later.
         until: The last moment to live through.
 
     Raises:
@@ -79,14 +79,14 @@ async def beside(
 
     Args:
         work: The remedy.
-        helper: What runs meanwhile; it begins first.
+        helper: Coroutine to run meanwhile; it begins first.
         on_cancel: Called when both are to be cancelled from outside, before either is.
 
     Returns:
-        What the work returns.
+        The result of the work.
 
     Raises:
-        Exception: What the helper raises, which ends the work, or what the work raises; a
+        Exception: Any of the helper, which ends the work, or of the work; a
             failure of either on its way out included.
     """
     loop = asyncio.get_running_loop()
@@ -120,7 +120,7 @@ class _Supervisor(Supervision):
     Attributes:
         over: Done when the run is to end.
         failure: The first node that failed.
-        error: What else ended the run.
+        error: Another error that ended the run.
     """
 
     def __init__(self, clock: Clock, has_end: bool) -> None:

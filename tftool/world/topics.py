@@ -27,9 +27,9 @@ class Topic(Generic[T]):
         kind: The type every value has.
         count: How many values were published.
         latest: The value published last, None before the first.
-        on_demand: Called when a subscriber comes or goes; None without a link.
+        on_demand: Called when a subscriber is added or removed; None without a link.
         sender: The publisher of the value that is being delivered; None when not known.
-        relay: What carries values to other processes, told last; None without a link.
+        relay: Function that sends values to other processes, called last; None without a link.
         far_subscribers: How many listen in other processes.
         is_far: Whether it is here only to be listed: other processes have it, and it was not
             asked for by its name here.
@@ -182,7 +182,7 @@ class GoalHandle:
         patience: Seconds to wait for the server of another process to take the goal or a
             cancellation; None for as long as it takes.
         goal_id: Its sixteen bytes.
-        feeds: Who is given each feedback.
+        feeds: Functions called with each feedback.
     """
 
     def __init__(

@@ -29,8 +29,8 @@ async def wait_for_transform(
     """Return the transform as soon as it is available.
 
     Args:
-        buffer: Where it will appear.
-        clock: Whose time the deadline is measured on.
+        buffer: Buffer to wait on.
+        clock: Clock of the deadline.
         target_frame: Frame the answer is expressed in.
         source_frame: Frame whose pose is asked for.
         time: The moment asked about; 0 for the latest common time.

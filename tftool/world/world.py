@@ -96,14 +96,14 @@ class World:
     """Everything that the nodes of one process share.
 
     Attributes:
-        clock: Whose time everything here means.
+        clock: Clock of the world.
         buffer: Buffer of frames.
         memory: Keeps that within a number of bytes.
-        log: What the nodes said.
-        nodes: The nodes, in the order in which they joined.
-        endpoints: Which node publishes and subscribes what, of all processes.
+        log: Log of the nodes.
+        nodes: The nodes, in the order of joining.
+        endpoints: Publishers and subscriptions of all processes' nodes.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
-        failure: The node that ended it by what it raised, as soon as that is known.
+        failure: The node whose exception ended it, as soon as that is known.
     """
 
     def __init__(
@@ -117,7 +117,7 @@ class World:
         """Make an empty world.
 
         Args:
-            clock: Whose time everything here means.
+            clock: Clock of the world.
             buffer: Buffer of frames already; empty when None.
             cache_time: How far back an empty one remembers.
             max_bytes: How many bytes the samples may take that come in; None for the usual limit.
@@ -187,7 +187,7 @@ class World:
             node: Its name.
             name: The topic's name.
             kind: The published type.
-            quality: What it offers.
+            quality: Offered quality of service.
         """
         return TopicPublisher(self, node, name, kind, quality)
 
@@ -206,8 +206,8 @@ class World:
             name: The topic's name.
             kind: The type published there.
             callback: Called with every value to come.
-            quality: What it asks for. A latched one gets at once what latched publishers of
-                this process sent before, and what those of others did as soon as it comes.
+            quality: Requested quality of service. A latched subscription gets earlier messages of
+                latched publishers, those of this process at once, others as they arrive.
         """
         topic = self.topic(name, kind)
         taken: Callable[[Any], object] = callback
@@ -252,16 +252,16 @@ class World:
         """Register an endpoint of a topic; topics internal to the process have none.
 
         Args:
-            role: Which end.
-            node: Whose.
+            role: Publisher or subscription.
+            node: The node.
             name: The topic's name.
             kind: The type of its values.
-            quality: What it offers, or asks for.
-            keeps: Whether a publisher keeps what it sent for late subscribers.
-            deliver: Takes what others sent a latched subscription before.
+            quality: Offered or requested quality of service.
+            keeps: Whether a publisher keeps its messages for late subscribers.
+            deliver: Receives earlier messages for a latched subscription.
 
         Returns:
-            The endpoint, and what takes it out again.
+            The endpoint, and a function that removes it.
         """
         interface = str(getattr(kind, "interface__", ""))
         if not interface:
@@ -463,7 +463,7 @@ class World:
         """Store static transforms of another process's node, for late local subscribers too.
 
         Returns:
-            What the buffer took.
+            The accepted links.
         """
         return self._store_static(transforms, authority, self._far_statics)
 
@@ -623,7 +623,7 @@ class World:
 
         Args:
             owner: The name of the listener's owner.
-            failure: What it raised.
+            failure: Its exception.
 
         Raises:
             Exception: `failure` itself, if the owner is a node and the world does not run.

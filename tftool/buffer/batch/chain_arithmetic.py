@@ -50,7 +50,7 @@ class Intervals:
     numbers lie together in a row because fetching 32 bytes costs what fetching 8 does.
 
     Attributes:
-        stamps: Where each interval begins, int64, shape (k,).
+        stamps: Start of each interval, int64, shape (k,).
         lengths: How many nanoseconds it is long, shape (k,); endless where nothing moves.
         half_angle_squared: θ² of the arcs, shape (k,).
         places: P, shape (k, 4); the last number is of no use, as in `paths`.
@@ -80,7 +80,7 @@ class Intervals:
 
         Args:
             column: The samples.
-            first: The samples they begin with. After the last sample comes an empty one.
+            first: Their first samples. An empty sample follows the last one.
         """
         last = len(column.stamps) - 1
         self.row_by_row = not isinstance(first, slice)
@@ -251,7 +251,7 @@ class BlockArrays:
         Args:
             up: Links from the source to where both sides meet.
             down: Links from the target to there.
-            times: Moments for which every link has data, shape (n,), n as made room for.
+            times: Moments for which every link has data, shape (n,), n as allocated.
             in_order: Whether no moment is earlier than the one before.
             translations: Is written to, shape (n, 3).
             rotations: Is written to, shape (n, 4).

@@ -26,7 +26,7 @@ class Column:
     As long as it lives, the records it was made of stay as they are; see `History.columns`.
 
     Attributes:
-        records: As they lie in memory, shape (k, 8); see `history`.
+        records: Samples in memory order, shape (k, 8); see `history`.
         stamps: Nanoseconds, shape (k,); a copy, made when first asked for, like `samples`.
         samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7).
         origin: The newest sample's parent and authority in one word; see `history`.

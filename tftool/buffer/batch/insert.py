@@ -139,7 +139,7 @@ def insert(
         rotations: Shape (n, 4).
 
     Returns:
-        What became of them, and they themselves as they were read.
+        The outcome of each row, and the rows as read.
     """
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     rows = CheckedRows(stamps, translations, rotations, (child, parent, authority))
@@ -199,7 +199,7 @@ def adopt(
         tree: The tree to insert into.
         max_frames: How many names there may be.
         link: Parent, child and authority.
-        records: As a history keeps them, shape (n, 8): stamps and seven doubles each.
+        records: Samples in the layout of a history, shape (n, 8): stamps and seven doubles.
         kept: How many from the first on are known to be as a history keeps them.
 
     Returns:

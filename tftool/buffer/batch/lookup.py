@@ -273,7 +273,7 @@ class _Batch:
         """Solve rows natively with one path; rows without data become NaN.
 
         Returns:
-            How many these are; None, and nothing was done, if the kernel cannot go this way.
+            Their number; None, with nothing done, if the kernel cannot solve this path.
         """
         up, down = self.held(path.up), self.held(path.down)
         if isinstance(rows, slice):

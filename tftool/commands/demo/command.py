@@ -62,7 +62,7 @@ class _Showing:
 
         Args:
             chosen: The scenario.
-            wanted: Its name, where it was asked for; None to show what runs here, if it does.
+            wanted: Name of the scenario; None to show the running session, if there is one.
         """
         found = join_or_host(self.connection, wanted, needs_turtles=True)
         if found.session is None:
@@ -158,7 +158,7 @@ def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None
     """Parse NAME=VALUE words.
 
     Raises:
-        UsageError: If one is something else, or a name comes twice.
+        UsageError: If one is something else, or a name is given twice.
     """
     found: dict[str, str] = {} if source_frame is None else {"source_frame": source_frame}
     for setting in settings:

@@ -17,7 +17,7 @@ class Baseline:
     """Fingerprints of an earlier report, by the name of each source.
 
     Attributes:
-        known: Those of each source.
+        known: Known findings of each source.
     """
 
     known: Mapping[str, frozenset[str]]

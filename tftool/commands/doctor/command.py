@@ -43,7 +43,7 @@ class DoctorReport:
     """Output format of the report.
 
     Attributes:
-        for_programs: As JSON.
+        for_programs: The report as JSON.
         markdown: For an issue on the web.
         verbose: With all evidence.
         statistics: With rate, latency and gaps.
@@ -109,7 +109,7 @@ class RowOptions:
         output: The file; None to report instead.
         processes: How many at once.
         scheduler: A cluster that does it.
-        resume: Whether to pass over what the file already holds.
+        resume: Whether to skip recordings that the file already holds.
     """
 
     output: Path | None

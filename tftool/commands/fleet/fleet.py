@@ -44,7 +44,7 @@ def sweep(
         task: Work to do for each.
 
     Returns:
-        How many recordings there are of each outcome, and the rows if there is no output.
+        The number of recordings by outcome, and the rows if there is no output.
     """
     from rich.console import Console
     from rich.progress import (
@@ -107,7 +107,7 @@ def _worked(
     """Yield the outcome of each recording as soon as it is known.
 
     Raises:
-        BrokenExecutor: If a process was ended; what others had finished came before.
+        BrokenExecutor: If a process was killed, after the results of the others.
     """
     queue = iter(sources)
     pending: dict[Future[list[Row]], str] = {}
@@ -245,7 +245,7 @@ def swept_into(
     """Process many recordings, write a file of rows, and print the summary.
 
     Returns:
-        How many recordings there are of each outcome, in all of the file.
+        The number of recordings by outcome, in all of the file.
     """
     sources = expanded(words)
     if not sources:

@@ -79,7 +79,7 @@ class FleetTask(Protocol):
 
         Args:
             source: Its name.
-            place: Where it is.
+            place: Its path.
         """
 
     def unreadable(self, source: str, why: str) -> Row:

@@ -60,11 +60,11 @@ class RowFile:
             path: Its suffix says the format: .jsonl, .csv or .parquet.
             columns: The columns of a table.
             judged: The columns that are kept of its existing rows; see `earlier`.
-            resume: Whether to keep what it holds, and go on.
+            resume: Whether to keep its rows and append.
 
         Raises:
             UsageError: If the suffix is another, or an extra is not installed.
-            InputError: If it cannot be opened, or what it holds is none of ours.
+            InputError: If it cannot be opened, or was not written by this command.
         """
         self.path = path
         self._columns = columns

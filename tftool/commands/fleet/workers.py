@@ -119,7 +119,7 @@ def workers_of(processes: int, scheduler: str) -> Workers:
     """Return the executor that the command's options choose.
 
     Raises:
-        UsageError: If both say it.
+        UsageError: If both are given.
     """
     if not scheduler:
         return OneProcess() if processes == 1 else Processes(processes)

@@ -169,7 +169,7 @@ class Questions:
             source: A recording below the root.
             begin: Leave out everything before that moment.
             end: Leave out everything after.
-            only: What to draw, with commas: x,y,z,roll,pitch,yaw,distance,speed.
+            only: Quantities to draw, separated by commas: x,y,z,roll,pitch,yaw,distance,speed.
         """
         options = [*_option("from", begin), *_option("to", end), *_option("only", only)]
         frames = (target_frame, source_frame)

@@ -61,7 +61,7 @@ class PlotStyle:
         Args:
             found: The pairs.
             start: The moment that is 0 on the axis.
-            console: Where it goes; 80 wide unless it is a terminal.
+            console: The console to print on; 80 columns wide unless it is a terminal.
             height: Lines there are; as many as are good if None.
             span: Seconds since `start` that the axis covers; from data to data if None.
             hidden: Numbers of the curves that keys have hidden; None where there are no keys.

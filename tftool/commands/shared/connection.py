@@ -100,7 +100,7 @@ class Connection:
         hosts_turtles: Whether it hosts turtles where it looks for a robot and finds none.
         mode: Join, host, or whichever fits.
         domain: Number of the ROS domain.
-        reach: By which middleware, and how far beyond this machine's own processes.
+        reach: Middleware, and reach beyond this machine's own processes.
         read_only: Whether to look only.
         robot: Joint positions, xacro arguments, a description for a recording.
         recording: How a recording is read.
@@ -259,7 +259,7 @@ def read(
 
     Raises:
         UsageError: If they contradict each other.
-        InputError: If a file is not there, or not what it is given as.
+        InputError: If a file is missing, or not of the stated kind.
     """
     if join and host:
         raise UsageError("--join and --host contradict each other: choose one.")

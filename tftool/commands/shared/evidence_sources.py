@@ -38,10 +38,10 @@ def evidence_from(
 
     Args:
         connection: The command's options.
-        word: What FROM names; None for the session that runs, else the turtle world.
+        word: FROM as typed; None for the running session, or else the turtle world.
         lasting: How long to listen, nanoseconds; the usual time when None.
         scope: Part of a recording to examine.
-        look: Says in lines what shows so far in a session, while it is listened to.
+        look: Returns lines about the findings so far, while a session is listened to.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.

@@ -44,7 +44,7 @@ class JoinDecision:
 
     Attributes:
         session: The session it has joined; None where it has to host.
-        link: By which a host lets others in; None where it keeps to itself.
+        link: Link by which others join; None for a host that nobody can join.
         alone: Why it does, as a sentence.
     """
 
@@ -143,7 +143,7 @@ def open_session(
 
     Args:
         connection: The command's options.
-        word: What FROM names, which is hosted; None for the session that runs.
+        word: FROM as typed, which is hosted; None for the running session.
         simulated: Whether a hosted world lives on simulated time, from its beginning on.
         head_start: How much of a scenario on the wall clock is lived through at once.
         cache_time: How far back the world's buffer remembers, in place of the scenario's own.

@@ -33,7 +33,7 @@ class ListeningBar:
 
         Args:
             lasting: How long the session is listened to, seconds.
-            look: Says in lines what shows so far.
+            look: Returns lines about the findings so far.
         """
         self._lasting = lasting
         self._look = look

@@ -40,9 +40,9 @@ def name_frames(
 
     Args:
         frames: The frames there are.
-        asked: Those asked for; None is none.
+        asked: Requested frames; None for none.
         when: When they are all there are; "so far" where more may come.
-        advice: A sentence that goes behind it.
+        advice: A sentence to append.
 
     Returns:
         Whether they were named.
@@ -104,7 +104,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
 
     Args:
         record: The line.
-        label: The program it comes from, where there are several.
+        label: Its program, if there are several.
     """
     line = visible_lines(str(record).rstrip())
     label = f"[{label}] " if label else ""

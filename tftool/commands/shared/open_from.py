@@ -53,19 +53,19 @@ def open_from(
     Args:
         connection: The command's options.
         place: FROM; None for the session that runs.
-        lasting: What --for says: how long to listen or to play.
+        lasting: Value of --for: how long to listen or to play.
         until: How far to play a scenario, where --for does not say; see `open_frames`.
-        margin: How far to play on behind that, seconds.
+        margin: Seconds to play on after that.
         cache_time: How far back the buffer of a scenario or a session remembers.
         tells: Whether to print oddities of the frames.
         shares: Whether the options of sharing are for another of several sources.
         watch: Called with the world of a scenario or a session before it lives.
-        look: Says in lines, below the progress bar, what shows so far in a session's frames.
+        look: Returns lines to show below the progress bar about a session's frames so far.
 
     Raises:
         InputError: If FROM names nothing, or it cannot be read.
         LinkError: If a session was asked for and there is none.
-        UsageError: If options do not fit what FROM is.
+        UsageError: If options do not fit the kind of FROM.
     """
     if lasting is not None:
         until, margin = as_seconds(lasting), 0.0

@@ -38,7 +38,7 @@ def finite(value: float | None) -> float | None:
     """Accept a finite number.
 
     Raises:
-        typer.BadParameter: If it is NaN or infinite, or beyond `MOST`.
+        typer.BadParameter: If it is NaN or infinite, or above `MOST`.
     """
     if value is not None and not math.isfinite(value):
         raise typer.BadParameter(f"{value} is not a finite number.")
@@ -49,7 +49,7 @@ def positive(value: float | None) -> float | None:
     """Accept a finite number above zero.
 
     Raises:
-        typer.BadParameter: If it is zero, negative, NaN or infinite, or beyond `MOST`.
+        typer.BadParameter: If it is zero, negative, NaN or infinite, or above `MOST`.
     """
     if value is not None and not (math.isfinite(value) and value > 0):
         raise typer.BadParameter(f"{value:g} is not a positive number.")
@@ -60,7 +60,7 @@ def not_negative(value: float | None) -> float | None:
     """Accept a finite number of zero or more.
 
     Raises:
-        typer.BadParameter: If it is negative, NaN or infinite, or beyond `MOST`.
+        typer.BadParameter: If it is negative, NaN or infinite, or above `MOST`.
     """
     if value is not None and not (math.isfinite(value) and value >= 0):
         raise typer.BadParameter(f"{value:g} is not zero or more.")
@@ -91,7 +91,7 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
     """Make a parser from seconds to whole nanoseconds.
 
     Args:
-        check: What number it may be, by its seconds: `positive`, `not_negative`, `finite`.
+        check: Check of the number of seconds: `positive`, `not_negative`, `finite`.
     """
 
     def parse(text: str | int) -> Duration:
@@ -200,7 +200,7 @@ def option(words: str, *names: str, metavar: str | None = None, panel: str | Non
 
     Args:
         words: Text of the help.
-        names: What it is called; by its parameter where none is given.
+        names: Names of the option; made from its parameter if none is given.
         metavar: Name of its value in the help.
         panel: The heading it is listed under; None for that of all others.
     """
@@ -224,7 +224,7 @@ def seconds_option(
 
     Args:
         words: Text of the help.
-        names: What it is called; by its parameter where none is given.
+        names: Names of the option; made from its parameter if none is given.
         check: Check of the number.
         panel: The heading it is listed under; None for that of all others.
     """

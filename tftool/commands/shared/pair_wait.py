@@ -45,7 +45,7 @@ class PairWait:
             world: The world whose buffer is asked.
             pair: The lookup.
             patience: How long to wait, in nanoseconds; None for ever.
-            advice: What ends a wait for a frame that never comes, when patience does not.
+            advice: Remedy named when a frame does not appear in time.
         """
         self.world = world
         self.pair = pair

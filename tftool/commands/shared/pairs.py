@@ -98,7 +98,7 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
 
     Args:
         words: TARGET SOURCE [FROM], or [FROM] alone.
-        given: What --pair said, as TARGET:SOURCE.
+        given: Values of --pair, TARGET:SOURCE.
 
     Raises:
         UsageError: If they do not fit together.
@@ -181,7 +181,7 @@ def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | No
     """Return --from and --to as stamps.
 
     Raises:
-        UsageError: If the one lies behind the other, or nothing lies between the two.
+        UsageError: If the first is after the second, or there is no data between them.
     """
     begin, over = frames.span
     start = None if first is None else first.stamp(begin)

@@ -30,7 +30,7 @@ def tell_log(world: "World", label_of: "Callable[[LogRecord], str] | None" = Non
 
     Args:
         world: The world.
-        label_of: Names the program a line comes from, where there are several.
+        label_of: Returns the name of a line's program, if there are several.
     """
 
     def tell(record: "LogRecord") -> None:

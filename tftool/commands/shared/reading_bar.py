@@ -29,7 +29,7 @@ class Bar:
         """Start without a bar.
 
         Args:
-            what: What it says in front, fit for a terminal.
+            what: Text in front of the bar, fit for a terminal.
         """
         self._what = what
         self._clock = WallClock()

@@ -52,7 +52,7 @@ class RecordingRun:
             recorder: The recorder.
             rolling: Writer of the recording.
             clock: When to look.
-            finding: Which finding ends it, by its id; None for none.
+            finding: Id of the finding that ends recording; None for none.
         """
         self.recorder = recorder
         self.rolling = rolling

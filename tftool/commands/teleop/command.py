@@ -44,7 +44,7 @@ def press_all(connection: Connection, turtle: str, keys: str) -> str:
         keys: Words between blanks: "up up left g".
 
     Returns:
-        A sentence that says where the turtle is then.
+        A sentence with the turtle's new place.
 
     Raises:
         UsageError: If there is no such key, or no such turtle.

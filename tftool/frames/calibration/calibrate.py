@@ -101,7 +101,7 @@ class Calibration:
         halves_differ: Distance between the mounts of both halves: metres, degrees.
         unseen: Parts of the mount that the motion does not show: x y z roll pitch yaw.
         unseen_direction: Unit vector along moving_a's axes, where a tilted direction is unseen.
-        inverted: Which of the motions was turned round.
+        inverted: Whether each motion was inverted.
         next_motion: The motion to record next; None if none is needed.
         scale: Factor of A's translations and its half-width; None if it was not asked for.
         notes: How the inputs were read, as sentences.
@@ -156,8 +156,8 @@ def calibrate(
         planar: Whether only x, y and yaw of the mount are asked for.
         scale: Whether the translations of A may be scaled, as those of wheel odometry.
         published: The mount so far: parts that the motion does not show are kept from it.
-        inverted: Which motions to turn round; None to decide for B by the motion.
-        seed: Of the random numbers behind the intervals.
+        inverted: Motions to invert; None to decide for B by the motion.
+        seed: Seed of the random numbers for the intervals.
         progress: Called with how many steps of how many are done.
 
     Returns:

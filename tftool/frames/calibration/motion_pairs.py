@@ -21,9 +21,9 @@ class MotionPairs:
 
     Attributes:
         turns_a: Rotation vectors of A, radians about the axes of moving_a, shape (n, 3).
-        turns_b: Those of B, about the axes of moving_b.
+        turns_b: Rotations of B, about the axes of moving_b.
         moves_a: Translations of A in moving_a, metres, shape (n, 3).
-        moves_b: Those of B in moving_b.
+        moves_b: Translations of B in moving_b.
         rotations_a: Rotations of A, quaternions, shape (n, 4).
         largest: Largest angle that A turns by in ten seconds, radians.
     """

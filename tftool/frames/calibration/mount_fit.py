@@ -30,7 +30,7 @@ class Fit:
     Attributes:
         turn: Rotation of X, quaternion.
         shift: Translation of X, metres.
-        offset: d beyond the rough clock offset, seconds, at `middle`.
+        offset: d minus the rough clock offset, seconds, at `middle`.
         drift: Change of d in a second.
         scale: Factor of A's translations.
         joins: Rotations of Y by segment, shape (k, 4).

@@ -46,7 +46,7 @@ def rows(
 
     Args:
         numbers: Finite and below 9e9, shape (n, k).
-        stamps: What each row begins with, nanoseconds, shape (n,); nothing if None.
+        stamps: Stamps at the beginning of rows, nanoseconds, shape (n,); no column if None.
         seconds: Whether stamps are written as seconds with nine decimals, not as nanoseconds.
         separator: One character.
     """

@@ -35,7 +35,7 @@ class Exported:
 
     Attributes:
         paths: The files.
-        format: What they are.
+        format: Their format.
         count: How many poses, or links, or transforms.
         trajectories: The answers, with the refused spans; empty for links.
     """
@@ -113,10 +113,10 @@ def export(
         frames: Opened frames, a recording, a buffer, or a robot description.
         target: Frame in which poses are expressed; None to write links.
         source: Frame whose poses they are.
-        path: Where to; its end says what: .tum .kitti .csv .npz .parquet of pairs,
+        path: File to write; its suffix names the format: .tum .kitti .csv .npz .parquet of pairs,
             .urdf .launch.py .launch.xml .launch.yaml .sh .mcap of links.
         pairs: Several of (target, source), in CSV, npz and Parquet.
-        format: What to write whatever the name ends in: "euroc", or another of `Format`.
+        format: Format in place of the suffix's: "euroc", or another of `Format`.
         start: Leave out everything before, nanoseconds.
         end: Leave out everything after, nanoseconds.
         period: Ask so often, nanoseconds; at the stamps of the fastest link if None.

@@ -21,7 +21,7 @@ class Style:
     """Options of an export; each format uses those that apply.
 
     Attributes:
-        decimals: Of numbers in texts; 17 writes each as short as it can be read back.
+        decimals: Decimals of numbers in texts; 17 writes the shortest text that reads back equal.
         rpy: Whether CSV and Parquet get roll, pitch and yaw, too.
         foxglove: Whether MCAP gets foxglove.FrameTransforms in the place of tf2_msgs.
         with_moving: Whether URDF gets links that move, too, as floating joints.
@@ -91,7 +91,7 @@ def format_of(path: Path) -> Format:
     """Return the format for a file name.
 
     Raises:
-        UsageError: If it says nothing.
+        UsageError: If it names none.
     """
     name = path.name.lower()
     for suffix, form in SUFFIXES.items():

@@ -30,16 +30,16 @@ def write_frames(
 
     Args:
         buffer: Source of the transforms.
-        path: Where to; its name ends in ".mcap".
+        path: File to write; its name ends in ".mcap".
         foxglove: Whether as foxglove.FrameTransforms in protobuf, not as tf2_msgs/TFMessage.
         force: Whether it may replace an existing file.
         progress: Called with the progress.
 
     Returns:
-        How many transforms were written.
+        The number of transforms written.
 
     Raises:
-        UsageError: If something stands there and `force` is not given.
+        UsageError: If the file exists and `force` is not given.
         InputError: If it cannot be written.
     """
     statics, moving, total = _held(buffer)

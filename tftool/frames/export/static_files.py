@@ -39,7 +39,7 @@ def fixed_links(
     Args:
         buffer: Source of the frames.
         with_moving: Whether to add those that move, with their pose at one moment.
-        time: That moment, nanoseconds; 0 for each link's latest.
+        time: Moment, nanoseconds; 0 for the latest of each link.
         root: Take only the frames below this one; all if None.
 
     Raises:
@@ -79,7 +79,7 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
     """Return a robot description with a joint for every link.
 
     Args:
-        links: What to write; those that move become floating joints, which
+        links: Links to write; moving ones become floating joints, which
             robot_state_publisher skips.
         name: The robot's.
 

@@ -58,7 +58,7 @@ def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
     """Open files that get their names together when all are complete, or not at all.
 
     Args:
-        paths: What they are called; the last is that by which the others are found.
+        paths: Their names; the others are found by the last one.
         force: Whether they may replace existing files.
 
     Raises:

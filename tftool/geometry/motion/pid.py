@@ -85,7 +85,7 @@ def step(
             errors go the short way round.
 
     Returns:
-        The output, and what to remember.
+        The output, and the new state.
     """
     error = setpoint - measured
     moved = 0.0 if memory.measured is None else measured - memory.measured

@@ -63,12 +63,12 @@ def steer(
     Args:
         law: How to steer.
         memory: State after the previous step; `FRESH` at first.
-        x: How far the goal lies ahead, in metres.
-        y: How far the goal lies to the left, in metres.
+        x: Distance of the goal ahead, in metres.
+        y: Distance of the goal to the left, in metres.
         interval: Seconds since the previous step.
 
     Returns:
-        The command, and what to remember. Within the dead band the command is to
+        The command, and the new state. Within the dead band the command is to
         stop, and the state is dropped.
     """
     distance = math.hypot(x, y)

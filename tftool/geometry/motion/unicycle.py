@@ -89,7 +89,7 @@ def advance(start: Placement, forward: float, sideways: float, turn: float) -> P
         turn: Turn rate in rad/s.
 
     Returns:
-        Where the body is one update later, walls not yet considered.
+        The pose of the body one update later, walls not yet considered.
     """
     x, y, theta = start
     theta = wrap(theta + turn * STEP)
@@ -141,7 +141,7 @@ def float32_finite(value: float, what: str) -> float:
 
     Args:
         value: The number as it came in.
-        what: What the number is, for the sentence.
+        what: Name of the number in the error message.
 
     Raises:
         UsageError: If the number is NaN, infinite or larger than a 32-bit float can be.

@@ -31,15 +31,15 @@ class Notation:
     """One notation; angles are radians here.
 
     Attributes:
-        title: What it is called beside its numbers.
+        title: Its title beside its numbers.
         count: How many numbers it has.
         plain: How many of them, from the first on, are no angles.
         read: Makes a quaternion of its numbers, in xyzw order.
         write: Makes its numbers of a unit quaternion.
         as_object: Its entries in JSON; empty where another notation says the same.
-        read_as: What it is called when it was read; its title if empty.
+        read_as: Its name as an input; its title if empty.
         aliases: Other words that name it in a text.
-        wraps: Whether an angle beyond a full turn is likely a mistake.
+        wraps: Whether an angle of more than a full turn is likely a mistake.
     """
 
     title: str

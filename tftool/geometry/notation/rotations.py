@@ -70,7 +70,7 @@ class Written:
     Attributes:
         transform: The pose; its quaternion of length 1.
         has_translation: Whether the text said where, too.
-        form: What it was read as, in words.
+        form: Name of the notation that was recognised.
         notes: Oddities, as sentences.
     """
 
@@ -85,7 +85,7 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
 
     Args:
         text: The pasted text.
-        form: What bare numbers are, one of `FORMS`; None where they say so themselves.
+        form: Notation of bare numbers, one of `FORMS`; None to recognise it from the text.
         degrees: Whether angles are degrees; the text may say so itself. What URDF and
             static_transform_publisher's lines hold are radians whatever is said.
 

@@ -59,10 +59,10 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
     words `x y z yaw pitch roll parent child`; or nine, `x y z qx qy qz qw parent child`.
 
     Returns:
-        What they say; None when they ask for help.
+        The parsed arguments; None if they ask for help.
 
     Raises:
-        UsageError: With tf2's own text, and what to do about it.
+        UsageError: With tf2's own text and a remedy.
     """
     words, given, asks_for_help = _split(argv)
     if asks_for_help:
@@ -113,12 +113,12 @@ def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
     """Parse a whole shell line, also of ROS 1's publisher.
 
     Args:
-        line: Read behind the word "static_transform_publisher"; as a whole, if that is
+        line: The line; the part after "static_transform_publisher", or all of it if that word is
             not there.
         frames: Parent and child where options leave them out.
 
     Returns:
-        What it says; None where it asks for help.
+        The parsed arguments; None if it asks for help.
 
     Raises:
         UsageError: If it cannot be read.

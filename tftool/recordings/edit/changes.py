@@ -44,15 +44,15 @@ class Edits:
     Attributes:
         drop: Links to leave out.
         rename: New names of frames.
-        prefix: What to put in front of every name.
+        prefix: Prefix of every name.
         strip_slash: Whether to take leading slashes away.
         poses: New numbers of links: x y z, and x y z w.
         reparent: The parent that a link's child shall hang from, without being moved.
         statics_first: Whether the statics come in one message for each of their channels, at
             the beginning.
         statics_from: Statics to take in place of those of the same children.
-        start: Where to begin, nanoseconds.
-        end: Where to end.
+        start: First moment to keep, nanoseconds.
+        end: Last moment to keep.
         by_record_time: Whether these are log times, not stamps.
         shift: Nanoseconds to add to the stamps of moving links.
         restamp: Whether stamps become log times.
@@ -175,7 +175,7 @@ class Changer:
     """Editor of messages, with counts of its changes.
 
     Attributes:
-        window: Which moments are kept; None for all.
+        window: Moments to keep; None for all.
         counts: How often each thing was done, by its name.
         topics: Topics on which links are that change; None where that is not known.
         passed_over: Topics whose names could not be changed, and why.
@@ -187,9 +187,9 @@ class Changer:
         """Take the changes to make.
 
         Args:
-            edits: What to change.
-            window: Which moments to keep; None for all.
-            reparenting: Where old parents are in new ones.
+            edits: The edits.
+            window: Moments to keep; None for all.
+            reparenting: Transforms from new parents to old ones.
         """
         self._edits = edits
         self.window = window

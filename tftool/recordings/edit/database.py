@@ -39,12 +39,12 @@ class EditedDatabase:
     """A database edited in place; see also `EditedFile`, which is written row by row.
 
     Attributes:
-        path: Where it is written.
+        path: Path of the written file.
         container: "db3".
         channels: Its topics.
         counts: Messages by topic, afterwards.
         start: Log time of the first message, afterwards.
-        end: Of the last.
+        end: Log time of the last message.
     """
 
     container = "db3"

@@ -122,7 +122,7 @@ class StaticHeads:
         """Write the latest value of every static transform, one message per channel.
 
         Args:
-            number: Which part of the result it is, from 0.
+            number: Its number among the parts of the result, from 0.
             output: The part's file, still empty.
             start: The log time of the written messages.
         """

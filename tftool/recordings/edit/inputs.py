@@ -20,14 +20,14 @@ class EditedInput:
     """One recording to edit; a context manager.
 
     Attributes:
-        name: As it was given.
+        name: Its name as given.
         tapes: Its files, in order.
-        paths: Where they are.
+        paths: Their paths.
         is_folder: Whether it is a folder of rosbag2's.
-        metadata: What its metadata.yaml says.
+        metadata: Contents of its metadata.yaml.
         mode: "file" or "message" if rosbag2 compressed whole files or each message.
         damage: Damage of the folder.
-        notes: What else is worth saying of it.
+        notes: Further notes on it.
     """
 
     name: str

@@ -42,14 +42,14 @@ class EditedFile:
     """One output file, with the facts for the final comparison.
 
     Attributes:
-        path: Where it is written.
+        path: Path of the written file.
         container: "mcap", "db3" or "bag".
         counts: Messages by channel as written.
-        digests: Of each topic a checksum over its messages, in order.
+        digests: Checksum of each topic's messages, in order.
         copied: Bytes of each chunk that was copied, by its place in the file.
         start: Log time of the first message.
-        end: Of the last.
-        refused: Topics that cannot be converted: what becomes of each, and why.
+        end: Log time of the last message.
+        refused: Topics that cannot be converted: the treatment of each, and the reason.
     """
 
     def __init__(
@@ -66,9 +66,9 @@ class EditedFile:
         """Make an output that is not open yet.
 
         Args:
-            path: Where it is written.
+            path: Path of the written file.
             container: "mcap", "db3" or "bag".
-            tape: What it is made from first: its style is kept where the container is the same.
+            tape: The first input, whose style is kept if the container is the same.
             ros2: Whether messages of ROS 1 become those of ROS 2.
             packs: Whether each message is compressed by itself, as rosbag2 does.
             latched: Topics that are made to offer their last message to late subscribers.

@@ -24,7 +24,7 @@ def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
     """Return the editor for the messages of these recordings.
 
     Args:
-        edits: What to change.
+        edits: The edits.
         recordings: The recordings, opened; their transforms are read where an option names links.
 
     Raises:
@@ -122,7 +122,7 @@ def _refuse_outside(
     """Refuse a cut that keeps nothing: one of its ends is beyond all times.
 
     Args:
-        edits: Whose cut.
+        edits: The edits with the cut.
         recordings: Recordings to cut.
         moments: When there is something, in no order.
 

@@ -45,7 +45,7 @@ class EditReport:
     Attributes:
         messages: How many the result has.
         counts: How often each thing was done, by its name.
-        notes: What else is to be known, as sentences.
+        notes: Further notes, as sentences.
         files: The names of the written files.
         copied: Chunks that were copied as they were.
     """
@@ -71,10 +71,10 @@ def edit(
 
     Args:
         names: The recordings: files or folders; several are joined.
-        output: What to write: its suffix names the container, none a folder as of rosbag2.
-        edits: What to change.
+        output: Path to write: its suffix names the container; without one, a folder as of rosbag2.
+        edits: The edits.
         force: Whether it may replace existing files.
-        dry_run: Whether only to find out what would be done.
+        dry_run: Whether to report the edits without writing.
         ros2: Whether an MCAP file gets ROS 1's messages converted to ROS 2's.
         progress: Called with the progress.
 

@@ -29,9 +29,9 @@ class Result:
 
     Attributes:
         payload: The bytes; None where the message is left out.
-        layout: How they are written.
-        kept: Which of its transforms are still in it, by their places.
-        given: Those of the kept ones whose numbers are given by an option.
+        layout: Layout of its messages.
+        kept: Places of the transforms that it keeps.
+        given: Places of the kept ones whose numbers an option sets.
     """
 
     payload: bytes | None
@@ -110,7 +110,7 @@ class Kinds:
 
         Args:
             table: The messages.
-            which: Those of the channel.
+            which: Messages of the channel.
 
         Returns:
             Each kind with its messages and their bytes as rows, and the messages of no kind.

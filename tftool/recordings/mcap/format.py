@@ -79,7 +79,7 @@ class SingleMessages:
 
         Args:
             file: The file.
-            chosen: Of a channel the number of its stream.
+            chosen: Number of the stream of each channel.
             head: How many bytes of each message are needed; all if None.
         """
         self._file = file
@@ -106,9 +106,9 @@ class SingleMessages:
         """Read messages.
 
         Args:
-            places: Where they begin, counted from `offset`.
+            places: Their places, counted from `offset`.
             offset: A place in the file.
-            end: Another one, which none of them goes beyond.
+            end: Offset that none of them may exceed.
 
         Raises:
             InputError: If something else is there; none of these is taken then.
@@ -191,7 +191,7 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
     """Yield every record's code, and the start and end of its body.
 
     Raises:
-        InputError: At one that goes on behind the end.
+        InputError: At a record that exceeds the end.
     """
     position, size = 0, len(data)
     unpack_from = RECORD.unpack_from
@@ -211,12 +211,12 @@ class IndexEntry(NamedTuple):
 
     Attributes:
         start: Log time of its first message.
-        end: Of its last.
-        position: Where its record begins.
+        end: Log time of its last message.
+        position: Offset of its record.
         length: Bytes of its record.
         indexes: For each channel where its message index begins.
         indexes_length: Bytes of those.
-        method: How it is compressed.
+        method: Its compression.
         packed: Bytes of its messages in the file.
         size: Bytes of them unpacked.
     """
@@ -248,7 +248,7 @@ def index_entry(summary: bytes, first: int, last: int, size: int) -> IndexEntry:
     """Parse a chunk index in the summary of a file of `size` bytes.
 
     Raises:
-        InputError: If it is cut, or names bytes beyond the file's end.
+        InputError: If it is cut, or names bytes after the file's end.
     """
     start, end, position, length, count = _CHUNK_INDEX_HEAD.unpack_from(summary, first)
     indexes = entries_at(summary, first + 32, last)
@@ -291,11 +291,11 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
 
     Args:
         body: The record.
-        place: Where it begins.
-        last: Where it ends at the latest.
+        place: Its offset.
+        last: Offset that it must not exceed.
 
     Returns:
-        The text, in which bytes that are not UTF-8 are surrogates.
+        The text; bytes that are not UTF-8 become surrogates.
     """
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length

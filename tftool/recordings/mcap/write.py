@@ -98,9 +98,9 @@ class McapWriter:
         """Create the file; an existing one is replaced.
 
         Args:
-            path: Where it is.
-            profile: What its channels follow: "ros2", "ros1", or "".
-            library: What wrote it.
+            path: Its path.
+            profile: Profile of its channels: "ros2", "ros1", or "".
+            library: Name of the writing library.
             compression: "zstd", "lz4" or "none", of each chunk; "zstd" if None.
             chunk_size: Bytes of messages in a chunk before they are compressed; 0 for no chunks.
             with_crc: Whether chunks and the data as a whole carry CRCs.

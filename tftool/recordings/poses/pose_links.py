@@ -36,7 +36,7 @@ class PoseLink:
         static: Whether the one pose holds at all times.
         width: Numbers of one pose: 7 (x y z, qx qy qz qw) or 12 (the upper rows of the matrix).
         stamps: Nanoseconds, one a pose.
-        numbers: The poses, one behind the other.
+        numbers: The poses, concatenated.
     """
 
     parent: str
@@ -54,8 +54,8 @@ class PoseFile:
     """A pose file during reading: lines, options, and unusual rows.
 
     Attributes:
-        path: Where it is.
-        options: How it is read.
+        path: Its path.
+        options: Options of reading.
         default: Names of the format's frames.
         oddities: Rows that were left out or out of order, as the middle of a sentence.
     """
@@ -64,8 +64,8 @@ class PoseFile:
         """Take a file.
 
         Args:
-            path: Where it is.
-            options: How it is read.
+            path: Its path.
+            options: Options of reading.
             default: Names of parent and child, where the options name none.
         """
         self.path = path

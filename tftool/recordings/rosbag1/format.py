@@ -100,8 +100,8 @@ def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Sta
 
     Args:
         data: A chunk's records.
-        entries: What its index tells of each message.
-        connection: Whose messages they are.
+        entries: Index entries of its messages.
+        connection: Connection of the messages.
 
     Raises:
         InputError: If the index points at something else.
@@ -154,7 +154,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
         partial: Whether the last one may be cut.
 
     Raises:
-        InputError: At one that goes on behind the end.
+        InputError: At a record that exceeds the end.
     """
     position, size = 0, len(data)
     while position + 8 <= size:

@@ -52,7 +52,7 @@ class Rosbag1(ChunkedReader):
         """Open the file and list its contents.
 
         Args:
-            path: Where it is.
+            path: Its path.
             by_index: Whether its messages are to be read by its index, which is made where the
                 file has none; otherwise they are read with `blocks`.
 

@@ -69,7 +69,7 @@ class Rosbag1Writer:
         """Create the file; an existing one is replaced.
 
         Args:
-            path: Where it is.
+            path: Its path.
             compression: "none", "bz2" or "lz4", of each chunk.
             chunk_size: Bytes of messages in a chunk before they are compressed.
 

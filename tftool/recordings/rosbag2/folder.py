@@ -104,8 +104,8 @@ def _joined(paths: Sequence[Path], damage: list[str], *, by_time: bool = False) 
 
     Args:
         paths: The files.
-        damage: List to which oddities are added.
-        by_time: Whether the recording that begins first comes first, whatever its name.
+        damage: List to append faults to.
+        by_time: Whether to order recordings by their start, not by name.
     """
     parts: list[tuple[str, Container]] = []
     refused: list[InputError] = []

@@ -22,7 +22,7 @@ class FileFacts:
     Attributes:
         name: Its name in the folder.
         start: Log time of its first message; 0 where there is none.
-        end: Of its last.
+        end: Log time of its last message.
         count: Its messages.
     """
 
@@ -46,8 +46,8 @@ def metadata_text(
         storage: "mcap" or "sqlite3".
         files: The files, in order.
         topics: How many messages each topic has.
-        compression: Format and mode of compression beyond the storage's own.
-        old: What the metadata of the recording it was made from said: its version and what
+        compression: Format and mode of compression outside the storage.
+        old: Metadata of the recording it was made from: its version and what
             else does not follow from the files is kept.
     """
     import yaml
@@ -146,7 +146,7 @@ class FolderWriter:
             folder: The folder.
             file: The file in it.
             storage: "mcap" or "sqlite3".
-            inner: What writes the file.
+            inner: Writer of the file.
         """
         self._folder = folder
         self._file = file

@@ -45,10 +45,10 @@ def read_pages(path: Path, root: int, streams: dict[int, int]) -> Iterator[tuple
     Args:
         path: The file.
         root: The page at which the table's tree begins; 0 reads nothing.
-        streams: Of a topic's number in the file that of its stream.
+        streams: Stream number of each topic number of the file.
 
     Returns:
-        Pieces, each with the id of its last row: rows behind the last one were not read.
+        Pieces, each with the id of its last row: rows after the last one were not read.
     """
     if root < 2:
         return

@@ -50,7 +50,7 @@ class Sqlite:
     """One `.db3` file; see `ContainerReader`.
 
     Attributes:
-        path: Where it is.
+        path: Its path.
         unpacks: Whether `blocks` unpacks messages that rosbag2 compressed each by itself.
         topic_ids: The number that its own rows have for each stream.
     """
@@ -62,7 +62,7 @@ class Sqlite:
         """Open the file and list its contents.
 
         Args:
-            path: Where it is.
+            path: Its path.
             by_index: Makes no difference: rows are read in their order in any case.
 
         Raises:

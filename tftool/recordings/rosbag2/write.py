@@ -36,7 +36,7 @@ class SqliteWriter:
         """Create the file; an existing one is replaced.
 
         Args:
-            path: Where it is.
+            path: Its path.
             compression: "none": the container has no other.
 
         Raises:

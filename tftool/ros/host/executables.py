@@ -44,7 +44,7 @@ class Asked:
     """Request to start one of our executables.
 
     Attributes:
-        world: Where it lives.
+        world: Its world.
         name: Its node's full name.
         namespace: The namespace it is in.
         arguments: Its own arguments.
@@ -153,7 +153,7 @@ def _robot_of(asked: Asked) -> "Robot | None":
     """Return a node's robot: by parameter robot_description, or by a file's name.
 
     Raises:
-        UsageError: If neither is one; the mistakes are told.
+        UsageError: If neither is one, with the mistakes.
     """
     # numpy comes with it, which other nodes do without.
     from tftool.robots.robot_model import Robot, load_urdf
@@ -304,7 +304,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
 
     Raises:
         HasItsOwnCommand: If it is one for a terminal of its own.
-        UsageError: If there is no such package or executable; the nearest is told.
+        UsageError: If there is no such package or executable, with the nearest name.
     """
     found = workspace.packages.get(package)
     if found is not None and (executable in found.scripts or found.script_file(executable)):
@@ -342,19 +342,19 @@ def start(
     """Start an executable in a world.
 
     Args:
-        world: Where it is to live.
-        workspace: Where users' packages are looked for, first.
+        world: World to join.
+        workspace: Workspace of users' packages, searched first.
         package: Its package; None for a file.
         executable: Its name there, or the file.
-        label: What the program is called among others: "listener-4".
+        label: Name of the program among others: "listener-4".
         argv: Its whole `sys.argv`.
         arguments: Its own arguments.
-        options: What `--ros-args` says.
+        options: Options of `--ros-args`.
         on_exit: Called once a program of a user's has ended.
 
     Raises:
         HasItsOwnCommand: If it is one for a terminal of its own.
-        UsageError: If there is no such package or executable; the nearest is told.
+        UsageError: If there is no such package or executable, with the nearest name.
         InputError: If its file cannot be read or is no Python.
     """
     # As where a workspace is sourced: each of its packages can import the others.

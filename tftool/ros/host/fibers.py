@@ -107,13 +107,13 @@ class Fiber:
     """One thread of users' code, which alternates with the event loop.
 
     Attributes:
-        name: Whose code it is.
+        name: Name of the program whose code it runs.
         interrupted: Whether it was asked to end; every wait then raises KeyboardInterrupt.
-        error: What its body raised, once it has ended; a StuckError where it had to be broken
-            off, because it went on after it was asked to end, and no signal had asked.
+        error: Exception of its body, once it has ended; a StuckError where it had to be
+            broken off because it went on after it was asked to end without a signal.
         ended: Whether its body is over.
-        owner: Whose fiber it is, for `current`.
-        end: Makes what every wait raises once it was asked to end.
+        owner: Program of the fiber, for `current`.
+        end: Returns the exception that every wait raises once it was asked to end.
     """
 
     def __init__(
@@ -130,9 +130,9 @@ class Fiber:
         """Prepare a thread for `body`; `drive` starts it.
 
         Args:
-            name: Whose code it is, for messages.
-            body: What to run.
-            strict: Whether the loop stands still while the thread runs.
+            name: Name of the program, for messages.
+            body: Function to run.
+            strict: Whether the loop is blocked while the thread runs.
             on_busy: Called once, on the loop's thread, when the code has not paused for
                 `patience` real seconds (by default `PATIENCE`).
             patience: See `on_busy`.
@@ -193,7 +193,7 @@ class Fiber:
 
         Raises:
             KeyboardInterrupt: If the fiber was asked to end while it waited.
-            Exception: What `request` raises.
+            Exception: Any that `request` raises.
         """
         __tracebackhide__ = True
         self._answer = (None, None)

@@ -330,7 +330,7 @@ class ImportedName:
 
     Attributes:
         module: Our module, below `tftool.ros`; or "package/kind" of an interface.
-        name: Its name there; "*" stands for every public name.
+        name: Its name there; "*" means every public name.
     """
 
     module: str

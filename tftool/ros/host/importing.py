@@ -260,7 +260,7 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
         force: Also where a real ROS 2 is sourced.
 
     Raises:
-        UsageError: If a real ROS 2 is sourced and we are not told to force.
+        UsageError: If a real ROS 2 is sourced and `force` is not given.
     """
     found = real_ros()
     if found and not force:

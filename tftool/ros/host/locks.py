@@ -36,7 +36,7 @@ class StateMonitor:
         """Change the state, and wake every waiting thread to check it.
 
         Returns:
-            What `update` gives; what it raises is raised.
+            The result of `update`, whose exceptions pass through.
         """
         with self._mutex:
             try:
@@ -122,7 +122,7 @@ def _limit(blocking: bool, timeout: float | None) -> float | None:
     """Return the timeout given to `acquire` in the form of `StateMonitor.wait`.
 
     Raises:
-        ValueError: As Python's own locks do.
+        ValueError: As in Python's own locks.
     """
     if timeout is None or timeout == -1:
         return None if blocking else 0.0

@@ -24,8 +24,8 @@ class Fault(NamedTuple):
     """Reason why a name is invalid.
 
     Attributes:
-        reason: What a name must be like.
-        at: Where it is not.
+        reason: Rule that the name breaks.
+        at: Position of the fault.
     """
 
     reason: str
@@ -59,7 +59,7 @@ class RosOptions:
         remaps: Rules for topics, services and actions, the first that fits counts.
         parameters: (node pattern, name, value), later ones win.
         levels: Log levels by logger; "" is everybody's.
-        logs_to_rosout: Whether what nodes log is published on `/rosout`.
+        logs_to_rosout: Whether log messages of nodes are published on `/rosout`.
     """
 
     name: str | None = None

@@ -23,7 +23,7 @@ class Package:
 
     Attributes:
         name: Its name.
-        path: Its folder; stands for its share directory too.
+        path: Its folder, also used as its share directory.
         scripts: Its console scripts: name to "module:function".
         installed: Files that its setup.py installs into its share directory at another place
             than the one where they lie: that place to the file.

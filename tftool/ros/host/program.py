@@ -55,18 +55,18 @@ class Program(Node):
     """One executable.
 
     Attributes:
-        label: What it was started as; its node may take that name over in the world.
-        argv: What its `sys.argv` is.
-        options: What `--ros-args` said.
-        strict: Whether time stands still while it runs: on the simulated clock.
+        label: Name it was started under; its node may take it over in the world.
+        argv: Its `sys.argv`.
+        options: Options of `--ros-args`.
+        strict: Whether time is held while it runs: on the simulated clock.
         broadcasts: Whether it sends transforms.
         listens: Whether it asks for them; one that only sends has its timers go before
             those of the others in the same instant.
-        failure: What ended it, unless it ended well.
+        failure: Its error, unless it ended well.
         status: Its exit status once it has ended, None before.
         nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
         unserved: The nodes it destroyed, each with its number of callbacks if none was served.
-        event_loops: Those of asyncio that it made, closed at the end.
+        event_loops: Event loops of asyncio that it made, closed at the end.
         lines_with_angles: Lines of it whose angles were looked at: whether they are degrees.
         advice: Functions that sum its lookups up at the end: a sentence, or "".
     """
@@ -86,11 +86,11 @@ class Program(Node):
         """Join the world; `body` is the code to run, None adopts the calling thread.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The executable's name.
             body: Its `main`.
             argv: Its `sys.argv`.
-            options: What `--ros-args` said.
+            options: Options of `--ros-args`.
             on_exit: Called on the loop's thread once it has ended; without one a program
                 that fails ends the run.
         """
@@ -147,7 +147,7 @@ class Program(Node):
         """Run the body; what it leaves open is closed.
 
         Raises:
-            BaseException: What ended it, if it failed and its exit is not waited for.
+            BaseException: Its error, if it failed and nobody waits for its exit.
         """
         self._loop = asyncio.get_running_loop()
         self._loop_thread = threading.get_ident()

@@ -160,7 +160,7 @@ def interface(name: str, kind: str) -> Any:
     """Return the class of an interface, "package/srv/Name" or "package/Name".
 
     Raises:
-        UsageError: If it is not known; the nearest is told.
+        UsageError: If it is unknown, with the nearest name.
     """
     package, _, own = name.strip("/").partition("/")
     own = own.removeprefix(f"{kind}/")

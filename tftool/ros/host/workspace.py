@@ -98,7 +98,7 @@ class Workspace:
 
         Returns:
             `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to the start
-            where it lies below it; None if no package has such a file.
+            its path below it; None if no package has such a file.
         """
         if path.is_absolute() or ".." in path.parts:
             return None
@@ -114,7 +114,7 @@ class Workspace:
         """Return the package of a name.
 
         Raises:
-            UsageError: If there is none; the nearest is told.
+            UsageError: If there is none, with the nearest name.
         """
         found = self.packages.get(name)
         if found is None:

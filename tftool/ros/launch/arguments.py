@@ -58,7 +58,7 @@ def refuse_unknown(
     Some are used by a LaunchConfiguration with a default, or by a function, undeclared.
 
     Raises:
-        UsageError: If there is one; the nearest that is declared is told.
+        UsageError: If there is one, with the nearest declared name.
     """
     names = [one.name for one in known]
     for name in given:

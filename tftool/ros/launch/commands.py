@@ -26,9 +26,9 @@ class SystemCommand:
     """A system command.
 
     Attributes:
-        words: It and its arguments.
+        words: The command and its arguments.
         environment: Its environment variables, all of them.
-        cwd: Where it runs; None for here.
+        cwd: Its working directory; None for the current one.
         emulate_tty: Whether it writes to a terminal, in place of a pipe.
     """
 

@@ -22,12 +22,12 @@ class LaunchContext:
         launch_configurations: Arguments and their values; and settings for the nodes of the
             scope, as `scope` keeps it.
         environment: Environment variables, a copy.
-        environments: Those that were kept by PushEnvironment.
+        environments: Environments saved by PushEnvironment.
         files: The launch file one is in, last, after those that include it.
         node_names: How many nodes of each full name were started.
         load: Reads a launch file, for those that include one; None outside of a launch.
-        launch: What runs it.
-        argv: What the launch was given on its command line.
+        launch: The launch that runs it.
+        argv: Arguments of the launch's command line.
         noninteractive: Whether questions are left out, as in ROS 2: here none is ever asked.
         event: The event being handled, None while nothing is.
     """
@@ -81,7 +81,7 @@ class LaunchContext:
         """Register an event handler.
 
         Raises:
-            UsageError: Where nothing is launched.
+            UsageError: If nothing is launched.
         """
         self._launched().handlers.append(event_handler)
 
@@ -89,8 +89,8 @@ class LaunchContext:
         """Remove an event handler.
 
         Raises:
-            UsageError: Where nothing is launched.
-            ValueError: If it was not told.
+            UsageError: If nothing is launched.
+            ValueError: If it was not registered.
         """
         self._launched().handlers.remove(event_handler)
 
@@ -102,7 +102,7 @@ class LaunchContext:
         """Pass an event to the handlers.
 
         Raises:
-            UsageError: Where nothing is launched.
+            UsageError: If nothing is launched.
         """
         self._launched().emit(event)
 

@@ -22,7 +22,7 @@ class Element:
     """One element: a tag of XML, a key of YAML.
 
     Attributes:
-        tag: What it is.
+        tag: Its tag.
         values: Its attributes.
         children: Child elements.
         where: "file:line".
@@ -69,7 +69,7 @@ class Element:
         """Refuse unread attributes and children.
 
         Raises:
-            InputError: If there is one; the nearest that is known is told.
+            InputError: If there is one, with the nearest known word.
         """
         for name in self.values:
             if name not in self.asked:
@@ -96,7 +96,7 @@ def read(path: Path) -> list[Element]:
     """Read the elements of an XML or YAML file, by its suffix.
 
     Raises:
-        InputError: If it cannot be read or is laid out otherwise; the line is told.
+        InputError: If it cannot be read or has another structure, with the line.
     """
     try:
         data = read_named(path)
@@ -109,7 +109,7 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
     """Read the elements of an XML text.
 
     Raises:
-        InputError: If it is no launch file; the line is told.
+        InputError: If it is no launch file, with the line.
     """
     parser = expat.ParserCreate()
     stack: list[Element] = [Element("", str(path))]
@@ -145,7 +145,7 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
     """Read the elements of a YAML text.
 
     Raises:
-        InputError: If it is no YAML or laid out otherwise; the line is told.
+        InputError: If it is no YAML or has another structure, with the line.
     """
     try:
         root = yaml_guard.compose(data.decode("utf-8"))

@@ -53,7 +53,7 @@ class Launch(Node):
         failed: Labels of programs that ended with another exit status than 0.
         ended: Set once everything it started has ended.
         handlers: The event handlers that are registered.
-        labels: What each node of ours is called in log lines, by the node's name.
+        labels: Label of each node in log lines, by the node's name.
     """
 
     is_shown: ClassVar[bool] = False
@@ -73,9 +73,9 @@ class Launch(Node):
         """Read a launch file, or use a description.
 
         Args:
-            world: Where to launch.
-            what: The launch file, or what it would give.
-            workspace: Where packages are looked for; here when None.
+            world: World to launch in.
+            what: The launch file, or its description.
+            workspace: Workspace of packages; the current folder if None.
             arguments: Values for the arguments it declares.
             say: Takes the launch's lines.
             context: State of the launch; a new one when None.
@@ -117,7 +117,7 @@ class Launch(Node):
         """Launch, and wait until everything has ended or a Shutdown is emitted.
 
         Raises:
-            UsageError: If something cannot be started as the description says.
+            UsageError: If something cannot be started as described.
         """
         self._over = asyncio.get_running_loop().create_future()
         try:
@@ -145,7 +145,7 @@ class Launch(Node):
         """Execute entities and the actions they return, one after the other.
 
         Raises:
-            UsageError: If one cannot be carried out as the launch file says; its line is told.
+            UsageError: If one cannot be carried out, with its line in the launch file.
             InputError: If the launch file's own code raises.
         """
         with self._events.held():
@@ -252,7 +252,7 @@ class Launch(Node):
             service: The service's name.
             node_name: The full name of the node that serves it. While one that this launch has
                 started runs under it, the service is waited for.
-            then: Is told.
+            then: Function to call.
         """
 
         def is_settled() -> bool:
@@ -287,7 +287,7 @@ class Launch(Node):
 
         Args:
             service: The service's name.
-            requests: What to ask for.
+            requests: Services to call.
             done: Is given each request with its answer, or with the error why there is none.
         """
 
@@ -317,8 +317,8 @@ class Launch(Node):
         """Start a package's executable.
 
         Args:
-            action: What asked for it, for events.
-            executable: What to start.
+            action: Action that started it, for events.
+            executable: Executable or command to start.
             respawn: After how many seconds it is started again once it has ended; None for never.
         """
         label = self._label(executable.label)
@@ -358,9 +358,9 @@ class Launch(Node):
         """Start a system command; in simulated time it takes no time.
 
         Args:
-            action: What asked for it, for events.
-            name: What it is called in the log, before its number.
-            command: What to start.
+            action: Action that started it, for events.
+            name: Its name in the log, before its number.
+            command: Executable or command to start.
             respawn: As for `start_node`.
         """
         label = self._label(name)
@@ -382,8 +382,8 @@ class Launch(Node):
         """Run `ros2 WORDS` as a program of the world.
 
         Args:
-            action: What asked for it, for events.
-            words: What follows `ros2`.
+            action: Action that started it, for events.
+            words: Words after `ros2`.
             respawn: As for `start_node`.
 
         Raises:

@@ -33,7 +33,7 @@ class EventQueue:
         """Delay events from inside this block until after it.
 
         Raises:
-            UsageError: If there is no end to what follows.
+            UsageError: If the events cause each other without end.
         """
         if self._is_held:
             yield

@@ -24,8 +24,8 @@ class RunningProcessEvent(Event):
     """Event about a process.
 
     Attributes:
-        action: What started it.
-        process_name: What it is called in the log.
+        action: Action that started it.
+        process_name: Its name in the log.
         cmd: Its words; none where it is a program of the session.
         cwd: Its folder, None for that of the launch.
         env: Its environment, None for that of the launch.

@@ -26,7 +26,7 @@ class Entity:
 
     Attributes:
         type_name: Its tag.
-        parent: What it is in, None at the top.
+        parent: Enclosing entity, None at the top.
     """
 
     def __init__(self, element: Element, parent: "Entity | None" = None) -> None:
@@ -103,7 +103,7 @@ class Parser:
         """Load an XML or YAML launch file: return its root and its parser.
 
         Raises:
-            InputError: If it cannot be read or is laid out otherwise; the line is told.
+            InputError: If it cannot be read or has another structure, with the line.
         """
         if isinstance(file, str | os.PathLike):
             path, children = Path(file), elements.read(Path(file))

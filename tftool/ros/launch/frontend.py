@@ -31,7 +31,7 @@ def actions_of(elements: Iterable[Element]) -> list[Any]:
     """Return the actions of elements.
 
     Raises:
-        InputError: If one says something unknown; its line is told, and the nearest known word.
+        InputError: If one has an unknown word, with its line and the nearest known word.
     """
     return [_action(element) for element in elements]
 

@@ -189,7 +189,7 @@ def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tu
     """Evaluate normalized parameters: mappings from names to values, and paths.
 
     Raises:
-        TypeError: If a text gives what can be no parameter's value.
+        TypeError: If a text gives a value that no parameter can have.
     """
     found: list[Any] = []
     for one in parameters:
@@ -209,7 +209,7 @@ def evaluate_parameter_dict(
     """Evaluate a normalized mapping of parameters.
 
     Raises:
-        TypeError: If a text gives what can be no parameter's value.
+        TypeError: If a text gives a value that no parameter can have.
     """
     found: dict[str, Any] = {}
     for key, value in parameters.items():

@@ -29,7 +29,7 @@ class Executable:
         name: Its name there, or the file.
         arguments: Its own arguments.
         options: ROS 2's.
-        label: What it is called in the log, before its number.
+        label: Its name in the log, before its number.
         argv: Its command line, if that is not the one that launch_ros gives a node.
     """
 

@@ -49,7 +49,7 @@ def namespace_in(context: LaunchContext, own: Any) -> str | None:
 
     Args:
         context: The scope.
-        own: What the node itself says, or None.
+        own: Namespace of the node itself, or None.
 
     Raises:
         UsageError: If it is no namespace.

@@ -77,7 +77,7 @@ class LaunchService:
             force_sync: Whether there is to be nothing to await.
 
         Returns:
-            In a loop that the launch runs in, what ROS 2 has one await; None elsewhere.
+            An awaitable, as in ROS 2, inside the launch's own loop; None elsewhere.
         """
         launch = self._launch
         if launch is None or launch.ended.is_set():

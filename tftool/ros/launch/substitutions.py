@@ -379,9 +379,9 @@ class Command(Substitution):
         """Make a command's substitution.
 
         Args:
-            command: It and its arguments, as in a shell.
-            on_stderr: What to do if it writes to its standard error: "fail", "warn", "ignore",
-                or "capture" that as part of its output.
+            command: The command and its arguments, as in a shell.
+            on_stderr: Treatment of text on its standard error: "fail", "warn", "ignore",
+                or "capture" as part of its output.
         """
         self.command = command
         self.on_stderr = on_stderr

@@ -27,13 +27,13 @@ class Context:
         """Initialise.
 
         Args:
-            args: A command line; what follows `--ros-args` counts.
+            args: A command line; only the part after `--ros-args` is used.
             initialize_logging: As in ROS 2; there is nothing to initialize.
-            domain_id: What `get_domain_id` says. The session's own is chosen by `--domain`.
+            domain_id: Result of `get_domain_id`. The session's own is chosen by `--domain`.
 
         Raises:
             RuntimeError: If it has been started, or the domain is negative.
-            UsageError: If what follows `--ros-args` is malformed.
+            UsageError: If the part after `--ros-args` is malformed.
             UnicodeEncodeError: If an argument is no text.
         """
         if self._valid:

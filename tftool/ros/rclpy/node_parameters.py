@@ -156,7 +156,7 @@ class NodeParameters:
         """Return a declared parameter.
 
         Raises:
-            ParameterNotDeclaredException: If it is not declared; the nearest name is told.
+            ParameterNotDeclaredException: If it is not declared, with the nearest name.
         """
         if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None)
@@ -295,7 +295,7 @@ class NodeParameters:
 
         Args:
             name: The parameter.
-            descriptor: What it is described by from now on.
+            descriptor: New descriptor.
             alternative_value: A ParameterValue that takes the place of one that no longer fits.
 
         Returns:

@@ -157,7 +157,7 @@ def parameter_dict_from_yaml_file(
         parameter_file: Its path.
         use_wildcard: Whether entries under `/**` count, too.
         target_nodes: The nodes whose parameters are wanted, all without any.
-        namespace: What the parameters' names begin with.
+        namespace: Prefix of the parameters' names.
 
     Raises:
         FileNotFoundError: If there is no such file.

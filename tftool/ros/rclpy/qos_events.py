@@ -112,7 +112,7 @@ class Silence:
         """Wait for the first sign.
 
         Args:
-            seat: Whose clock it is.
+            seat: Seat of the node whose clock is used.
             limit: How long is too long, nanoseconds; None for never.
             told: Is called on the loop's thread, once until there is a sign again.
         """

@@ -23,19 +23,19 @@ class NodeSeat:
     """A program's node as its entities and its executor use it.
 
     Attributes:
-        program: Whose node it is.
-        world: Where it lives.
-        name: What it is called after renaming.
-        namespace: Where, without slashes at its ends.
-        options: What `--ros-args` says about it.
+        program: Program of the node.
+        world: Its world.
+        name: Name after renaming.
+        namespace: Its namespace, without slashes at its ends.
+        options: Options of `--ros-args` for it.
         context: The rclpy context it lives by.
         ros_node: The node as the user holds it.
         executor: The executor that serves it, None while none does.
         was_served: Whether an executor has ever served it.
-        rosout: Publishes what its loggers say, None while nothing does.
-        rates: What paces its loops.
-        entities: What can become ready, in the order it was made.
-        authority: Who its transforms come from.
+        rosout: Publisher of its log messages, None without one.
+        rates: Rates that pace its loops.
+        entities: Entities that can become ready, in the order of creation.
+        authority: Authority of its transforms.
     """
 
     def __init__(

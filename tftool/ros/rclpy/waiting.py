@@ -20,7 +20,7 @@ def wait_for_message(
 
     Args:
         msg_type: The topic's type.
-        node: Who listens.
+        node: Listening node.
         topic: The topic's name.
         qos_profile: How to listen.
         time_to_wait: Seconds to wait at most; negative for no limit.

@@ -21,7 +21,7 @@ class BufferInterface:
         """Return the pose of source in target.
 
         Raises:
-            NotImplementedException: If the class does not say how.
+            NotImplementedException: If the class does not implement it.
         """
         raise NotImplementedException
 
@@ -37,7 +37,7 @@ class BufferInterface:
         """Return the pose of source at one time in target at another, through a fixed frame.
 
         Raises:
-            NotImplementedException: If the class does not say how.
+            NotImplementedException: If the class does not implement it.
         """
         raise NotImplementedException
 
@@ -45,7 +45,7 @@ class BufferInterface:
         """Return whether a lookup would succeed.
 
         Raises:
-            NotImplementedException: If the class does not say how.
+            NotImplementedException: If the class does not implement it.
         """
         raise NotImplementedException
 
@@ -53,7 +53,7 @@ class BufferInterface:
         """Return whether a lookup between two times would succeed.
 
         Raises:
-            NotImplementedException: If the class does not say how.
+            NotImplementedException: If the class does not implement it.
         """
         raise NotImplementedException
 

@@ -68,9 +68,9 @@ def read_points(
 
     Args:
         cloud: A PointCloud2.
-        field_names: Which fields, and in which order; all of them without.
+        field_names: Fields to read, in this order; all if None.
         skip_nans: Leave out points with a NaN.
-        uvs: Which points: their numbers, or (u, v) pairs of an organized cloud.
+        uvs: Points to read: their numbers, or (u, v) pairs of an organized cloud.
         reshape_organized_cloud: Give an organized cloud's points in its rows.
 
     Raises:

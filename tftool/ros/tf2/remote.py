@@ -51,7 +51,7 @@ class BufferClient(BufferInterface):
         """Make a client on a node.
 
         Args:
-            node: Who asks.
+            node: Asking node.
             ns: The action's name.
             check_frequency: How often ROS 2 looks for the answer; here it is awaited.
             timeout_padding: How much longer than the timeout to wait for the answer, as a
@@ -149,10 +149,10 @@ class BufferServer:
         """Serve the action.
 
         Args:
-            buffer: Whose transforms to give.
-            node: Who serves.
+            buffer: Buffer of the transforms.
+            node: Serving node.
             ns: The action's name.
-            check_period: How often ROS 2 looks whether it can answer; here it is told.
+            check_period: Period of ROS 2's check; unused here, as answers are event-driven.
         """
         self.buffer = buffer
         self.node = node

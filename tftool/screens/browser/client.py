@@ -21,7 +21,7 @@ class TreeMessage:
     Attributes:
         revision: Its number.
         text: The message.
-        shown: Which of the snapshot's frames are shown.
+        shown: Shown frames of the snapshot.
     """
 
     revision: int

@@ -36,7 +36,7 @@ class _HeardTopic:
     Attributes:
         drawn: Its drawing on the page; its one message is the last one.
         draw: How its messages are drawn.
-        quality: How it is subscribed.
+        quality: Quality of service of its subscription.
         stop: Ends the subscription.
         newest: The last message, until it is drawn.
         waiting: The message that was drawn, until it can be placed.

@@ -51,7 +51,7 @@ class PackedBlock:
         """Start an empty block.
 
         Args:
-            is_rounded: Whether numbers may lose digits beyond `METRES` and `QUATERNION`.
+            is_rounded: Whether numbers may be rounded to `METRES` and `QUATERNION`.
         """
         self.is_rounded = is_rounded
         self._sections: list[bytes] = []

@@ -300,7 +300,7 @@ def encode_names(
     Args:
         epoch: The clock's.
         revision: Counts how often the names have changed.
-        frames: Those that are shown.
+        frames: Shown frames.
         total: How many there are.
         rate: How fast the clock runs, for playing back.
         begin: The moment to open with, where everything was recorded before.

@@ -53,8 +53,8 @@ class DrawnTopic:
 
     Attributes:
         topic: Its name.
-        type: Of its messages.
-        kind: What they become: "ball", "line" or "points".
+        type: Type of its messages.
+        kind: Shape of the drawing: "ball", "line" or "points".
         messages: In the order of their stamps.
         count: How many were recorded.
         faults: Faults of messages, each with its count.

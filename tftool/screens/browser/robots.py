@@ -29,11 +29,11 @@ class ShownRobot:
     """A robot on the page.
 
     Attributes:
-        robot: What it is.
-        folders: Where its meshes lie.
-        mover: What moves its joints, where we publish them; else None.
+        robot: Its description.
+        folders: Folders of its meshes.
+        mover: Node that moves its joints, if it is ours; else None.
         prefix: Prefix of the names of its links.
-        rest: Where its joints are, where nothing publishes them: then a page moves them by itself.
+        rest: Joint positions if nothing publishes them: then the page moves them itself.
     """
 
     robot: Robot

@@ -90,8 +90,8 @@ class PageServer:
     """Server of the page; use `async with`, and `await run()` inside.
 
     Attributes:
-        port: Where it listens.
-        asked_port: Where it was asked to listen.
+        port: Port on which it listens.
+        asked_port: Requested port.
         clients: The pages that are open.
     """
 
@@ -109,12 +109,12 @@ class PageServer:
         """Prepare the server without opening a port.
 
         Args:
-            source: Whose frames to show.
-            port: Where to listen; the next free one is taken instead, 0 takes any.
+            source: Source of the frames.
+            port: Port to listen on, or else the next free one; 0 takes any.
             rate: Pictures a second.
             tell: Takes a sentence for the user.
-            name: Whose frames they are, for a page that is saved.
-            secret: What everything that tells of frames wants; a new one when None.
+            name: Name of the source, for a saved page.
+            secret: Token that requests for frames must carry; a new one if None.
             begin: The moment to open with, where everything was recorded before.
         """
         self.source = source

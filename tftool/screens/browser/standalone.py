@@ -38,14 +38,14 @@ class StandaloneData:
     """Data of a page without a server.
 
     Attributes:
-        name: Whose frames they are, in sentences: "recording 'run.mcap'".
+        name: Name of the source in sentences: "recording 'run.mcap'".
         buffer: The frames.
         epoch: The moment from which the page counts; not 0.
         now: The last moment.
-        begin: Where it begins to look; None for the latest of everything.
+        begin: First shown moment; None for the latest transforms.
         robot: The robot among them, and where its meshes lie.
         tracks: Messages that are drawn beside the frames.
-        view: First choice, as an address of the page has it behind its #.
+        view: First settings, as in the page's address after #.
     """
 
     name: str
@@ -77,7 +77,7 @@ def standalone_page(
     """Build the file.
 
     Args:
-        data: What it shows.
+        data: Its contents.
         most: From how many bytes on numbers are rounded, to a micrometre and 1e-7 in
             quaternions. A rounded value may still be larger.
         progress: Called with the progress.

@@ -91,8 +91,8 @@ def pictured(
     """Draw the tree of `fixed` by looking up every frame in it; other trees separately.
 
     Args:
-        snapshot: Which frames there are.
-        fixed: What they are drawn in.
+        snapshot: Snapshot of the frames.
+        fixed: Fixed frame of the picture.
         lookup: Gives their poses.
         ages: Seconds since there was news of each.
         turtles: The frames drawn as turtles.
@@ -178,7 +178,7 @@ class FrameTrails:
         buffer: Source of the frames.
 
     Attributes:
-        fixed: What they are followed in.
+        fixed: Fixed frame of the trails.
     """
 
     def __init__(self, buffer: Buffer) -> None:
@@ -198,8 +198,8 @@ class FrameTrails:
         """Look the frames up since the last time, and return all trails up to now.
 
         Args:
-            fixed: What they are looked up in; another one starts all trails again.
-            frames: Which; only the first `MOST_FRAMES` are followed.
+            fixed: Fixed frame; a change starts all trails again.
+            frames: Frames; only the first `MOST_FRAMES` are followed.
             now: The last moment.
         """
         if fixed != self.fixed or now < self._next - 4 * PERIOD:

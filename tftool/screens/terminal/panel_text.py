@@ -69,7 +69,7 @@ def tree(
     """Return every link with rate and age; stale ones in amber, then red.
 
     Args:
-        moment: What to show.
+        moment: Contents to show.
         listed: Its frames, as `rows` gives them.
         cursor: The frame the cursor is on; it is kept in view.
         width: Cells across.
@@ -416,7 +416,7 @@ class PairPlot:
 
         Args:
             moment: The shown state.
-            scene: Where the pair is looked up.
+            scene: Scene in which the pair is looked up.
             width: Cells across.
             height: Lines.
             look: How to paint.

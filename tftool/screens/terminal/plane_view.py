@@ -111,7 +111,7 @@ class PlaneView:
     """Draws pictures of frames into a panel of any size.
 
     Attributes:
-        camera: Which part is shown.
+        camera: Camera that decides the shown part.
     """
 
     def __init__(self) -> None:

@@ -14,7 +14,7 @@ class SceneQuestion:
     """Pair and time that stay selected while the user moves through frames and time.
 
     Args:
-        scene: Who is asked.
+        scene: Scene that is asked.
         pair: Target and source to begin with.
 
     Attributes:

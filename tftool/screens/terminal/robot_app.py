@@ -60,7 +60,7 @@ class RobotApp(PanelApp):
     """Screen of `tftool robot`.
 
     Args:
-        world: Where the robot's frames are.
+        world: World with the robot's frames.
         sliders: Its joints.
         link: The link whose pose is shown; the one farthest from the root if None.
         prefix: Prefix of the names of every link.

@@ -120,7 +120,7 @@ class Scene:
 
     Args:
         world: The world to look at.
-        simulator: Who draws its turtles, where there is one.
+        simulator: Simulator that draws its turtles, if there is one.
 
     Attributes:
         start: The moment from which seconds are counted on the screen.
@@ -182,7 +182,7 @@ class Scene:
         """Return everything at one time.
 
         Args:
-            at: Which; the present if None.
+            at: The moment; the present if None.
             target: The frame the source is measured in.
             source: The frame that is measured.
             fixed: The frame the picture is drawn in; the root of the pair's tree if empty.

@@ -12,7 +12,7 @@ class Setting:
     """Abilities of the terminal, and options of the screen.
 
     Attributes:
-        title: What runs, for the top line.
+        title: Title of the running session, for the top line.
         pair: Target and source to begin with.
         ascii_only: Draw with ASCII alone.
         colors: Whether colours may be used.
@@ -20,8 +20,8 @@ class Setting:
         drive_only: Whether the field has the screen to itself, as in teleop.
         banner: Lines to show above the field.
         at: The moment to begin with, at rest; the present if None.
-        scenarios: Gives what can be shown instead, name and what it is about; None where
-            something else is no choice.
+        scenarios: Returns the scenarios to choose from, name and subject; None where
+            there is no choice.
     """
 
     title: str = "tftool"
@@ -40,7 +40,7 @@ def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting)
 
     Args:
         environment: Its TERM, NO_COLOR, COLORFGBG and LC_ALL count.
-        encoding: What the terminal's text is encoded in.
+        encoding: Encoding of the terminal's text.
         wanted: The wish; it is only ever restricted.
     """
     terminal = environment.get("TERM", "")
@@ -86,7 +86,7 @@ class ScreenLayout:
 
     Attributes:
         small: Whether there is room for nothing.
-        alone: Whether the picture has no panels beside it.
+        alone: Whether the picture fills the screen, without panels.
         portrait: Whether they stand under it.
         field: The picture's width and height.
         tree: The tree's height.

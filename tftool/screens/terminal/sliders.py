@@ -69,8 +69,8 @@ class Sliders:
 
         Args:
             robot: The robot.
-            mover: What moves its joints; None where others do.
-            seed: Of random positions.
+            mover: Node that moves its joints; None if others do.
+            seed: Seed of random positions.
         """
         self.robot = robot
         self.entry = ""

@@ -37,7 +37,7 @@ class TreeWindow:
 
     Attributes:
         first: The row at the top.
-        order: What decides the order.
+        order: Sorting key.
         wanted: Letters that the shown frames have in their names.
     """
 
@@ -113,7 +113,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     Args:
         world: Source of the frames.
         marks: Finds faults of frames.
-        setting: What the terminal can show.
+        setting: Abilities of the terminal.
 
     Attributes:
         solids: The shapes of a robot among the frames, once its description is known.

@@ -49,7 +49,7 @@ class TurtleApp(PanelApp):
     """Screen of `tftool demo` and `tftool teleop`.
 
     Args:
-        scene: Where to look.
+        scene: Scene to look at.
         press: Takes a key that drives: "up", "g", ...; None where nothing can be driven.
         setting: How to show it.
         idle: Draws while no key is pressed, where something does.

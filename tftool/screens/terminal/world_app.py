@@ -46,7 +46,7 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
     cat on the keyboard, would end it with a traceback.
 
     Args:
-        driver: What Textual takes on this platform; that of Windows has no bytes to decode.
+        driver: Textual's driver on this platform; that of Windows has no bytes to decode.
     """
     if not hasattr(driver, "run_input_thread"):
         return driver
@@ -133,7 +133,7 @@ class WorldApp(App[None]):
         world: The world.
         setting: How to show it.
         ready: Set once it shows.
-        failure: What it failed by, for the caller to report once the terminal is restored.
+        failure: Its error, for the caller to report once the terminal is restored.
         interrupted: Whether Ctrl-C ended it.
     """
 
@@ -150,7 +150,7 @@ class WorldApp(App[None]):
         """Make the screen.
 
         Args:
-            world: What it shows.
+            world: Its contents.
             setting: How to show it.
             terminal_colors: Whether it is drawn in the terminal's own colours.
         """
@@ -279,7 +279,7 @@ async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool
     Whatever ends it, the terminal is restored before this returns or raises.
 
     Args:
-        app: What to show.
+        app: Contents to show.
         life: Lives the app's world through; cancelled when the user quits.
         headless: Do all of it but draw on a terminal.
 

@@ -38,9 +38,9 @@ class TopicFeed:
         """Announce the topics to publish.
 
         Args:
-            link: By which the messages go out.
+            link: Link that sends the messages.
             source: The recording.
-            clock: Which moment a log time is.
+            clock: Clock that gives the moment of a log time.
             node: The node that publishes where the recording does not say who did.
         """
         self._link = link
@@ -137,7 +137,7 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
     """Return a topic's type on the wire, and the conversion to CDR; None if already CDR.
 
     Raises:
-        InputError: If it cannot be sent, for what reason.
+        InputError: If it cannot be sent, with the reason.
         MalformedMessage: If its type cannot be written.
     """
     if not is_plain(topic.name.strip("/")):

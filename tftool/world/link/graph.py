@@ -52,9 +52,9 @@ class Role(StrEnum):
     """A tftool's role for the others in its session.
 
     Attributes:
-        HOST: It runs the world that others look at.
-        SOURCE: It brings something of its own, a static transform or a user's node.
-        GUEST: It only takes part, and waits for a process that brings something.
+        HOST: The process runs the world that others look at.
+        SOURCE: The process adds something of its own, a static transform or a user's node.
+        GUEST: The process only takes part, and waits for one that adds something.
     """
 
     HOST = "host"
@@ -71,8 +71,8 @@ class Process:
         session: The middleware's name for it.
         since: When it joined, by its own clock.
         pid: Its process number on its machine.
-        role: What it is to the others.
-        command: What it was called for: "demo", "echo".
+        role: Its role for the others.
+        command: Its command: "demo", "echo".
     """
 
     domain: int

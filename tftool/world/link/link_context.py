@@ -25,10 +25,10 @@ class LinkContext:
 
     Attributes:
         options: How the process takes part.
-        middleware: What carries it all.
-        graph: Who else is there.
-        endpoints: What others publish and subscribe, as it is entered in the world.
-        refused: Messages that came in and were not what they should be.
+        middleware: Middleware that carries everything.
+        graph: Graph of the other processes.
+        endpoints: Endpoints of others, as entered in the world.
+        refused: Received messages that were malformed.
         received: Messages that were taken in.
         heard_statics: The gids of those who have sent static transforms.
     """

@@ -37,7 +37,7 @@ def read_reach(given: Mapping[str, Any]) -> Reach:
 
     Raises:
         UsageError: If they contradict each other.
-        InputError: If a file is not there, or not what it is given as.
+        InputError: If a file is missing, or not of the stated kind.
         TypeError: If an option is none of theirs.
     """
     unknown = [name for name in given if not any(name in one.OPTIONS for one in REACHES)]
@@ -64,9 +64,9 @@ class Options:
     """Options of a process in a session.
 
     Attributes:
-        command: What it is called for: "demo", "echo".
+        command: Its command: "demo", "echo".
         domain: Number of the ROS domain.
-        reach: By which middleware, and what to open beyond this machine's own processes.
+        reach: Middleware, and reach beyond this machine's own processes.
         read_only: Only look: declare no publisher, no service and no token.
     """
 

@@ -19,9 +19,9 @@ class LinkOption:
 
     Attributes:
         kind: The type of its value: bool, `list[str] | None` or `Path | None`.
-        flag: How it is written, "--listen".
+        flag: The flag as typed, "--listen".
         text: Its help.
-        metavar: What its value is called; None for a flag.
+        metavar: Name of its value in the help; None for a flag.
     """
 
     kind: Any
@@ -69,7 +69,7 @@ class Reach:
 
         Raises:
             UsageError: If they contradict each other.
-            InputError: If a file is not there, or not what it is given as.
+            InputError: If a file is missing, or not of the stated kind.
         """
         raise NotImplementedError
 

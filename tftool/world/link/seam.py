@@ -97,10 +97,10 @@ class Middleware(Protocol):
     is called.
 
     Attributes:
-        graph: Who else is there; filled before the constructor returns with those who were.
+        graph: Graph of the other processes; filled before the constructor returns.
         session: This process's name in the graph.
         unanswering: Process numbers of this machine's processes that do not answer.
-        notices: What the user should know of the way in, as sentences.
+        notices: Notices for the user about joining, as sentences.
     """
 
     graph: Graph

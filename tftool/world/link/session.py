@@ -82,8 +82,8 @@ class Link(LinkContext):
         """Share a world's topics, services and actions from now on; call inside its loop.
 
         Args:
-            world: Whose.
-            role: What this process is to the others.
+            world: The node.
+            role: Role of this process for the others.
         """
         self._world = world
         self._since = WallClock().epoch

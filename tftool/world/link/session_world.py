@@ -39,11 +39,11 @@ class Session:
     Attributes:
         world: Its frames and topics.
         is_hosted: Whether this process runs it.
-        name: What it is called, in sentences: "scenario 'turtles'".
+        name: Its name in sentences: "scenario 'turtles'".
         live: Lives the world through, for ever or until a moment.
         head_start: How much of it is lived through before work begins.
         duration: How long its scenario lasts; None where nothing says so.
-        link: What joins it to other processes; None for a world on its own.
+        link: Link to other processes; None for a world of its own.
         tell: Takes every line of the world's log while it lives.
     """
 
@@ -75,7 +75,7 @@ class Session:
             on_interrupt: Called when a signal ends it, before anything of the world ends.
 
         Returns:
-            What the work returns; the world ends with it.
+            The result of the work; the world ends with it.
 
         Raises:
             NodeFailed: If a node of the world raised first.
@@ -149,7 +149,7 @@ def joined_session(
     Args:
         link: Leads there.
         clock: Its time.
-        place: Where the others are, in words, for sessions whose processes have no name.
+        place: Description of the others, for sessions whose processes have no name.
         cache_time: How far back its buffer remembers.
         tell: Takes every line of its log.
     """
@@ -191,9 +191,9 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     """Share a world while this block runs; call inside its loop.
 
     Args:
-        link: What joins it to the others; None to keep to itself.
+        link: Link to the others; None for none.
         world: The shared world.
-        role: What this process is to the others, as `link.graph.Role` has it.
+        role: Role of this process, of `link.graph.Role`.
     """
     if link is None:
         yield

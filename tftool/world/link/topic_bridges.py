@@ -365,7 +365,7 @@ class ClockFollower:
         """Start following as soon as there is a clock.
 
         Args:
-            world: Whose topics tell.
+            world: World of the topics.
             clock: Its clock.
         """
         self._world = world

@@ -40,11 +40,11 @@ class Broadcaster(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name, shown as the authority of the frame.
-            turtle: Whose pose to broadcast; the child frame's name too.
+            turtle: Turtle whose pose to broadcast; its name is the child frame's too.
             frame_id: The frame the pose is given in.
-            topic: Where the poses come from, `<turtle>/pose` unless said otherwise.
+            topic: Topic of the poses; by default `<turtle>/pose`.
         """
         super().__init__(world, name)
         self.turtle = turtle
@@ -129,7 +129,7 @@ class DynamicCarrot(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
             parent: The frame in the middle of the circle.
             child: The carrot's frame.
@@ -241,16 +241,16 @@ class Noise(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
             parent: The frame it hangs from.
             child: The frame that is broadcast.
-            offset: Where it truly is in the parent, in metres.
+            offset: Its true position in the parent, in metres.
             position: Standard deviation of each coordinate, in metres.
             angle: Standard deviation about each axis, in radians.
             drift: Standard deviation of x and y after one second of drift, in metres.
             turn_drift: The same about z, in radians.
-            seed: Which errors.
+            seed: Seed of the errors.
             period: Nanoseconds between two broadcasts.
 
         Raises:

@@ -45,7 +45,7 @@ class Follower(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
             leader: The frame to follow.
             follower: The turtle to steer; its frame has its name.

@@ -82,14 +82,14 @@ class RobotStatePublisher(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
-            robot: What it is; its text is published for others.
-            frame_prefix: What to put before the name of every link: `left/`.
+            robot: The robot; its text is published for others.
+            frame_prefix: Prefix of every link's name: `left/`.
             publish_frequency: How often a joint's frame is broadcast at most, hertz; 0 for
                 every message.
             ignore_timestamp: Whether to broadcast whatever stamps messages have.
-            topics: Where joint states come from, and where the description goes.
+            topics: Topics of joint states and of the description.
 
         Raises:
             UsageError: If the frequency is none it takes.
@@ -215,13 +215,13 @@ class JointStatePublisher(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
-            robot: What it is; if None, the description is waited for.
-            positions: Where joints begin, radians or metres.
+            robot: The robot; if None, wait for its description.
+            positions: First positions of joints, radians or metres.
             rate: How often to publish, hertz.
             sources: Topics with joint states of others, which move the same joints.
-            topics: Where joint states go, and where a description comes from.
+            topics: Topics of joint states and of a description.
 
         Raises:
             UsageError: If a joint is unknown, or the rate is none.
@@ -302,10 +302,10 @@ class MovingRobot(RobotStatePublisher):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
             file: The robot, from the file the scenario names.
-            joints: Where joints are; those are not moved by sine and steps.
+            joints: Positions of joints that sine and steps do not move.
             motion: How the others move: not at all; there and back between their limits
                 (a turn without limits: a radian); from limit to limit by way of the middle,
                 a third of a cycle at each; or as recorded.
@@ -313,7 +313,7 @@ class MovingRobot(RobotStatePublisher):
             cycle: How long there and back takes; for each joint a little longer than for
                 the one before it, so that no two move alike.
             period: How often joint states are published.
-            frame_prefix: What to put before the name of every link.
+            frame_prefix: Prefix of every link's name.
 
         Raises:
             UsageError: If a joint is unknown, or nothing was recorded.

@@ -52,14 +52,14 @@ class RobotOdometry(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
-            odom: The frame odometry is given in; at the start it lies on the map.
+            odom: Frame of odometry; at the start it coincides with the map.
             base: The robot's frame.
             start: x, y and heading in the map at the start.
             speed: In m/s, until a command says otherwise.
             turn_rate: In rad/s, until a command says otherwise.
-            scale_error: Share by which the wheels overrate a distance.
+            scale_error: Share by which the wheels overestimate a distance.
             turn_error: Turn rate in rad/s that the wheels see on top of the true one
                 while the robot moves.
             period: Nanoseconds between two broadcasts.
@@ -217,14 +217,14 @@ class ScanMatcher(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
             origin: The frame of the first scan.
             child: The laser as the scans show it.
             mount: x, y and heading of the laser on the robot, in truth.
             position: Standard deviation of x and of y, metres.
             angle: Standard deviation of the heading, radians.
-            seed: Of the noise.
+            seed: Seed of the noise.
             period: Nanoseconds between two broadcasts.
         """
         super().__init__(world, name)

@@ -74,10 +74,10 @@ class Player(Node):
         """Add the node to a world.
 
         Args:
-            world: Its clock is told the time where that is a `FollowedClock`.
+            world: World to play in; its clock is set if it is a `FollowedClock`.
             name: The node's name.
-            timeline: What to send.
-            pace: Real time, or what a test takes for it.
+            timeline: Timeline to send.
+            pace: Clock of real time, or a test's substitute.
             span: From where to where to play; all of it if None.
             rate: How many of the recording's seconds pass in one of `pace`.
             is_paused: Whether to begin standing still.
@@ -85,8 +85,8 @@ class Player(Node):
             is_restamped: Whether to move stamps to the moment at which they are sent, and publish
                 no `/clock`.
             is_silent: Whether to publish no `/clock` though stamps are the recording's.
-            names_topics: Whether the topic stands for who sent it where no node is recorded,
-                as in the description of a recording; else this node does, which sends it.
+            names_topics: Whether to name the topic as sender where no node is recorded,
+                as in the description of a recording; else this node is named.
             feed: Sends other topics along.
         """
         super().__init__(world, name)

@@ -50,13 +50,13 @@ class Recorder:
         """Subscribe to the transforms.
 
         Args:
-            world: Whose topics.
+            world: World of the topics.
             taker: Receiver of every message.
             link: The link that joined the world to the session it is a guest of; None for a world
                 of this process.
             names: Other topics, without a leading slash.
             everything: Whether to record all there are.
-            clock: By which messages are received; the world's own pace if None.
+            clock: Clock of reception; the world's own pace if None.
         """
         self._world = world
         self._taker = taker

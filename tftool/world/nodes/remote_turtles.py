@@ -62,7 +62,7 @@ class FarTurtles(Node):
     there the trail is what turtles drew since the first look if all have the pen they begin with.
 
     Attributes:
-        trail: What the pens drew.
+        trail: Lines of the pens.
         background: The field's colour.
         revision: A number that changes whenever the picture does.
     """

@@ -200,7 +200,7 @@ class FarDrawing:
     """Copy of a trail in another process, as far as it was received.
 
     Attributes:
-        is_whole: Whether everything was told that was there at the last answer.
+        is_whole: Whether it was complete at the last answer.
     """
 
     def __init__(self, trail: Trail) -> None:

@@ -60,7 +60,7 @@ class Turtle:
     Attributes:
         name: Its name, which is its frame's name too.
         pose: The Pose message published last, rounded to 32-bit floats.
-        place: Where it is, exactly.
+        place: Its exact pose.
         forward: Speed along its heading in m/s; negative when reversing.
         sideways: Speed to its left in m/s.
         turn: Turn rate in rad/s.

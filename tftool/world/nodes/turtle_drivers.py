@@ -32,8 +32,8 @@ class DrawSquare(Node):
     """Drives a turtle along squares: forward, stop, turn, stop, one check per tick.
 
     Attributes:
-        state: What it is at.
-        goal: Where it wants to be; None before the first pose.
+        state: Its present phase.
+        goal: Its goal; None before the first pose.
     """
 
     def __init__(
@@ -196,9 +196,9 @@ class IdleDrawing(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
-            turtle: Which turtle draws.
+            turtle: Turtle that draws.
             patience: How long it must have been left alone, nanoseconds.
             is_alone: Whether no other process could drive it, or looks on.
         """

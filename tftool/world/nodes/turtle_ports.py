@@ -92,8 +92,8 @@ class TurtlePorts:
     """A turtle's topics, services and action; requests wait for the next tick.
 
     Attributes:
-        pose: Where its poses go.
-        color: Where the readings of its colour sensor go.
+        pose: Publisher of its poses.
+        color: Publisher of its colour sensor.
     """
 
     def __init__(
@@ -109,11 +109,11 @@ class TurtlePorts:
         """Open all of them.
 
         Args:
-            world: Where.
+            world: The world.
             node: The simulator's name.
             prefix: Put before the turtle's name; empty, or ends with a slash.
-            turtle: Whose.
-            queue: Where work waits for the next tick.
+            turtle: The node.
+            queue: Queue of work for the next tick.
             say: Takes log lines.
             is_holonomic: Tells whether linear.y of a command counts now.
         """

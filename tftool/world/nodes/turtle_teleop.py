@@ -101,7 +101,7 @@ class Teleop(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
             turtle: The turtle to drive; a simulator's namespace may stand in front.
             scale_linear: Speed of the arrow keys in m/s.

@@ -42,7 +42,7 @@ class Turtlesim(Node):
     Parameters: background_r, background_g, background_b (0 to 255), holonomic.
 
     Attributes:
-        trail: What the pens drew.
+        trail: Lines of the pens.
         revision: A number that changes whenever the picture does.
     """
 
@@ -61,7 +61,7 @@ class Turtlesim(Node):
         """Add the node to a world.
 
         Args:
-            world: Where to live.
+            world: World to join.
             name: The node's name.
             holonomic: Whether linear.y of a command counts.
             background: Colour of the field.

@@ -17,7 +17,7 @@ def draw(message: Any, most: int) -> DrawnMessage:
     """Return the points.
 
     Raises:
-        InputError: If it has no x, y and z in floats, or fewer bytes than it says.
+        InputError: If it has no x, y and z in floats, or fewer bytes than stated.
     """
     fields = {field.name: field for field in message.fields}
     order = ">" if message.is_bigendian else "<"

@@ -21,8 +21,8 @@ class DrawnMessage:
 
     Attributes:
         stamp: Its moment, nanoseconds.
-        frame: What its places are given in.
-        places: Where they are; none that is not finite.
+        frame: Frame of its positions.
+        places: Their positions, all finite.
     """
 
     stamp: Stamp

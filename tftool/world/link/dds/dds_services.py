@@ -42,7 +42,7 @@ class ServicePart:
 
     Attributes:
         participant: Ours.
-        graph: Who else is there.
+        graph: Graph of the other processes.
         sender: Gives the GUID of the writer of a message.
     """
 
@@ -81,7 +81,7 @@ class CycloneServer:
         """Start serving.
 
         Args:
-            part: What both sides need.
+            part: State that both sides share.
             name: The service's name.
             ros_type: Its type.
             on_request: Called with every request.

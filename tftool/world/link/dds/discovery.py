@@ -126,7 +126,7 @@ class Discovery:
     """Keeps the graph up to date with others' announcements, and announces our own nodes.
 
     Attributes:
-        graph: Who else is there.
+        graph: Graph of the other processes.
         participants: How many of them.
     """
 

@@ -41,10 +41,10 @@ class DdsMiddleware:
     """This process in a ROS 2 graph over DDS; see `seam.Middleware`.
 
     Attributes:
-        graph: Who else is there.
+        graph: Graph of the other processes.
         session: The GUID of our participant, in hexadecimal.
-        unanswering: None; a stopped process cannot be told from a missing one.
-        notices: What the user should know before anything else, as sentences.
+        unanswering: None; a stopped process cannot be distinguished from a missing one.
+        notices: Notices for the user, as sentences.
     """
 
     def __init__(self, options: Options, reach: DdsReach) -> None:

@@ -108,9 +108,9 @@ class Participant:
 
         Args:
             domain: Number of the domain.
-            network: Where it looks for others.
-            name: What others may call it.
-            user_data: User data beside it.
+            network: Network on which to look for others.
+            name: Name shown to others.
+            user_data: User data sent with it.
 
         Raises:
             LinkError: If there is no way in.
@@ -165,7 +165,7 @@ class Participant:
             kind: The class of its messages.
             quality: Requested quality of service.
             on_sample: Called with every message.
-            on_refused: Called with the number of the policy by which a writer does not fit.
+            on_refused: Called with the number of the policy that makes a writer incompatible.
         """
         inbox, participant = self.inbox, self
 
@@ -204,7 +204,7 @@ class Participant:
             topic: The name of the topic in DDS.
             kind: The class of its messages.
             quality: Offered quality of service.
-            user_data: User data beside it: the hash of its type.
+            user_data: User data sent with it: the hash of its type.
         """
         kept = Policy.History.KeepLast(max(1, quality.depth))
         # Samples not kept for late readers are kept until the present ones have them.

@@ -30,11 +30,11 @@ class Network:
     """Network in which a participant searches for others.
 
     Attributes:
-        interfaces: Names or own addresses of the interfaces it uses; none for those by which
+        interfaces: Names or addresses of the interfaces to use; none for those by which
             its peers are reached.
         peers: Addresses it goes to.
         config: Cyclone's configuration that the user has set, taken in place of ours.
-        told: What the user should know of it, as sentences.
+        told: Notices for the user, as sentences.
     """
 
     interfaces: tuple[str, ...] = ()
@@ -81,7 +81,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
     """Return where to search for others.
 
     Args:
-        places: What the user named: interfaces and addresses.
+        places: Interfaces and addresses that the user named.
         environment: ROS 2's variables; those of this process when None.
 
     Raises:

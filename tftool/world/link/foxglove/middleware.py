@@ -38,7 +38,7 @@ class FoxgloveMiddleware:
     """This process as a client of a server; see `seam.Middleware`.
 
     Attributes:
-        graph: What the server says is there.
+        graph: Graph that the server reports.
         session: The name of our side, which is in no graph.
         unanswering: None; the processes are another machine's.
         notices: None.

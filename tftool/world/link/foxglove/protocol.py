@@ -71,14 +71,14 @@ class ServerState:
 
     Attributes:
         name: Its name for itself; "" until it has said it.
-        capabilities: What it offers beyond topics.
+        capabilities: Capabilities besides topics.
         channels: Its channels by number.
         publishers: Names of each topic's publishers.
         subscribers: Names of each topic's subscribers.
         providers: Names of each service's nodes.
         services: Name and type of each service, by its number.
         warnings: Sentences of the server for its client that were not passed on yet.
-        ignored: Channels beyond the limit.
+        ignored: Channels above the limit.
     """
 
     name: str = ""

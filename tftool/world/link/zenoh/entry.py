@@ -40,8 +40,8 @@ class Opening:
     """A process's resources in a session.
 
     Attributes:
-        wire: What carries everything.
-        graph: Who else was there when it came.
+        wire: Wire that carries everything.
+        graph: Graph of the processes that it found.
         unanswering: Process numbers of this machine's processes that have a place there and
             do not answer.
     """

@@ -114,7 +114,7 @@ def data_key(domain: int, name: str, ros_type: str, its_hash: str = "") -> str:
 
     Args:
         domain: Number of the ROS domain.
-        name: Of the topic or service.
+        name: Name of the topic or service.
         ros_type: Its type.
         its_hash: The hash that the other side has for the type, which may be of another
             release; ours if "".
@@ -156,10 +156,10 @@ class Token:
 
     Attributes:
         domain: Number of the ROS domain.
-        session: Whose zenoh session it is, in hexadecimal.
+        session: Id of the zenoh session, in hexadecimal.
         node_id: Number of the node within the session.
         entity_id: Number of this thing within the session; of a node, its own.
-        kind: What it is, one of `graph.KINDS`.
+        kind: Its kind, one of `graph.KINDS`.
         node: The node's name, with its namespace, without the leading slash.
         name: The topic's or service's name without the leading slash; of a node, "".
         ros_type: Its type, "tf2_msgs/msg/TFMessage"; of a node, "".
@@ -269,7 +269,7 @@ class Attachment:
     Attributes:
         sequence: Number of the message, or of the question that is answered.
         stamp: When it was sent, by the sender's clock.
-        gid: Who sent it, 16 bytes.
+        gid: Id of the sender, 16 bytes.
     """
 
     sequence: int

@@ -25,10 +25,10 @@ class ZenohMiddleware:
     """This process in a ROS 2 graph over zenoh; see `seam.Middleware`.
 
     Attributes:
-        graph: Who else is there.
+        graph: Graph of the other processes.
         session: Our zenoh session, in hexadecimal.
         unanswering: Process numbers of this machine's processes that do not answer.
-        notices: Nothing: what there is to say is said where it happens.
+        notices: Empty: notices are given where they arise.
         wire: The zenoh session.
     """
 

@@ -116,10 +116,10 @@ class Rendezvous:
     """One process's place among those of its machine and domain.
 
     Attributes:
-        folder: Where the members' sockets are.
-        endpoint: Where this process listens, as zenoh writes it.
-        password: What members of this folder know; "" where sockets keep others out.
-        others: Where the others listen that were alive when `enter` looked, and their
+        folder: Folder of the members' sockets.
+        endpoint: Endpoint of this process, in zenoh's notation.
+        password: Password of this folder's members; "" where the sockets' permissions suffice.
+        others: Endpoints of the others that were alive when `enter` looked, and their
             process numbers.
     """
 

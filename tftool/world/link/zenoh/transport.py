@@ -83,9 +83,9 @@ class Local:
     """Rules by which a process meets the others of its machine.
 
     Attributes:
-        endpoint: Where it listens for them, "" for nowhere.
-        others: Where they listen.
-        password: What all of them know, "" where none is needed.
+        endpoint: Endpoint on which it listens, "" for none.
+        others: Their endpoints.
+        password: Their shared password, "" where none is needed.
         passwords: The file that has it, as zenoh reads it.
     """
 
@@ -100,15 +100,15 @@ class Wire:
 
     Attributes:
         zid: Its name, in hexadecimal.
-        oversized: Messages that were larger than what we read.
+        oversized: Number of messages above the size limit.
     """
 
     def __init__(self, reach: ZenohReach, local: Local) -> None:
         """Open the session; callbacks are queued until `start`.
 
         Args:
-            reach: What to open beyond this machine.
-            local: Where this machine's processes meet.
+            reach: Reach beyond this machine.
+            local: Meeting point of this machine's processes.
 
         Raises:
             LinkError: If zenoh is missing, or an endpoint cannot be used.
@@ -251,7 +251,7 @@ class Wire:
         Args:
             key: The service's key.
             payload: The request.
-            attachment: What travels beside it.
+            attachment: Attachment to send with it.
             timeout: Seconds to wait.
 
         Raises:
@@ -380,8 +380,8 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, local: Local) -> Any:
 
     Args:
         zenoh: The library.
-        reach: What to open beyond this machine.
-        local: Where this machine's processes meet.
+        reach: Reach beyond this machine.
+        local: Meeting point of this machine's processes.
 
     Raises:
         LinkError: If an endpoint or a file cannot be used.
