@@ -184,7 +184,7 @@ def test_a_failing_scenario_says_first_what_the_doctor_finds(tftool, scenarios):
     result = tftool("check", "odd.yaml")
     assert result.status == 1
     lines = [line.strip() for line in result.out.splitlines()]
-    assert lines[1].startswith("why: two-parents: a gets its parent by turns from world, b")
+    assert lines[1].startswith("why: two-parents: a changes between the parents world, b")
     assert any(line.startswith("line 7:") for line in lines[2:])
 
     (row,) = json.loads(tftool("check", "odd.yaml", "--json").out)

@@ -124,7 +124,7 @@ def test_a_scenario_expects_what_the_doctor_says(tftool, tmp_path, doctor, expec
     result = tftool("check", file, "--json")
     assert result.status == status
     # What is ignored here may still be why something else failed.
-    assert ('"found": "two-parents: table gets its parent by turns' in result.out) is (
+    assert ('"found": "two-parents: table changes between the parents' in result.out) is (
         status == 1 and "two-parents" not in expected
     )
 

@@ -42,10 +42,10 @@ def test_two_statics_with_different_parents_are_a_fight_too():
     made.static("laser", "camera", at=0.5)
     alone = found(made, "two-parents")
     assert set(alone.edges) == {("base_link", "camera"), ("laser", "camera")}
-    assert alone.consequence.startswith("camera loses its way to one root")
+    assert alone.consequence.startswith("camera loses its connection to one root")
     made.static("camera", "lens")
     both = found(made, "two-parents").consequence
-    assert both.startswith("camera, lens lose their way to one root")
+    assert both.startswith("camera, lens lose their connection to one root")
 
 
 def away(t: float) -> tuple[float, ...]:

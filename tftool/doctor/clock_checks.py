@@ -39,10 +39,10 @@ CONSTANTS_AHEAD = seconds(1)
 @check(
     "clock-mixture",
     Severity.ERROR,
-    rule="stamps below 10⁸ s and above it occur together, in transforms, joint states and "
-    "messages that have a place; the odd ones are those against "
-    "/clock, else the fewer",
-    headline="{where} {concerned:is|are} stamped with {odd_clock}, all else with {usual_clock}",
+    rule="stamps below and above 10⁸ s occur together in transforms, joint states and "
+    "messages with a position; the wrong ones are those that differ from /clock, or "
+    "else the smaller group",
+    headline="{where} {concerned:is|are} stamped with {odd_clock}, all others with {usual_clock}",
     detail="for example {odd_stamp:dated} beside {usual_stamp:dated}",
     consequence="no lookup across the two clocks can succeed",
     fixes=(
@@ -59,7 +59,7 @@ CONSTANTS_AHEAD = seconds(1)
     links=threads("ANYbotics/elevation_mapping#122", "iRobotEducation/create3_sim#203"),
 )
 def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Part of the stamps count from the simulation's start, part from 1970."""
+    """Some stamps count from the simulation's start, others from 1970."""
     streams: list[Track | Heard] = [*model.dynamic, *_placed(model)]
     simulated = [one for one in streams if one.families[0]]
     wall = [one for one in streams if one.families[1]]
@@ -119,8 +119,8 @@ def _name(stream: "Track | Heard") -> str:
 @check(
     "shifted-clock",
     Severity.NOTE,
-    rule="more than half of all streams are stamped by the same constant of more than 2 s before "
-    "or after their reception, to 1 s",
+    rule="more than half of all streams are stamped by one constant of more than 2 s before "
+    "or after their reception, to within 1 s",
     headline="all stamps are {by:span} {side} their reception, constant to {spread:span}",
     detail="{streams} streams; latencies and the cache are judged against the clock of the stamps",
     consequence="none for lookups within the recording; a live listener on another computer "
@@ -131,11 +131,11 @@ def _name(stream: "Track | Heard") -> str:
         "the recording was played again and recorded anew",
     ),
     needs=("log times",),
-    why="one constant for everything is one clock, and no publisher's fault",
+    why="one constant for all streams is a wrong clock, not a fault of a publisher",
     because_of=(("anything", "time-jump-back"),),
 )
 def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
-    """All stamps are off their reception by one constant."""
+    """All stamps differ from their reception by one constant."""
     if model.shift is None:
         return
     yield Hit(
@@ -154,12 +154,13 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "future-stamp",
     Severity.WARNING,
-    rule="the median latency of a transform is below -{seconds:g} s (of what places "
-    "odometry in a map: -{localisation:g} s); a note from -{note:g} s on; not where it is dated "
-    "ahead by its own period, or is a constant and dated up to 1 s ahead",
+    rule="the median latency of a transform is below -{seconds:g} s (for a transform from "
+    "map to odometry: -{localisation:g} s); a note from -{note:g} s on. Not reported if"
+    " it is ahead by its own period, or is a constant that is up to 1 s ahead",
     headline="{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
     detail="{edge}: {ahead:span} ahead (median){clock}",
-    consequence="the latest common time lies in the future: a lookup at latest mixes moments",
+    consequence="the latest common time is in the future: a lookup of the latest transform combines"
+    " different moments",
     fixes=(
         Fix(
             "lower the tolerance that dates it ahead (transform_tolerance, "
@@ -173,13 +174,13 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     links=threads("ros-navigation/navigation2#3166"),
     limits={"seconds": 0.25, "localisation": 2.0, "note": 0.02},
     needs=("log times",),
-    why="AMCL dates its transform 1 s ahead, and offsets of 0.1 s are in use; ROS 1's static "
-    "publishers and gmapping date theirs one period ahead, its robot_state_publisher fixed joints "
-    "0.5 s",
+    why="AMCL stamps its transform 1 s ahead, and offsets of 0.1 s are in use; ROS 1's "
+    "static publishers and gmapping stamp theirs one period ahead, its "
+    "robot_state_publisher fixed joints 0.5 s",
     because_of=(("stream", "clock-mixture"),),
 )
 def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Transforms dated ahead of their arrival."""
+    """Transforms are stamped later than they arrive."""
     for track in model.dynamic:
         if not len(track.stamps):
             continue
@@ -223,12 +224,12 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
 @check(
     "wild-stamp",
     Severity.WARNING,
-    rule="at most one stamp in a hundred, or one, lies more than an hour from where those "
-    "of the arrivals before and after lie",
+    rule="at most one stamp in a hundred, or a single one, differs by more than an hour from"
+    " the stamps of the messages before and after",
     headline="{where} {concerned:has|have} a stamp that lies {off:span} {side} the others",
     detail="{what}: {count} of {of}, {stamp:dated}",
-    consequence="a transform stamped ahead has tf2 drop what follows, until time reaches it; one "
-    "that is stamped behind is dropped itself",
+    consequence="after a transform stamped ahead, tf2 drops further ones until time reaches it; one"
+    " stamped behind is dropped itself",
     fixes=(
         Fix(
             "look at what the publisher stamps from; `tftool edit --from A --to B` leaves out "
@@ -240,10 +241,11 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
         "one message stamped before the clock was set",
     ),
     needs=("log times",),
-    why="a late message or a slow clock is off by seconds, and its neighbours are, too",
+    why="for a late message or a slow clock the difference is seconds, and other messages "
+    "have it too",
 )
 def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Single stamps far from those before and after."""
+    """Single stamps differ greatly from those before and after."""
     streams: list[Track | Heard] = [*model.dynamic, *_placed(model)]
     for one in streams:
         places = np.flatnonzero(one.wild)
@@ -276,10 +278,10 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     "stale-stamp",
     Severity.WARNING,
     rule="the median latency is above {transforms:g} s for a transform (an error above the "
-    "cache) or {messages:g} s for messages",
+    "cache time) or {messages:g} s for messages",
     headline="{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
     detail="{what}: {late:span} late (median)",
-    consequence="lookups at the present refuse; in rviz it lags or vanishes",
+    consequence="lookups at the present time refuse; in rviz the frame lags or disappears",
     fixes=(
         Fix(
             "stamp each transform when it is made, not with the last measurement's stamp; "
@@ -303,7 +305,7 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
 )
 def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Transforms or messages dated long before their arrival."""
+    """Transforms or messages are stamped long before they arrive."""
     cache = model.settings.cache_time
     for track in model.dynamic:
         least = limits["transforms"] * NANOSECONDS
@@ -336,10 +338,11 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "clock-offset",
     Severity.WARNING,
-    rule="the median latency of a sensor's messages is below -{seconds:g} s (of a laser "
-    "scan: one scan more), or off that of a recording that is shifted as a whole; a note where "
-    "steady streams (95 % within {spread:g} s, {samples:g} messages), none ahead and each later "
-    "than its own period, form groups more than {apart:g} s apart",
+    rule="the median latency of a sensor's messages is below -{seconds:g} s (for a laser "
+    "scan: less one scan), or differs from that of a recording that is shifted as a "
+    "whole. A note if steady streams (95 % within {spread:g} s, {samples:g} messages), "
+    "none ahead and each later than its own period, form groups more than {apart:g} s "
+    "apart",
     headline="{topic} {found}",
     detail="{groups}",
     consequence="{so}",
@@ -356,12 +359,12 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         "log times",
         "headers",
     ),
-    why="a message cannot be older than itself; 20 ms are more than stamps are rounded by, "
-    "and a scan may be stamped with its end",
+    why="a message cannot arrive before it is made; rounding of stamps is below 20 ms, and "
+    "a scan may be stamped with its end",
     because_of=(("stream", "clock-mixture"),),
 )
 def clock_offset(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A sensor's messages come from the future: two clocks."""
+    """A sensor's stamps are in the future: two clocks differ."""
     alike: dict[int, list[Heard]] = defaultdict(list)
     for heard in model.heard:
         if len(heard.stamps) < 3 or not heard.is_spatial:
@@ -468,7 +471,7 @@ def _offsets(model: Model) -> list[str]:
     rule="a transform on a dynamic topic has stamp 0",
     headline="{where} {concerned:has|have} stamp 0",
     detail="{edge}: {count} of {of} samples",
-    consequence="lookups at any other time refuse; 0 means latest in every question",
+    consequence="lookups at any other time refuse; in a query, 0 means the latest time",
     fixes=(Fix("stamp it: t.header.stamp = self.get_clock().now().to_msg(), inside the loop"),),
     causes=(
         "the stamp is never set",
@@ -492,10 +495,10 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "frozen-stamp",
     Severity.WARNING,
-    rule="one stamp comes {times:g} times or more, over more than {seconds:g} s",
-    headline="the stamp of {where} stands still",
+    rule="one stamp is sent {times:g} times or more, over more than {seconds:g} s",
+    headline="{where} {concerned:repeats|repeat} one stamp",
     detail="{edge}: {stamp:moment} {count:times}, for {lasted:span}",
-    consequence="lookups at any other time refuse: only that one is in the buffer",
+    consequence="lookups at any other time refuse: the buffer holds only that stamp",
     fixes=(Fix("set the stamp inside the loop: t.header.stamp = self.get_clock().now().to_msg()"),),
     causes=("the stamp is set once, before the loop",),
     limits={"times": 10, "seconds": 1.0},
@@ -503,7 +506,7 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("edge", "zero-stamp"),),
 )
 def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The stamp stands still while the message repeats."""
+    """A stamp is repeated without change."""
     for track in model.dynamic:
         frozen = _frozen(track, limits)
         if frozen is not None:
@@ -569,7 +572,7 @@ _FROZEN = {"times": 10, "seconds": 1.0}
     ),
 )
 def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The same stamp twice: TF_REPEATED_DATA in ROS 1."""
+    """Stamps are sent twice: TF_REPEATED_DATA in ROS 1."""
     for track in model.dynamic:
         places = track.by_stamp
         if track.is_orderly:
@@ -593,7 +596,7 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "time-jump-back",
     Severity.ERROR,
-    rule="within 1 s at least half of all streams, and two, step back by more than 1 s",
+    rule="within 1 s, at least two streams and half of all step back by more than 1 s",
     headline="time went back by {back:span}, {count:times}",
     detail="at log time {moment:moment}: from {before:moment} to {after:moment}, {streams} "
     "streams; all that follows is about what came before",
@@ -612,7 +615,8 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
     links=threads("ros2/geometry2#606", "ros/geometry2#43"),
     needs=("log times",),
-    why="a looped recording would trip forty other checks: all of them look at the first lap only",
+    why="a looped recording would trigger forty other checks, so all of them use only the "
+    "first pass",
 )
 def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
     """Time went back: a looped bag, a reset simulation."""
@@ -655,7 +659,7 @@ def time_jump_back(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
 )
 def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Samples older than the cache allows: TF_OLD_DATA."""
+    """Samples are older than the cache allows: TF_OLD_DATA."""
     by_child: dict[str, list[Track]] = defaultdict(list)
     for track in model.dynamic:
         by_child[track.child].append(track)
@@ -694,10 +698,11 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
 @check(
     "out-of-order",
     Severity.NOTE,
-    rule="more than {samples:g} samples, and a share above {share:g}, are older than one before",
-    headline="{where} {concerned:comes|come} out of order",
+    rule="more than {samples:g} samples, and a share above {share:g}, are older than an "
+    "earlier one",
+    headline="{where} {concerned:arrives|arrive} out of order",
     detail="{edge}: {count} of {of} samples",
-    consequence="harmless to tf2; hints at threads, a second publisher, a lossy network, or a "
+    consequence="harmless to tf2; a sign of threads, a second publisher, a lossy network, or a "
     "message filter that released many scans at once",
     limits={"samples": 2, "share": 0.01},
     because_of=(
@@ -708,7 +713,7 @@ def _newest_before(tracks: "list[Track]") -> tuple[Stamps, Stamps]:
     ),
 )
 def out_of_order(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Samples overtake each other within the cache."""
+    """Samples arrive in another order than their stamps, within the cache time."""
     for track in model.dynamic:
         count = unsorted_share(track.stamps)
         if count > limits["samples"] and count > limits["share"] * len(track.stamps):

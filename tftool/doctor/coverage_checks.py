@@ -41,9 +41,9 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
 @check(
     "edge-stopped",
     Severity.ERROR,
-    rule="the last sample comes more than {periods:g} periods and {seconds:g} s, and a "
-    "share of {share:g}, before the recording's end, while others go on; not of what a camera "
-    "sees, from which nothing hangs",
+    rule="the last sample arrives more than {periods:g} periods and {seconds:g} s, and a "
+    "share of {share:g}, before the recording's end, while other streams continue; "
+    "except detections of a camera that have no children",
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
@@ -115,12 +115,12 @@ def _is_detection(model: Model, track: Track) -> bool:
     "gap",
     Severity.WARNING,
     rule="the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} "
-    "samples or more; a note for what is published on change (variation above "
-    "{variation:g})",
-    headline="{where} {concerned:has a hole|have holes}",
+    "samples or more; a note for transforms that are published on change (variation "
+    "above {variation:g})",
+    headline="{where} {concerned:has a gap|have gaps}",
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
-    consequence="lookups inside it interpolate over the hole, or refuse while it lasts",
+    consequence="lookups inside it interpolate across the gap, or refuse during it",
     fixes=(Fix("look at what stopped then: all edges together mean the recorder or the network"),),
     causes=(
         "load",
@@ -128,15 +128,15 @@ def _is_detection(model: Model, track: Track) -> bool:
         "a publisher that hung",
     ),
     limits={"periods": 5, "seconds": 0.5, "samples": 10, "variation": 1.0},
-    why="four messages lost in a row are no chance on a reliable topic, and shorter holes "
-    "are covered by the waits that consumers have anyway",
+    why="four messages lost in a row are no accident on a reliable topic; the usual "
+    "timeouts of consumers cover shorter gaps",
     because_of=(
         ("child", "publisher-conflict two-parents"),
         ("edge", "edge-stopped nan-transform"),
     ),
 )
 def gap(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A hole in a transform."""
+    """A transform has a gap."""
     known = {track.edge: holes(track, limits) for track in model.dynamic}
     for track in model.dynamic:
         found = known[track.edge]
@@ -179,11 +179,10 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "single-sample",
     Severity.WARNING,
-    rule="a transform on a dynamic topic came once",
+    rule="a transform on a dynamic topic was sent once",
     headline="{where} {concerned:was|were} sent once, on /tf",
     detail="{edge}: at {stamp:moment}",
-    consequence="one sample answers for its own stamp only, and only for as long as the cache "
-    "keeps it",
+    consequence="one sample answers only for its own stamp, and only while the cache keeps it",
     fixes=(Fix("send a mount with a StaticTransformBroadcaster (on /tf_static)"),),
     causes=("a mount sent with a TransformBroadcaster",),
     why="tf2 interpolates between two samples and never extrapolates from one",
@@ -210,13 +209,13 @@ def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.ERROR,
     rule="no topic carries a transform",
     headline="there are no transforms",
-    consequence="nothing can be placed in anything",
+    consequence="nothing can be placed in another frame",
     fixes=(Fix("record /tf and /tf_static too"),),
     causes=("/tf and /tf_static were not in the recorder's list",),
     because_of=(("anything", "namespaced-topic"),),
 )
 def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
-    """There is no tf in it at all."""
+    """The recording has no transforms."""
     if not model.tracks and not model.nameless:
         yield Hit(topics=tuple(t.name for t in model.evidence.topics if t.transforms))
 
@@ -224,11 +223,12 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "static-missing",
     Severity.ERROR,
-    rule="no static topic has a message, and messages are in frames that tf does not know; not "
-    "where there is no static topic and constants come on /tf, as in early ROS 1",
+    rule="no static topic has a message, and messages are in frames that tf does not know. "
+    "Not reported if there is no static topic and constants are sent on /tf, as in "
+    "early ROS 1",
     headline="the statics are missing: {why}",
     detail="messages are in {frames}, which no transform names",
-    consequence="these sensors can be placed nowhere",
+    consequence="these sensors cannot be placed",
     fixes=(
         Fix("record with /tf and /tf_static (ROS 1: rosbag record --repeat-latched)"),
         Fix(
@@ -246,7 +246,7 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("anything", "namespaced-topic"),),
 )
 def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
-    """No statics in the recording, and sensors hang in the air."""
+    """The recording has no statics, and sensors have no transforms."""
     if model.statics or not model.tracks:
         return
     unknown = [
@@ -304,10 +304,10 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.WARNING,
     rule="a static first arrives more than {seconds:g} s after the first message in a frame "
     "below it",
-    headline="{where} {concerned:arrives after what needs it|arrive after what needs them}",
+    headline="{where} {concerned:arrives|arrive} later than messages that need {concerned:it|them}",
     detail="{edge}: {late:span} late; before it: {missed}",
-    consequence="a listener that was there from the start could not place these messages, although "
-    "the recording can",
+    consequence="a listener that ran from the start could not place these messages, although the "
+    "recording can",
     fixes=(Fix("start the publisher of the statics before the sensors"),),
     causes=("a driver that publishes its mount when it is ready",),
     links=threads("ros/geometry2#181"),
@@ -319,7 +319,7 @@ def static_not_latched(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(("child", "static-and-dynamic"),),
 )
 def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Statics arrive after what needs them."""
+    """Statics arrive later than messages that need them."""
     spatial = [heard for heard in model.heard if heard.is_spatial and len(heard.logs)]
     earliest = min((int(heard.logs[0]) for heard in spatial), default=NEVER)
     for track in model.statics:
@@ -352,9 +352,9 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "latched-overwrite",
     Severity.NOTE,
-    rule="the last static message does not hold all children; of publishers that are known, "
-    "the last one of the same publisher",
-    headline="statics are spread over {messages} messages",
+    rule="the last static message lacks some children; if publishers are known, the last one"
+    " of the same publisher",
+    headline="statics are in {messages} messages",
     detail="the last lacks {lost}",
     consequence="a player that publishes them from one node keeps only the last for late listeners",
     fixes=(
@@ -366,7 +366,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     needs=("recording",),
 )
 def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Statics are spread over several messages; playback latches the last."""
+    """Statics are in several messages, and playback keeps only the last."""
     transforms = model.evidence.transforms
     held: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
     for edge in transforms.edges:
@@ -442,10 +442,10 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
 @check(
     "sensor-outruns-tf",
     Severity.WARNING,
-    rule="95 % of the waits for the last transform a message needs are not below "
-    "{seconds:g} s, or a share above {never:g} is never served; a note where a share "
-    "above {refused:g} waits and 95 % are not below {note:g} s; of {messages:g} "
-    "messages or more",
+    rule="the 95 % quantile of the waits for the last transform that a message needs is "
+    "{seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
+    " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
+    "{messages:g} messages",
     headline="{topic} arrives before the transforms it needs",
     detail="{refused:%} refused at arrival (in {fixed}); wait {p50:span} (median), {p95:span} "
     "(95 %), {worst:span} (worst); {never:%} never served; held up by {link}, which comes every "
@@ -481,7 +481,7 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     ),
 )
 def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Lookups at the sensor's stamps refuse; how many, and what wait cures them."""
+    """Lookups at the sensor's stamps refuse, because transforms arrive later."""
     fixed = model.sensor_frame
     for heard in model.heard:
         if not heard.is_spatial or len(heard.stamps) < limits["messages"]:
@@ -584,8 +584,8 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
 @check(
     "cache-short",
     Severity.WARNING,
-    rule="95 % of a topic's messages do not arrive within the cache (10 s; --cache-time)",
-    headline="{topic} arrives after the cache has forgotten its moment",
+    rule="95 % of a topic's messages arrive later than the cache time (10 s; --cache-time)",
+    headline="{topic} arrives later than the cache keeps its moment",
     detail="{topic}: {late:span} after its stamp (median), {worst:span} at most; the buffer "
     "keeps {cache:span}",
     consequence='"extrapolation into the past": the transforms it needs were dropped',
@@ -608,7 +608,7 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
     because_of=(("stream", "clock-mixture"),),
 )
 def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Messages are older than the cache when they arrive."""
+    """Messages are older than the cache time when they arrive."""
     for heard in model.heard:
         if not heard.is_spatial or len(heard.stamps) < 3:
             continue
@@ -635,14 +635,13 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "late-start",
     Severity.NOTE,
-    rule="messages are older by more than {seconds:g} s, and the first second of the "
-    "recording, than the first transform they need; where a localiser dates that "
-    "ahead, by up to 2 s, so much more",
-    headline="{where} {concerned:begins after the messages that need it|begin after the "
-    "messages that need them}",
+    rule="messages are older than the first transform they need by more than {seconds:g} s, "
+    "and arrive after the first second of the recording; if a localiser stamps that "
+    "transform ahead by up to 2 s, the limit grows by as much",
+    headline="{where} {concerned:begins|begin} later than messages that need {concerned:it|them}",
     detail="{edge} begins at {begin:moment}: {lost} messages of {topic} can never be placed "
     "in {fixed}",
-    consequence="waiting does not help; skip them",
+    consequence="waiting does not help; skip these messages",
     causes=(
         "AMCL dates its first transform ahead (transform_tolerance)",
         "a node that starts later",
@@ -652,15 +651,15 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
         "log times",
         "headers",
     ),
-    why="the first second of every recording is a start, and a localiser that dates ahead "
-    "loses it always",
+    why="every recording needs its first second to start, and a localiser that stamps ahead"
+    " always loses that time",
     because_of=(
         ("stream", "clock-mixture"),
         ("edge", "wild-stamp"),
     ),
 )
 def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Lookups cannot succeed before a moment: an edge begins late or is dated ahead."""
+    """Lookups cannot succeed at first: an edge begins late or is stamped ahead."""
     fixed = model.fixed_frame
     for heard in model.heard:
         if not heard.is_spatial or not len(heard.stamps):
@@ -700,13 +699,13 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="part of the recording could not be read",
     headline="part of the recording could not be read",
     detail="{damage}",
-    consequence="what is behind the damage is not in this report",
+    consequence="data after the damage is not in this report",
     causes=(
         "the recorder was killed",
         "a full disk",
     ),
 )
 def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
-    """The recorder was killed, or the file is damaged: read up to there."""
+    """The recorder was killed, or the file is damaged: only the first part was read."""
     if model.evidence.damage:
         yield Hit(facts={"damage": " ".join(model.evidence.damage)}, alone=True)

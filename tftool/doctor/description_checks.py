@@ -21,8 +21,8 @@ _STATES = "start joint_state_publisher or the controller's broadcaster; or make 
 @check(
     "urdf-invalid",
     Severity.ERROR,
-    rule="it is no XML, has no root or several, a joint names a link that is missing, "
-    "joints form a circle, or a name comes twice",
+    rule="it is no XML, has no root or several, a joint names a missing link, joints form a "
+    "loop, or a name is used twice",
     headline="the robot description cannot be read",
     detail="{mistakes}",
     consequence="robot_state_publisher refuses it or publishes a part; nothing is compared with it",
@@ -43,8 +43,8 @@ def urdf_invalid(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "joint-without-state",
     Severity.ERROR,
-    rule="a joint that moves and follows no other is in no JointState of the recording, and "
-    "no transform has its link",
+    rule="a movable joint that follows no other is in no JointState of the recording, and no"
+    " transform has its link",
     headline="{joint} has no state: {child} has no frame",
     detail="{joint} ({kind}) moves {below}",
     consequence="robot_state_publisher publishes nothing below such a joint",
@@ -129,7 +129,7 @@ def links_below(robot: Robot, joint: RobotJoint) -> list[str]:
     ),
 )
 def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A link of the robot description never appears in tf."""
+    """A link of the robot description is never published in tf."""
     robot = model.evidence.robot
     if robot is None:
         return
@@ -162,11 +162,11 @@ def urdf_frame_unpublished(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "urdf-tf-mismatch",
     Severity.WARNING,
-    rule="a static and the fixed joint of the same two links are more than {metres:g} m or "
-    "{degrees:g}° apart",
+    rule="a static and the fixed joint of the same two links differ by more than {metres:g} "
+    "m or {degrees:g}°",
     headline="{where} {concerned:differs|differ} from the robot description",
     detail="{edge}: {apart:m} and {turned:deg} apart; {joint} has {says}, tf {has}",
-    consequence="what was calibrated and what is published are two mounts",
+    consequence="the calibrated mount and the published one differ",
     fixes=(Fix("publish it once: remove the second publisher, or write the calibration down"),),
     causes=(
         "a calibration is published beside the description",

@@ -352,7 +352,7 @@ def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     cause = Cause.LATE
     if is_gap:
         cause = Cause.GAP
-        why = f"{link.name} has a hole of {span(step)} from {moment(int(stamps[after - 1]))} on"
+        why = f"{link.name} has a gap of {span(step)} from {moment(int(stamps[after - 1]))} on"
     elif heard is not None and heard.median_latency < -20_000_000:
         cause = Cause.CLOCK_OFFSET
         why = (

@@ -22,12 +22,13 @@ _MEASURE = Fix(
 @check(
     "mount-contradicts-motion",
     Severity.WARNING,
-    rule="with --mounts: two chains move one body, and a published or described mount differs from "
-    "their motion by more than {metres:g} m or {degrees:g}°, and by more than {widths:g} times the "
-    "half-width of the 95 % interval, along an axis that the motion shows",
+    rule="with --mounts: two chains move one body, and a published or described mount "
+    "differs from the one that their motion gives by more than {metres:g} m or "
+    "{degrees:g}°, and by more than {widths:g} times the half-width of the 95 % "
+    "interval, along an axis that the motion determines",
     headline="the mount of {child} on {parent} contradicts its motion",
     detail="{apart}",
-    consequence="what this sensor sees is placed wrongly, by more the farther it is away",
+    consequence="data of this sensor is placed wrongly, with an error that grows with the distance",
     fixes=(_MEASURE,),
     causes=(
         "the mount was measured with a ruler",
@@ -53,8 +54,8 @@ def mount_contradicts_motion(model: Model, limits: Limits) -> Iterator[Hit]:
     "than {widths:g} times the half-width of the 95 % interval of the difference",
     headline="{child} moved on {parent}{when}",
     detail="{apart}",
-    consequence="one mount cannot be right before and after: what was taught or mapped with the "
-    "one is read with the other",
+    consequence="one mount cannot be right before and after: a map or a taught pose from before "
+    "does not fit afterwards",
     fixes=(Fix("fasten the sensor again, then measure its mount with `tftool calibrate`"),),
     causes=("a tripod or a bracket was moved", "a screw came loose", "the robot hit something"),
     limits={"metres": 0.005, "degrees": 0.3, "widths": 2.0},

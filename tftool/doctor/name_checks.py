@@ -26,7 +26,7 @@ MOST_COMPARED = 300_000
 @check(
     "unknown-frame",
     Severity.ERROR,
-    rule="the frame of a message that has a place is in no transform of the whole recording",
+    rule="the frame of a message with a position is in no transform of the whole recording",
     headline="no transform names {frame}",
     detail="{says}{hint}",
     consequence="none of these messages can be placed anywhere",
@@ -38,7 +38,7 @@ MOST_COMPARED = 300_000
     ),
     links=threads("Ekumen-OS/andino_gz#43", "ros2/ros2_documentation#5222", "osrf/vrx#876"),
     needs=("headers",),
-    why="lookups fail by name before any question of time",
+    why="such lookups fail at every time",
     because_of=(
         ("anything", "static-missing"),
         ("frame", "slash-twins namespace-twins case-twins typo-twins"),
@@ -138,20 +138,20 @@ def _renames(model: Model, name: str, alike: list[str], kinds: list[str]) -> tup
 @check(
     "slash-twins",
     Severity.ERROR,
-    rule="a frame in a header begins with a slash, and tf knows the rest of the name",
-    headline="{topic} says {frame}, tf knows {known}",
+    rule="a frame in a header begins with a slash, and tf knows the name without it",
+    headline="{topic} names {frame}, tf knows {known}",
     detail="{topic}: {frame}, {count:times}",
     consequence="every lookup refuses: \"in tf2 frame_ids cannot start with a '/'\"",
     fixes=(
         Fix('set frame_id to "{known}" in the publisher of {topic}'),
         Fix("in a recording:", "tftool edit RECORDING -o CLEAN --strip-slash --everywhere"),
     ),
-    causes=("a publisher from the days of tf 1",),
+    causes=("a publisher written for tf 1",),
     links=threads("ros-simulation/stage_ros#68", "gisbi-kim/FAST_LIO_SLAM#15"),
     needs=("headers",),
 )
 def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Messages say /x, tf knows x: every lookup refuses."""
+    """Messages name /x, tf knows x: every lookup refuses."""
     for heard in model.heard:
         if heard.frame.startswith("/") and heard.frame[1:] in model.frames:
             yield Hit(
@@ -171,16 +171,16 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "leading-slash",
     Severity.NOTE,
-    rule="a transform names a frame with a leading slash, which tf2 strips; an error where "
-    "it has two, since no query can reach what is left",
+    rule="a transform names a frame with a leading slash, which tf2 removes; an error for "
+    "two slashes, since no query can name the rest",
     headline="{where} {concerned:is|are} published with a leading slash",
     detail="{edge}: {found}",
-    consequence="harmless to tf2; what compares names sees two",
+    consequence="harmless to tf2; tools that compare names see two frames",
     fixes=(Fix("drop the slash in the publisher"),),
-    causes=("a publisher from the days of tf 1",),
+    causes=("a publisher written for tf 1",),
 )
 def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Names in transforms carry a leading slash."""
+    """Names in transforms have a leading slash."""
     for track in model.tracks:
         twice = [name for name in track.edge if name.startswith("/")]
         if not twice and not track.slashed:
@@ -205,15 +205,15 @@ def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
     "case-twins",
     Severity.WARNING,
     rule="two names are equal without hyphens, underscores, blanks and case",
-    headline="{first} and {second} differ in their writing only",
+    headline="{first} and {second} differ only in spelling",
     detail="{users}",
-    consequence="they are two frames; what is placed in one is not in the other",
+    consequence="they are two frames: things placed in one are not in the other",
     fixes=(Fix("use one spelling; {most} has more users"),),
     causes=("names typed by hand in two places",),
     because_of=(("frame", "namespace-twins"),),
 )
 def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Names that differ in case, hyphens, underscores or blanks only."""
+    """Two names differ only in case, hyphens, underscores or blanks."""
     alike: dict[str, list[str]] = defaultdict(list)
     for name in _names(model):
         alike[_bare(name)].append(name)
@@ -227,17 +227,17 @@ def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     Severity.WARNING,
     rule="two names of {shortest:g} letters or more, not in one tree, differ by one letter "
     "(from {long:g} letters on: by two), and one is unknown to tf or the root of a "
-    "lesser tree; numbers and pairs like left and right aside",
-    headline="{first} and {second} look like one name",
+    "smaller tree; except numbers, and pairs like left and right",
+    headline="{first} and {second} look like two spellings of one name",
     detail="{users}",
-    consequence="they are two frames; what is placed in one is not in the other",
+    consequence="they are two frames: things placed in one are not in the other",
     fixes=(Fix("use one spelling; {most} has more users"),),
     causes=("names typed by hand in two places",),
     limits={"shortest": 5, "long": 10},
     because_of=(("frame", "namespace-twins"),),
 )
 def typo_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Names one or two letters apart, one of them dangling."""
+    """Two names differ by one or two letters, and one of them is unused or separate."""
     names = _names(model)
     lesser = {tree.root for tree in model.trees[1:]}
     dangling = [name for name in names if name not in model.frames or name in lesser]
@@ -331,7 +331,7 @@ def _shared(one: str, other: str) -> int:
     "namespace-twins",
     Severity.WARNING,
     rule="a name exists with and without a prefix, in different trees",
-    headline="{first} and {bare} look like one frame: some names carry the prefix {prefix}",
+    headline="{first} and {bare} look like one frame: some names have the prefix {prefix}",
     detail="{twins}",
     consequence="the frames with the prefix and those without are two trees",
     fixes=(
@@ -351,7 +351,7 @@ def _shared(one: str, other: str) -> int:
     ),
 )
 def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Part of the frames carry a prefix that others lack."""
+    """Some frames have a prefix that others lack."""
     names = set(_names(model))
     pairs: dict[str, list[tuple[str, str]]] = defaultdict(list)
     for name in sorted(names):
@@ -382,16 +382,16 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "namespaced-topic",
     Severity.WARNING,
-    rule="transforms come on a topic other than /tf and /tf_static; a note where /tf is "
-    "whole without it",
-    headline="transforms travel on {topics}",
+    rule="transforms are sent on a topic other than /tf and /tf_static; a note if /tf is "
+    "complete without it",
+    headline="transforms are sent on {topics}",
     detail="{missing}",
-    consequence="a listener with its defaults does not hear them",
+    consequence="a listener with default topics does not receive them",
     causes=("a robot in a namespace whose /tf is remapped",),
     links=threads("iRobotEducation/create3_docs#402", "ros-navigation/navigation2#5449"),
 )
 def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Transforms travel on /ns/tf, where default listeners do not listen."""
+    """Transforms are sent on /ns/tf, which default listeners do not subscribe."""
     heard_on = {*_USUAL_TOPICS, *model.settings.tf_topics}
     heard_on |= {f"{topic}_static" for topic in model.settings.tf_topics}
     odd = sorted({t for track in model.tracks for t in track.topics} - heard_on)
@@ -449,9 +449,9 @@ def _joined(edges: Iterable[tuple[str, str]]) -> dict[str, str]:
 @check(
     "awkward-name",
     Severity.NOTE,
-    rule="a name has blanks at its ends, characters that cannot be seen, a ~, more than "
-    "{letters:g} letters, or is a number or word of YAML 1.1",
-    headline="{where}: names that tools stumble over",
+    rule="a name has blanks at its ends, invisible characters, a ~, more than {letters:g} "
+    "letters, or is a number or word of YAML 1.1",
+    headline="{where}: {concerned:a name|names} that many tools misread",
     detail="{frame} {reason}",
     consequence="tools that print or parse the name show or read another one",
     fixes=(Fix("give the frame a plain name: letters, digits, underscores"),),

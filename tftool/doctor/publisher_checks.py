@@ -29,10 +29,10 @@ MOST_FOLLOWED = 20_000
     Severity.ERROR,
     rule="a frame has two parents among the statics, or changes its parent more than "
     "{switches:g} times and keeps each for less than {stay:g} s on average",
-    headline="{child} gets its parent by turns from {parents}",
+    headline="{child} changes between the parents {parents}",
     detail="{sources}; changes {switches:times}, first at {first:moment}",
-    consequence="{lost} {lost:loses its|lose their} way to one root while the other parent rules: "
-    "the robot jumps, and lookups fail now and then",
+    consequence="{lost} {lost:loses its|lose their} connection to one root while the other parent "
+    "is in force: the robot jumps, and lookups fail now and then",
     fixes=(
         Fix(
             "let the transform end at the robot's root frame ({root}) instead of {child} "
@@ -53,10 +53,11 @@ MOST_FOLLOWED = 20_000
         "introlab/rtabmap_ros#822",
     ),
     limits={"switches": 4, "stay": 1.0},
-    why="a hand-over changes the parent once and stays; a fight changes it at the rate of messages",
+    why="a hand-over changes the parent once; two competing publishers change it at the "
+    "rate of messages",
 )
 def two_parents(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame gets two parents by turns."""
+    """A frame changes between two parents."""
     for child, tracks in _by_child(model.dynamic).items():
         switches, stay, first = _switching(tracks)
         if switches > limits["switches"] and stay < limits["stay"]:
@@ -90,18 +91,18 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
 @check(
     "publisher-conflict",
     Severity.ERROR,
-    rule="two publishers with at least {least:g} samples each overlap in time and are more "
-    "than {metres:g} m (or {degrees:g}°) and one step apart; or, where publishers are unknown, "
-    "{samples:g} stamps or more carry two values that far apart (a warning from {stamps:g} on), or "
-    "samples continue (within "
-    "{reach:g} + {speed:g} m a second, a radian as half a metre) two tracks by turns, each with "
-    "at least {samples:g} samples and a share of {share:g}, the owner changing "
-    "{changes:g} times or more, and motion at constant velocity explains all of them together "
-    "{worse:g} times worse than each track alone",
+    rule="two publishers with at least {least:g} samples each overlap in time and differ by "
+    "more than {metres:g} m (or {degrees:g}°) and by more than one step. Where "
+    "publishers are unknown: {samples:g} stamps or more have two values that differ so "
+    "much (a warning from {stamps:g} on), or the samples alternate between two tracks "
+    "(a sample belongs to a track within {reach:g} m + {speed:g} m/s, a radian counting"
+    " as half a metre). Each track needs {samples:g} samples and a share of {share:g}, "
+    "the track must change {changes:g} times or more, and motion at constant velocity "
+    "must explain all samples {worse:g} times worse than each track alone",
     headline="{edge} is published by {first} and {second} with different values{seen}",
     detail="{first} and {second}: {told}, {apart:m} and {turned:deg} apart (median), "
     "{worst:m} and {most_turned:deg} at most",
-    consequence="{child} jumps to and fro in {parent}, and everything below it",
+    consequence="{child} jumps back and forth in {parent}, and with it everything below",
     causes=(
         "a controller or simulator plug-in and a filter publish the odometry",
         "two localisers, or a recorded map to odom replayed beside a live one",
@@ -126,9 +127,9 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
         "changes": 6,
         "worse": 2.0,
     },
-    why="a thing that moves continues where it was, while two opinions alternate; so much "
-    "speed tells two opinions apart, and leaves fast robots and relocalisations alone; a fast "
-    "wheel turns far between two samples, and always by the same angle",
+    why="a moving frame continues from its last pose, while the values of two publishers "
+    "alternate; the speed limit separates these from fast robots and relocalisations; a"
+    " fast wheel turns by a large but constant angle between two samples",
 )
 def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
@@ -356,10 +357,10 @@ def _conflict(
     "static-and-dynamic",
     Severity.ERROR,
     rule="a frame is the child of a transform on a static and of one on a dynamic topic",
-    headline="{child} comes on /tf and on /tf_static",
+    headline="{child} is sent on /tf and on /tf_static",
     detail="moving: {moving}; static: {static}; the kind changes {turns:times}, at most "
     "{history:span} of history are kept",
-    consequence="each change of kind wipes the history of {child}: lookups in the past fail",
+    consequence="each change of kind clears the history of {child}: lookups in the past fail",
     fixes=(Fix("keep one of the two: what moves on /tf, a mount on /tf_static"),),
     causes=(
         "SLAM beside the robot description, with other parents",
@@ -369,7 +370,7 @@ def _conflict(
     links=threads("TixiaoShan/LIO-SAM#521"),
 )
 def static_and_dynamic(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame comes on /tf and on /tf_static: its history is wiped each time."""
+    """A frame is sent on /tf and on /tf_static, and its history is cleared each time."""
     moving = _by_child(model.dynamic, least=1)
     for child, statics in _by_child(model.statics, least=1).items():
         if child not in moving:
@@ -424,7 +425,8 @@ def _ends_at_the_root(
     "{radians:g} rad)",
     headline="{where} {concerned:moves, and is|move, and are} published as static",
     detail="{edge}: {values} values, up to {moved:m} and {turned:deg} apart",
-    consequence="statics have no history: every lookup in the past silently gives the newest value",
+    consequence="statics have no history: every lookup in the past returns the newest value, "
+    "without an error",
     fixes=(Fix("publish what moves with a TransformBroadcaster, on /tf"),),
     causes=("a calibration or a detector publishes its result with a static broadcaster",),
     limits={"values": 4, "metres": 1e-6, "radians": 1e-4},
@@ -443,7 +445,8 @@ def dynamic_on_static(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="a static has 2 to {values:g} different values (apart by {metres:g} m or {radians:g} rad)",
     headline="{where} {concerned:was|were} published again with another value",
     detail="{edge}: {values} values, {moved:m} and {turned:deg} apart",
-    consequence="what was placed with the old value moves when the new one comes, also in the past",
+    consequence="everything placed with the old value moves when the new one arrives, also in the "
+    "past",
     fixes=(Fix("find the second publisher: often two launch files publish the same mount"),),
     causes=(
         "two launch files",
@@ -507,14 +510,15 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
 @check(
     "static-on-tf",
     Severity.NOTE,
-    rule="{samples:g} samples or more on a dynamic topic, over {seconds:g} s or more, are all "
-    "equal while what carries them moves; not where joint states, the robot description, "
-    "odometry, another edge of the same messages, a moving frame of like name, or a mount on it "
-    "among the robot's fixed joints say that it could move",
+    rule="{samples:g} samples or more on a dynamic topic, over {seconds:g} s or more, are "
+    "all equal while the parent frame moves. Not reported if joint states, the robot "
+    "description, odometry, another edge of the same messages, a moving frame of "
+    "similar name, or a mount on it among the robot's fixed joints show that it could "
+    "move",
     headline="{where} never {concerned:changes and is|change and are} sent on /tf",
     detail="{edge}: {rate:.3g} Hz, for {lasts:span}",
-    consequence="if it is a mount, lookups through it wait for its next sample, up to its period, "
-    "for nothing",
+    consequence="if it is a mount, lookups through it wait needlessly for its next sample, up to "
+    "one period",
     fixes=(
         Fix(
             "if it cannot move, send it once on /tf_static: tf2's static_transform_publisher, "
@@ -525,8 +529,8 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
     links=threads("orbbec/ros_astra_camera#89"),
     limits={"samples": 20, "seconds": 60.0},
     needs=("recording",),
-    why="a static sent at 10 Hz lets every lookup wait for up to 100 ms; a joint at rest looks "
-    "the same, and a short recording cannot tell them apart",
+    why="a static sent at 10 Hz makes every lookup wait for up to 100 ms; a joint at rest "
+    "looks the same, and a short recording cannot distinguish them",
     because_of=(("child", "static-and-dynamic"),),
 )
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -603,7 +607,7 @@ def _joints_by_statics(model: Model) -> list[Track]:
     "s or more",
     headline="{child} changed its parent: {parents}",
     detail="{child}: {switches:times}",
-    consequence="fine for an object that was picked up; a mount never does it",
+    consequence="normal for an object that was picked up, but not for a mount",
     causes=("an object that was picked up",),
     limits={"switches": 4, "stay": 1.0},
     because_of=(
@@ -612,7 +616,7 @@ def _joints_by_statics(model: Model) -> list[Track]:
     ),
 )
 def parent_switch(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame changed its parent and stayed."""
+    """A frame got a new parent once."""
     for child, tracks in _by_child(model.dynamic).items():
         switches, stay, first = _switching(tracks)
         if 0 < switches <= limits["switches"] or stay >= limits["stay"]:

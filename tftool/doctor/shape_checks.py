@@ -30,16 +30,16 @@ JUDGED_EMPTY = frozenset(
 @check(
     "loop",
     Severity.ERROR,
-    rule="the transforms that exist at the same time form a circle",
-    headline="the frames hang in a circle: {circle}",
-    consequence='whatever walks to the root fails: "The tf tree is invalid because it contains a '
-    'loop."',
+    rule="transforms that exist at the same time form a loop",
+    headline="the frames form a loop: {circle}",
+    consequence='lookups that follow the parents to the root fail: "The tf tree is invalid because '
+    'it contains a loop."',
     fixes=(Fix("publish one direction only"),),
     causes=("odom above body and body above odom at once",),
     links=threads("rai-opensource/spot_ros2#374"),
 )
 def loop(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Frames hang from each other in a circle."""
+    """Frames form a loop."""
     sent = [track for track in model.tracks if len(track.by_stamp)]
     circling = _circling({(track.child, track.parent) for track in sent})
     above = defaultdict(list)
@@ -102,15 +102,15 @@ def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
 @check(
     "split-tree",
     Severity.ERROR,
-    rule="there is more than one root; an error where messages are in a frame of a lesser "
-    "tree, a note where each tree is a whole robot, or where no message is in one that has one "
-    "frame in two conventions (odom, odom_ned)",
+    rule="there is more than one root. An error if messages are in a frame of a smaller "
+    "tree; a note if each tree is a whole robot, or if no message is in one of two "
+    "trees that hold one frame in two conventions (odom, odom_ned)",
     headline="{root} is not joined to the tree of {main_root}",
     detail="tree {number}: {frames}{users}{evidence}",
     consequence="nothing in it can be placed in {main_root}, and nothing of {main_root} in it",
     causes=(
         "the mount of a camera or lidar was never published",
-        "a SLAM has names of its own (camera_init, body)",
+        "a SLAM package has frame names of its own (camera_init, body)",
         "base_frame is named differently in two nodes",
         "SLAM or AMCL was not started yet: there is no map",
     ),
@@ -198,7 +198,7 @@ def _is_complete(tree: Tree) -> bool:
     rule="parent and child of a transform are the same name",
     headline="{where}: a frame is its own parent",
     detail="{frame}: {count:times}",
-    consequence="tf2 drops it: the transform that was meant is missing",
+    consequence="tf2 drops it, so that the intended transform is missing",
     fixes=(Fix("two options of the publisher name one frame for two roles: give each its own"),),
     causes=(
         "published_frame and odom_frame of cartographer are equal",
@@ -225,10 +225,10 @@ def self_transform(model: Model, limits: Limits) -> Iterator[Hit]:
     "empty-frame",
     Severity.ERROR,
     rule="a name is empty: an error in a transform, a warning in the header of a message "
-    "that has a place",
+    "with a position",
     headline="{what} has no frame name",
     detail="{what}: {detail}, {count:times}",
-    consequence="tf2 drops such a transform, and such a message can be placed nowhere",
+    consequence="tf2 drops such a transform, and such a message cannot be placed",
     fixes=(Fix("set frame_id in the driver that publishes it"),),
     causes=(
         "a message that was never filled",
@@ -281,12 +281,12 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "rep105-shape",
     Severity.WARNING,
-    rule="map and odom exist and base hangs from map beside odom; or odom hangs from a base "
-    "that is below map; or map hangs below odom; or base_footprint and base_link both hang from "
-    "odom",
-    headline="map, odom and base are not in one line: {where}",
+    rule="map and odom exist, and base is a child of map beside odom; or odom is a child of "
+    "a base below map; or map is below odom; or base_footprint and base_link are both "
+    "children of odom",
+    headline="map, odom and base are not a chain: {where}",
     detail="{found}",
-    consequence="navigation expects map above odom above base (REP-105); a frame has one parent",
+    consequence="navigation expects the chain map, odom, base (REP-105); a frame has one parent",
     fixes=(
         Fix(
             "let the localiser publish odom in map: (base in map) times the inverse of (base "
@@ -304,7 +304,7 @@ def empty_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     ),
 )
 def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Map, odom and base are not in one line."""
+    """Map, odom and base are not a chain."""
     named: dict[str, list[str]] = defaultdict(list)
     for frame in sorted(model.frames):
         named[last_part(frame)].append(frame)

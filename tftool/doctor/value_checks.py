@@ -27,7 +27,7 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
     rule="a number of a transform is NaN or infinite",
     headline="{where} {concerned:has|have} numbers that are none",
     detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
-    consequence="the frame stands still or vanishes; what is placed through it is nowhere",
+    consequence="the frame stops or disappears; things placed through it have no position",
     fixes=(
         Fix(
             "look at the source: a division by zero, a filter that diverged, a joint without state"
@@ -41,7 +41,7 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
     links=threads("moveit/moveit2#298", "NVIDIA-ISAAC-ROS/isaac_ros_nvblox#16"),
 )
 def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
-    """NaN or infinity in a transform."""
+    """A transform holds NaN or infinity."""
     for track in model.tracks:
         bad = np.flatnonzero(~track.finite)
         if len(bad):
@@ -67,8 +67,8 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "bad-quaternion",
     Severity.ERROR,
-    rule="a quaternion's squared length is below 10⁻¹² (an error), or off by more than "
-    "{length:g} (a warning)",
+    rule="a quaternion's squared length is below 10⁻¹² (an error), or differs from 1 by more"
+    " than {length:g} (a warning)",
     headline="{where} {concerned:has|have} rotations that are none",
     detail="{edge}: {count} of {of} samples, first {numbers} (length {length:.4g}); {fate}",
     consequence="the frame exists for one listener and not for another",
@@ -82,11 +82,11 @@ def nan_transform(model: Model, limits: Limits) -> Iterator[Hit]:
         "robomechanics/quad-sdk#346", "introlab/rtabmap_ros#153", "CCNYRoboticsLab/imu_tools#67"
     ),
     limits={"length": 0.01},
-    why="ROS 1 drops such a transform and ROS 2 normalises it: the frame is in one and not "
-    "in the other",
+    why="ROS 1 drops such a transform and ROS 2 normalises it: the frame exists in one and "
+    "not in the other",
 )
 def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A rotation of length zero, or of a length that is off."""
+    """A rotation has length zero, or a wrong length."""
     for track in model.tracks:
         squares = track.squares
         off = np.abs(squares - 1.0)
@@ -122,12 +122,13 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "teleport",
     Severity.WARNING,
-    rule="a step above {metres:g} m faster than {speed:g} m/s (or above {radians:g} rad "
-    "faster than {turning:g} rad/s) and than {times:g} times the 95 % speed, in a "
-    "share of {share:g} of the steps or {few:g} of them; of {samples:g} samples or more",
+    rule="a step above {metres:g} m at more than {speed:g} m/s (or above {radians:g} rad at "
+    "more than {turning:g} rad/s) and at {times:g} times the 95 % quantile of the "
+    "speed, in a share of at most {share:g} of the steps or {few:g} of them; of "
+    "{samples:g} samples or more",
     headline="{where} {concerned:jumps|jump} {far} within {within:span}",
     detail="{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}; usual {usual:.2g} m/s",
-    consequence="what is placed before and after does not fit{also}",
+    consequence="things placed before and after the jump do not fit together{also}",
     fixes=(
         Fix(
             "look at the source at that moment: encoder overflow, a reset of the filter, wheel "
@@ -153,14 +154,14 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
         "few": 3,
         "samples": 10,
     },
-    why="what moves steadily has a usual speed; more jumps than that are noise, or two publishers",
+    why="steady motion has a usual speed; more jumps than that are noise, or two publishers",
     because_of=(
         ("anything", "time-jump-back"),
         ("child", "publisher-conflict two-parents"),
     ),
 )
 def teleport(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A frame jumps faster than anything moves."""
+    """A frame jumps faster than it can move."""
     for track in model.dynamic:
         places = track.by_stamp
         if track.is_localisation or len(places) < limits["samples"]:
@@ -221,11 +222,11 @@ def _jumps(
 @check(
     "optical-convention",
     Severity.WARNING,
-    rule="an optical frame's turn in its body frame is more than {degrees:g}° off optical "
-    "axes (z forward, x right); where they share a name or lie within {metres:g} m",
+    rule="the rotation of an optical frame in its body frame is more than {degrees:g}° off "
+    "optical axes (z forward, x right), if both share a name or are within {metres:g} m",
     headline="{where} {concerned:does|do} not have optical axes",
     detail="{edge}: {off:.3g}° off",
-    consequence="images and clouds in it are turned on their side",
+    consequence="images and clouds in it are rotated",
     fixes=(Fix('make it a fixed joint with rpy="-1.5708 0 -1.5708", and name it in the driver'),),
     causes=("the optical frame was given the axes of the body",),
     links=(
@@ -236,7 +237,7 @@ def _jumps(
     why="calibrated cameras are off by up to 5°",
 )
 def optical_convention(model: Model, limits: Limits) -> Iterator[Hit]:
-    """An _optical frame without optical axes."""
+    """An _optical frame does not have optical axes."""
     for track in model.parents.values():
         stem = _stem(track.child)
         parent = last_part(track.parent)
@@ -272,11 +273,10 @@ def _stem(name: str) -> str | None:
 @check(
     "image-not-optical",
     Severity.NOTE,
-    rule='a picture\'s frame has no "optical" in its name, and not the axes of an optical frame '
-    "(z forward, y down)",
+    rule='an image\'s frame has no "optical" in its name, and no optical axes (z forward, y down)',
     headline="{where} {concerned:is|are} not in an optical frame",
     detail="{topic} is in {frame}{axes}",
-    consequence="what projects its pixels looks along the wrong axis",
+    consequence="a projection of its pixels looks along the wrong axis",
     causes=("the driver has one frame for body and picture",),
     links=(
         REP103,
@@ -286,7 +286,7 @@ def _stem(name: str) -> str | None:
     because_of=(("frame", "unknown-frame"),),
 )
 def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Images stamped in a body frame."""
+    """Images are stamped in a body frame."""
     for heard in model.heard:
         if heard.type not in _PICTURES or not heard.frame or "optical" in heard.frame:
             continue
@@ -333,12 +333,13 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
 @check(
     "odometry-tf-mismatch",
     Severity.WARNING,
-    rule="an Odometry message and the transform of the same two names and the same stamp "
-    "are more than {metres:g} m or {degrees:g}° apart, in a share above {share:g} of "
-    "such pairs; a note where tf has no transform of these names",
+    rule="an Odometry message and the transform of the same two frames and the same stamp "
+    "differ by more than {metres:g} m or {degrees:g}°, in a share above {share:g} of "
+    "such pairs; a note if tf has no transform of these frames",
     headline="{topic} {differs} {edge}",
     detail="{found}",
-    consequence="what uses the message and what uses tf may believe the robot in different places",
+    consequence="programs that use the message and programs that use tf may see the robot in "
+    "different places",
     causes=(
         "the message is the wheels', the transform a filter's",
         "the filter's publish_tf is off and another node sends the transform",
@@ -348,7 +349,7 @@ def _axes_on_robot(model: Model, frame: str) -> tuple[Triple, Triple] | None:
     because_of=(("frame", "split-tree"),),
 )
 def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
-    """Odometry message and transform of one name disagree."""
+    """An odometry message and the transform of the same frames disagree."""
     odometry = model.evidence.odometry
     if odometry is None:
         return
@@ -446,13 +447,13 @@ def _disagreement(
     rule="a static below a base frame is longer than {metres:g} m",
     headline="{where} {concerned:is|are} far away for a mount",
     detail="{edge}: {away:m}",
-    consequence="if it was meant in millimetres, everything below is a thousand times too far",
+    consequence="if it is in millimetres, everything below is a thousand times too far away",
     fixes=(Fix("look whether it is in millimetres: tf is in metres"),),
     causes=("a CAD export in millimetres",),
     limits={"metres": 10.0},
 )
 def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A mount far from its parent inside one robot: millimetres?."""
+    """A mount is far from its parent inside one robot: millimetres?"""
     if not model.trees:
         return
     bases = {base_of(tree) for tree in model.trees} - {""}
@@ -478,12 +479,12 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
     rule="a static's rotation is exactly x = 1, y = z = w = 0",
     headline="{where} {concerned:is|are} turned over: (1, 0, 0, 0)",
     detail="{edge}: a half turn about x, or no turn written w first",
-    consequence="if no turn was meant, the frame is upside down",
+    consequence="if no rotation was meant, the frame is upside down",
     fixes=(Fix("write quaternions as x y z w: no turn is 0 0 0 1"),),
     causes=("a quaternion written w first",),
 )
 def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:
-    """A static of exactly (1, 0, 0, 0): w first by mistake?."""
+    """A static is exactly (1, 0, 0, 0): w first by mistake?"""
     for track in model.statics:
         if any(word in track.child.lower() for word in ("imu", "flip", "optical")):
             continue

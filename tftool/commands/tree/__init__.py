@@ -71,7 +71,7 @@ def tree(
 
     Every tree there is, and for every link: whether it is static, who broadcasts it, how
     often, how long a past the buffer holds of it, and how old its newest data is. Beside
-    a frame with two parents by turns, that is sent no more, or has another clock than the
+    a frame that changes between two parents, has stopped, or has another clock than the
     others, stands the id of the doctor's check.
     A scenario is shown 5 s after its start, a recording at its end, if --at does not say.
 
