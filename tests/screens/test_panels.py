@@ -314,12 +314,15 @@ def test_the_log_is_in_order_when_a_line_of_before_is_said_again():
 def test_the_strip_is_the_newest_line_and_says_how_to_see_more():
     journal = Journal([record(1, "early"), record(5, "late " * 20)])
 
-    def strip(until):
-        return journal.strip(seconds(1000 + until), seconds(1000), 40, PLAIN).plain
+    def strip(until, most=3):
+        now, start = seconds(1000 + until), seconds(1000)
+        return [line.plain for line in journal.strip(now, start, 40, PLAIN, most=most)]
 
-    assert strip(3) == f"    1.0 sim: early{'':14}  L log "
-    assert strip(9) == "    5.0 sim: late late late lat…  L log "
-    assert strip(0).startswith(" Nothing was said yet.")
+    assert strip(3) == [f" 1.0 sim: early{'':17}  L log "]
+    assert strip(9)[0] == " 5.0 sim: late late late late     L log "
+    assert strip(9)[1:] == ["   late late late late late late", "   late late late late late lat…"]
+    assert strip(9, most=1) == [" 5.0 sim: late late late late…    L log "]
+    assert strip(0)[0].startswith(" Nothing was said yet.")
 
 
 def test_the_scenarios_are_listed_round_the_cursor():
@@ -351,7 +354,7 @@ def test_a_long_line_is_broken_at_blanks_and_cut_after_three():
     assert log(journal, width=30, height=9) == [
         "0.0 sim: word word word word",
         "  word word word word word",
-        "  word word word word word",
+        "  word word word word word…",
     ]
 
 

@@ -11,6 +11,9 @@ from tftool.base.stamps import Stamp, as_seconds
 from tftool.screens.terminal.text_style import Look, wrapped
 from tftool.world.log import PROBLEMS, LogRecord
 
+MOST_LINES = 3
+"""Lines that one entry takes."""
+
 
 @dataclass(slots=True)
 class _Entry:
@@ -87,29 +90,34 @@ class Journal:
                 break
         return shown
 
-    def strip(self, until: Stamp, start: Stamp, width: int, look: Look) -> Text:
-        """Return the newest line up to a time in one row, with a hint how to see more.
+    def strip(
+        self, until: Stamp, start: Stamp, width: int, look: Look, *, most: int = MOST_LINES
+    ) -> list[Text]:
+        """Return the newest line up to a time, wrapped, with a hint how to see more.
 
         Args:
             until: The moment shown.
             start: The moment that counts as 0.
             width: Cells across.
             look: How to paint.
+            most: Lines; what does not fit into them is cut.
         """
         told = self._told(until)
         dim = look.ink(look.palette.dim)
         more = Text.assemble(("  L", look.ink(look.palette.accent, bold=True)), (" log ", dim))
-        line = Text(" Nothing was said yet.", dim)
-        if told:
-            line = Text.assemble(" ", *self._entry(told[-1], until, start, 10_000, look)[:1])
         room = max(0, width - more.cell_len)
-        if line.cell_len > room:
-            line.truncate(max(0, room - 1))
-            line.append(look.more)
-        line.append(" " * max(0, room - line.cell_len))
-        line.append_text(more)
-        line.truncate(width)
-        return line
+        lines = [Text("Nothing was said yet.", dim)]
+        if told:
+            lines = self._entry(told[-1], until, start, max(room - 1, 1), look)
+        shown = [Text.assemble(" ", line) for line in lines[:most]]
+        if len(lines) > most:
+            shown[-1].truncate(max(0, room - 1))
+            shown[-1].append(look.more)
+        shown[0].append(" " * max(0, room - shown[0].cell_len))
+        shown[0].append_text(more)
+        for line in shown:
+            line.truncate(width)
+        return shown
 
     def _told(self, until: Stamp) -> list[_Entry]:
         """Return the lines logged by a time, in order of each line's last time."""
@@ -135,7 +143,11 @@ class Journal:
             words, max(8, width - indent), look.ink(color), first=max(8, width - len(when))
         )
         lines[0] = Text.assemble((when, look.ink(palette.dim)), lines[0])
-        lines[1:] = [Text.assemble(" " * indent, line) for line in lines[1:3]]
+        is_cut = len(lines) > MOST_LINES
+        lines[1:] = [Text.assemble(" " * indent, line) for line in lines[1:MOST_LINES]]
+        if is_cut:
+            lines[-1].truncate(max(0, width - len(times) - 1))
+            lines[-1].append(look.more, look.ink(color))
         if times:
             lines[-1].truncate(max(0, width - len(times)))
             lines[-1].append(times, look.ink(palette.accent, bold=True))
