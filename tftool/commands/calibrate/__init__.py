@@ -88,5 +88,5 @@ def calibrate(
     tftool calibrate run.mcap --moving odom:base_link --moving world:camera
     tftool calibrate arm.bag --moving base:tool0 --moving camera:tag
     tftool calibrate vicon.csv camera.csv --report report.html
-    tftool calibrate run.mcap est.tum --moving odom:base_link --urdf robot.urdf -o new.urdf
+    tftool calibrate run.mcap est.tum --moving odom:base --urdf a.urdf -o b.urdf
     """
