@@ -5,14 +5,20 @@ import pytest
 from tftool.base.color import Color
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
+from tftool.commands.shared.on_screen import scene_of
 from tftool.drawing import theme
 from tftool.geometry.planar import heading
 from tftool.geometry.rigid import Transform
 from tftool.messages.turtle_messages import Empty
+from tftool.robots.robot_model import Robot
+from tftool.robots.urdf import parse_description
 from tftool.screens.terminal import frames_picture as frames_seen
 from tftool.screens.terminal.scene import Scene
-from tftool.world.clock import run
+from tftool.screens.terminal.space_scene import space_picture
+from tftool.world.clock import SimClock, run
 from tftool.world.node import Node
+from tftool.world.nodes.joints import RobotStatePublisher
+from tftool.world.world import World
 
 
 class At(Node):
@@ -271,6 +277,38 @@ def test_a_frame_that_moves_leaves_a_trail_by_lookup(turtles):
     # It fades with its age: the newest part has the frame's own colour.
     assert away[-1] < 10 < away[0]
     assert away == sorted(away, reverse=True)
+
+
+class Climbing(Node):
+    """Sends how `drone` rises over `map`, by one metre a second."""
+
+    async def run(self):
+        async for now in self.every(seconds(0.05)):
+            height = Transform((0.0, 0.0, (now - self.clock.epoch) / seconds(1)))
+            self.broadcast(TransformStamped(now, "map", "drone", height))
+
+
+def test_in_space_a_trail_is_as_high_as_its_frame_was(turtles):
+    scene = turtles(3.0, (), followed=False, extra=lambda world: Climbing(world, "climbing"))
+
+    moment = scene.moment(None, "map", "drone")
+    heights = [one.end[2] for one in space_picture(moment).lines]
+
+    assert heights == sorted(heights)
+    assert heights[-1] == pytest.approx(3.0, abs=0.11)
+    assert heights[0] < 0.3
+
+
+def test_a_demo_draws_the_robot_that_is_described_on_its_session():
+    ball = '<link name="ball"><visual><geometry><sphere radius="1"/></geometry></visual></link>'
+    world = World(SimClock())
+    scene = scene_of(world)
+    RobotStatePublisher(world, robot=Robot(parse_description(f'<robot name="b">{ball}</robot>')))
+
+    world.run(world.clock.now() + seconds(1))
+
+    assert scene.solids.frames == ("ball",)
+    assert space_picture(scene.moment(None, "ball", "ball"), scene.solids).solids is scene.solids
 
 
 def test_what_is_bolted_to_a_frame_has_no_trail_of_its_own(frames):

@@ -91,12 +91,14 @@ class Drawn:
         forgotten: How many there were before the first of `strokes`.
         edition: A number that is another one for another drawing.
         box: Their bounding box, where that is known.
+        heights: Above the ground, of both ends of each; empty where all are on it.
     """
 
     strokes: Sequence[Stroke] = ()
     forgotten: int = 0
     edition: int = 0
     box: Box | None = None
+    heights: Sequence[tuple[float, float]] = ()
 
 
 @dataclass(frozen=True, slots=True)

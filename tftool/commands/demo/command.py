@@ -31,7 +31,10 @@ from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.printer import write
 from tftool.commands.shared.record_loop import recorded
+from tftool.drawing.solids import solids_of
 from tftool.opener import named, scenario_named
+from tftool.recordings.description_frames import prefix_of
+from tftool.robots.mesh_folders import MeshFolders
 from tftool.scenario import builtin
 from tftool.scenario.play import Watch, build, left_to_a_person
 from tftool.scenario.scenario import Scenario
@@ -151,7 +154,14 @@ def _show_recording(connection: Connection, word: str, *, ascii_only: bool, ligh
 
     title = f"tftool demo {visible(Path(word).name)}"
     setting = Setting(title=title, ascii_only=ascii_only, light=light, at=first_look(frames))
-    run_app(Scene(shown), life(), None, setting)
+    scene = Scene(shown)
+    if frames.robot is not None:
+        robot = frames.robot
+        prefix = prefix_of(robot, frames.buffer.frames())
+        scene.solids, missing = solids_of(robot.links.values(), MeshFolders(), prefix)
+        if missing:
+            shown.log.warn("screen", f"{len(missing)} shapes are not drawn: {missing[0]}")
+    run_app(scene, life(), None, setting)
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:

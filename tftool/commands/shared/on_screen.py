@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Any
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.frames.frames import Frames
@@ -13,6 +13,7 @@ from tftool.screens.still_frames import StillFrames
 from tftool.world.log import Log
 
 if TYPE_CHECKING:
+    from tftool.drawing.solids import Solids
     from tftool.screens.terminal.scene import Scene
     from tftool.screens.terminal.screen_options import Setting
     from tftool.world.nodes.turtle_drivers import IdleDrawing
@@ -70,7 +71,46 @@ def scene_of(world: "World") -> "Scene":
     from tftool.screens.terminal.scene import Scene
     from tftool.world.nodes.remote_turtles import FarTurtles
 
-    return Scene(world, simulator_of(world) or FarTurtles(world))
+    scene = Scene(world, simulator_of(world) or FarTurtles(world))
+
+    def take(solids: "Solids") -> None:
+        scene.solids = solids
+
+    take_solids(world, "screen", take, lambda told: world.log.warn("screen", told))
+    return scene
+
+
+def take_solids(
+    world: "World",
+    owner: str,
+    take: "Callable[[Solids], object]",
+    tell: Callable[[str], object],
+) -> None:
+    """Call `take` with the shapes of the robot that /robot_description describes, when it comes.
+
+    Args:
+        world: Where it is published.
+        owner: Who subscribes.
+        take: Takes the shapes.
+        tell: Takes sentences about what is not drawn.
+    """
+    from tftool.drawing.solids import solids_of
+    from tftool.robots.mesh_folders import MeshFolders
+    from tftool.robots.urdf import parse_description
+    from tftool.world.nodes.joints import DESCRIPTION, LATCHED, description_type
+
+    def described(message: Any) -> None:
+        try:
+            robot = parse_description(message.data)
+        except InputError as error:
+            tell(f"the description on /{DESCRIPTION} is not drawn: {error}")
+            return
+        solids, missing = solids_of(robot.links.values(), MeshFolders())
+        take(solids)
+        if missing:
+            tell(f"{len(missing)} shapes are not drawn: {missing[0]}")
+
+    world.subscribe(owner, DESCRIPTION, description_type(), described, LATCHED)
 
 
 def run_app(

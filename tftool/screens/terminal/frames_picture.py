@@ -12,8 +12,11 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing import theme
 from tftool.drawing.cells import Stroke
-from tftool.drawing.plane import FARTHEST, Box, Drawn, PlaneFrame, PlanePicture, Point
+from tftool.drawing.plane import FARTHEST, Box, Drawn, PlaneFrame, PlanePicture
 from tftool.geometry.rigid import Transform
+
+Point3 = tuple[float, float, float]
+Heights = tuple[float, float]
 
 Lookup = Callable[[str, str], Transform | None]
 """The pose of the second frame in the first, or None where there is none."""
@@ -185,14 +188,16 @@ class FrameTrails:
         self._buffer = buffer
         self.fixed = ""
         self._edition = 0
-        self._ends: dict[str, tuple[Stamp, Point]] = {}
+        self._ends: dict[str, tuple[Stamp, Point3]] = {}
         self._until: dict[str, Stamp] = {}
         self._strokes: deque[Stroke] = deque()
+        self._heights: deque[Heights] = deque()
         self._stamps: deque[Stamp] = deque()
         self._box: Box | None = None
         self._next: Stamp = 0
         self._faded: Stamp = 0
         self._shown: list[Stroke] = []
+        self._shown_heights: list[Heights] = []
 
     def follow(self, fixed: str, frames: Iterable[str], now: Stamp) -> Drawn:
         """Look the frames up since the last time, and return all trails up to now.
@@ -212,8 +217,9 @@ class FrameTrails:
                 self._forget(now - KEPT)
             if now - self._faded >= FADE_EVERY * (1 + len(self._strokes) // 1000):
                 self._fade(now)
+            self._shown_heights.extend(islice(self._heights, len(self._shown), None))
             self._shown.extend(islice(self._strokes, len(self._shown), None))
-        return Drawn(self._shown, 0, self._edition, self._box)
+        return Drawn(self._shown, 0, self._edition, self._box, self._shown_heights)
 
     def _fade(self, now: Stamp) -> None:
         """Recolour every part by its age, as a new drawing."""
@@ -221,35 +227,38 @@ class FrameTrails:
             _of_age(stroke, now - stamp)
             for stamp, stroke in zip(self._stamps, self._strokes, strict=True)
         ]
+        self._shown_heights = [*self._heights]
         self._edition += 1
         self._faded = now
 
     def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> Drawn:
         """Return all trails up to an earlier time, as far back as the buffer reaches."""
         start = at - REACH
-        found: list[tuple[Stamp, Stroke]] = []
+        found: list[tuple[Stamp, Stroke, Heights]] = []
         for frame in islice(frames, MOST_FRAMES):
             found += self._between(frame, fixed, start, at, None)[0]
         if found and fixed == self.fixed:
-            start = min(stamp for stamp, _ in found) - PERIOD
+            start = min(stamp for stamp, _, _ in found) - PERIOD
         elif fixed == self.fixed:
             start = at
         found.sort(key=lambda one: one[0])
         if fixed == self.fixed:
             older = bisect_right(self._stamps, start)
-            before = zip(self._stamps, self._strokes, strict=True)
+            before = zip(self._stamps, self._strokes, self._heights, strict=True)
             found = [*islice(before, older), *found]
-        strokes = [_of_age(stroke, at - stamp) for stamp, stroke in found]
+        strokes = [_of_age(stroke, at - stamp) for stamp, stroke, _ in found]
         # Another drawing at every moment: at rest it is drawn once.
-        return Drawn(strokes, 0, -1 - at, _around(None, strokes))
+        heights = [one for _, _, one in found]
+        return Drawn(strokes, 0, -1 - at, _around(None, strokes), heights)
 
     def _begin(self, fixed: str) -> None:
         self.fixed, self._edition, self._next = fixed, self._edition + 1, 0
         self._ends.clear()
         self._until.clear()
         self._strokes.clear()
+        self._heights.clear()
         self._stamps.clear()
-        self._shown, self._faded = [], 0
+        self._shown, self._shown_heights, self._faded = [], [], 0
         self._box = None
 
     def _forget(self, before: Stamp) -> None:
@@ -257,8 +266,9 @@ class FrameTrails:
         while self._stamps and self._stamps[0] < before:
             self._stamps.popleft()
             self._strokes.popleft()
+            self._heights.popleft()
         self._box = _around(None, self._strokes)
-        self._faded, self._shown = 0, []
+        self._faded, self._shown, self._shown_heights = 0, [], []
 
     def _grow(self, frame: str, now: Stamp) -> None:
         start = max(self._until.get(frame, 0), now - REACH)
@@ -267,15 +277,16 @@ class FrameTrails:
             return
         self._ends[frame] = end
         self._until[frame] = end[0] // PERIOD * PERIOD
-        for stamp, stroke in found:
+        for stamp, stroke, heights in found:
             self._strokes.append(stroke)
+            self._heights.append(heights)
             # One frame's lookups may lag behind another's: in the order in which they were drawn.
             self._stamps.append(max(stamp, self._stamps[-1]) if self._stamps else stamp)
-        self._box = _around(self._box, [stroke for _, stroke in found])
+        self._box = _around(self._box, [stroke for _, stroke, _ in found])
 
     def _between(
-        self, frame: str, fixed: str, start: Stamp, end: Stamp, before: tuple[Stamp, Point] | None
-    ) -> tuple[list[tuple[Stamp, Stroke]], tuple[Stamp, Point] | None]:
+        self, frame: str, fixed: str, start: Stamp, end: Stamp, before: tuple[Stamp, Point3] | None
+    ) -> tuple[list[tuple[Stamp, Stroke, Heights]], tuple[Stamp, Point3] | None]:
         """Return the strokes of one frame after `start`, and its last known time and position."""
         import numpy as np
 
@@ -289,21 +300,21 @@ class FrameTrails:
             return [], before
         holds = path.valid & (np.abs(path.translations).sum(axis=1) < FARTHEST)
         color = theme.of_name(frame)
-        found: list[tuple[Stamp, Stroke]] = []
+        found: list[tuple[Stamp, Stroke, Heights]] = []
         last = before
         moments, places = stamps[holds].tolist(), path.translations[holds].tolist()
         latest = last
-        for stamp, (x, y, _) in zip(moments, places, strict=True):
-            latest = stamp, (x, y)
+        for stamp, (x, y, z) in zip(moments, places, strict=True):
+            latest = stamp, (x, y, z)
             if last is not None:
-                (x0, y0), joined = last[1], stamp - last[0] <= GAP
-                if abs(x - x0) + abs(y - y0) < LEAST:
+                (x0, y0, z0), joined = last[1], stamp - last[0] <= GAP
+                if abs(x - x0) + abs(y - y0) + abs(z - z0) < LEAST:
                     # It stays: the next stroke begins where this one stands, and now.
                     last = stamp, last[1]
                     continue
                 if joined:
-                    found.append((stamp, (x0, y0, x, y, color, 0)))
-            last = stamp, (x, y)
+                    found.append((stamp, (x0, y0, x, y, color, 0), (z0, z)))
+            last = stamp, (x, y, z)
         if latest is None or last is None:
             return found, last
         return found, (latest[0], last[1])

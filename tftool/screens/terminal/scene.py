@@ -12,6 +12,7 @@ from tftool.buffer.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.buffer.snapshot import rate_of
 from tftool.drawing.cells import Stroke
 from tftool.drawing.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
+from tftool.drawing.solids import Solids
 from tftool.geometry.motion.unicycle import FIELD
 from tftool.geometry.planar import heading, transform_from_pose
 from tftool.geometry.rigid import Transform
@@ -124,12 +125,14 @@ class Scene:
 
     Attributes:
         start: The moment from which seconds are counted on the screen.
+        solids: The shapes of a robot among the frames, once its description is known.
     """
 
     def __init__(self, world: ShownFrames, simulator: Simulator | None = None) -> None:
         self.world = world
         self.simulator = simulator
         self.start: Stamp = world.clock.epoch
+        self.solids: Solids | None = None
         self._news: dict[str, tuple[Stamp, Stamp]] = {}
         self._seen: deque[_Seen] = deque()
         # Trails that were wiped, for as long as one can go back to them.

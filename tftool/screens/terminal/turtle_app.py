@@ -20,7 +20,7 @@ from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.screens.terminal import panel_text as keys
 from tftool.screens.terminal import panel_text as panels
-from tftool.screens.terminal.log_lines import Journal
+from tftool.screens.terminal.log_lines import MOST_LINES, Journal
 from tftool.screens.terminal.panel_text import PairPlot
 from tftool.screens.terminal.plane_view import PlaneView
 from tftool.screens.terminal.question import SceneQuestion
@@ -35,6 +35,9 @@ from tftool.world.nodes.turtle_drivers import IdleDrawing
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
 """At every how many looks the text beside the field is rewritten."""
+
+WITH_WRAPPED_LOG = 20
+"""Rows from which the newest line of the log is wrapped rather than cut."""
 
 REST = 6.0
 """For how many times as long as a look took there is no other one: with the terminal's own
@@ -139,6 +142,7 @@ class TurtleApp(PanelApp):
         self._painted: object = None
         self._count = 0
         self._back = 0
+        self._strip = 1
         self._rest_until = 0.0
         self._plane = PlaneView()
         self._is_decided = self.setting.drive_only
@@ -180,6 +184,7 @@ class TurtleApp(PanelApp):
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit the panels into the new size."""
+        self._strip = 1
         self._arrange(event.size.width, event.size.height)
         self.call_after_refresh(self.redraw)
 
@@ -187,7 +192,7 @@ class TurtleApp(PanelApp):
         banner = self._banner(width) if height >= WITH_BANNER else []
         moment = self._question.moment
         frames = 3 if moment is None else len(moment.snapshot.frames)
-        layout = arranged(width, height, len(banner), frames)
+        layout = arranged(width, height - self._strip + 1, len(banner), frames)
         for name in ("header", "footer"):
             self.panel(name).display = not layout.small
         self.panel("small").display = layout.small
@@ -208,7 +213,7 @@ class TurtleApp(PanelApp):
             field.styles.width = field.styles.height = "1fr"
         log = self.panel("log")
         log.display = not layout.small
-        log.styles.height = layout.log if log.has_focus else 1
+        log.styles.height = layout.log if log.has_focus else self._strip
 
     def _banner(self, width: int) -> list[Text]:
         return [line for text in self.setting.banner for line in wrapped(text, width)]
@@ -287,7 +292,7 @@ class TurtleApp(PanelApp):
             told += "; a key stops it" if width > len(told) + 22 else ""
         field.border_subtitle = Content(told)
         if field.in_space:
-            field.draw(space_picture(moment), self.look)
+            field.draw(space_picture(moment, self.scene.solids), self.look)
             return
         field.show(
             self._plane.lines(moment.picture, width, height, self.look, colors=self.setting.colors)
@@ -329,14 +334,21 @@ class TurtleApp(PanelApp):
         plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
 
     def _draw_log(self, moment: SceneMoment) -> None:
-        """Return the newest log line; with the log focused, as many as fit."""
+        """Draw the newest log line; with the log focused, as many as fit."""
         log, look = self.panel("log"), self.look
         if log.has_focus:
             lines = self._journal.lines(
                 moment.stamp, self.scene.start, *log.size, look, back=self._back
             )
         else:
-            lines = [self._journal.strip(moment.stamp, self.scene.start, log.size.width, look)]
+            most = MOST_LINES if self.size.height >= WITH_WRAPPED_LOG else 1
+            lines = self._journal.strip(
+                moment.stamp, self.scene.start, log.size.width, look, most=most
+            )
+            if len(lines) > self._strip:
+                # It stays so high: a picture that changes its size with every line is restless.
+                self._strip = len(lines)
+                self._arrange(*self.size)
         log.show(lines)
 
     # The mouse
