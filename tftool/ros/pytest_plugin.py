@@ -29,11 +29,36 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="run tests of ROS nodes without ROS, on tftool's runtime and simulated time",
     )
+    parser.getgroup("tftool").addoption(
+        "--launch-args",
+        action="append",
+        nargs="*",
+        default=[],
+        help="arguments of launch tests, name:=value",
+    )
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_load_initial_conftests(early_config: pytest.Config) -> None:
+    """Provide ROS 2's modules before the first conftest.py is imported."""
+    if getattr(early_config.known_args_namespace, "ros_free", False):
+        _provide(early_config.rootpath)
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Provide ROS 2's modules before test files are imported."""
+    """Add the plugin of launch tests."""
     if config.getoption("--ros-free"):
+        from tftool.ros import launch_plugin
+
+        config.pluginmanager.register(launch_plugin, "tftool-launch-tests")
+        for mark in (*launch_plugin.MARKS, "launch"):
+            config.addinivalue_line("markers", f"{mark}: a test beside a launch")
+        _provide(config.rootpath)
+
+
+def _provide(root: Path) -> None:
+    """Provide ROS 2's modules, and those of the workspace around a folder."""
+    if not _imports:
         from tftool.ros.host import program
         from tftool.ros.host.importing import ros_modules
         from tftool.ros.host.workspace import Workspace
@@ -41,10 +66,10 @@ def pytest_configure(config: pytest.Config) -> None:
 
         imports = ros_modules()
         # Tests sleep and start threads as nodes do, so they need the same time.
-        imports.__enter__().tested = config.rootpath
+        imports.__enter__().tested = root
         _imports.append(imports)
         # The workspace around the tests: its interfaces, its packages' share folders and modules.
-        workspace = Workspace(config.rootpath)
+        workspace = Workspace(root)
         packages.use(workspace)
         _added.extend(workspace.module_folders())
         sys.path[:0] = _added

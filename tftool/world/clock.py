@@ -18,7 +18,7 @@ import selectors
 import threading
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Collection, Coroutine
+from collections.abc import Callable, Collection, Coroutine, Iterator
 from enum import IntEnum
 from typing import Any, TypeVar
 
@@ -157,6 +157,8 @@ class SimClock(Clock):
 
     Attributes:
         alarms: How many timers of real time are set.
+        paced: How many real processes run beside the world: while there are any, simulated
+            time passes no faster than real time, so that they keep up with it.
     """
 
     def __init__(self, epoch: Stamp = seconds(1000)) -> None:
@@ -169,6 +171,7 @@ class SimClock(Clock):
             raise ValueError("a simulated clock starts after 0, which means 'latest'")
         super().__init__(epoch, math.inf)
         self.alarms = 0
+        self.paced = 0
         self._now = epoch
 
     def now(self) -> Stamp:
@@ -212,6 +215,29 @@ class SimClock(Clock):
         alarm.start()
         return future
 
+    def wait_really(
+        self, loop_timer: float | None, select: Callable[[float | None], list[Any]]
+    ) -> list[Any]:
+        """Wait in real time until the next timer is due or something comes from outside.
+
+        Args:
+            loop_timer: As for `advance`.
+            select: Waits for events from outside, at most for a number of seconds.
+
+        Returns:
+            The events; time has advanced by as long as they took.
+        """
+        due = self._next_due()
+        left = None if due is None else (due - self._now) / NANOSECONDS
+        if loop_timer is not None:
+            left = loop_timer if left is None else min(left, loop_timer)
+        began = time.monotonic_ns()
+        events = select(left)
+        if events:
+            passed = time.monotonic_ns() - began
+            self._now += passed if left is None else min(passed, int(left * NANOSECONDS))
+        return events
+
     def advance(self, loop_timer: float | None) -> bool:
         """Jump to the next due timer and wake it; return False if there is none.
 
@@ -232,6 +258,18 @@ class SimClock(Clock):
         self._now = stamp
         future.set_result(None)
         return True
+
+
+@contextlib.contextmanager
+def paced(clock: Clock) -> Iterator[None]:
+    """Let no simulated time pass faster than real time inside this block."""
+    if isinstance(clock, SimClock):
+        clock.paced += 1
+    try:
+        yield
+    finally:
+        if isinstance(clock, SimClock):
+            clock.paced -= 1
 
 
 class WallClock(Clock):
@@ -574,8 +612,8 @@ class VirtualLoop(asyncio.SelectorEventLoop):
         selector: Any = getattr(self, "_selector", None)
         # The one file that is always there is the loop's own wake-up pipe.
         files = 0 if selector is None else len(selector.get_map())
-        has_help = getattr(self, "_default_executor", None) is not None or self.clock.alarms > 0
-        return files <= 1 and not has_help
+        helpers = getattr(self, "_default_executor", None), self.clock.alarms, self.clock.paced
+        return files <= 1 and not any(helpers)
 
 
 class _VirtualSelector(selectors.DefaultSelector):
@@ -598,8 +636,11 @@ class _VirtualSelector(selectors.DefaultSelector):
                 return events
         if timeout is not None and timeout <= 0:
             return []
+        clock = self._loop.clock
+        if clock.paced and (events := clock.wait_really(timeout, super().select)):
+            return events
         # Every task sleeps: time jumps to the next timer, which the loop then finds due.
-        if self._loop.clock.advance(timeout):
+        if clock.advance(timeout):
             return []
         if self._loop.is_forsaken():
             raise TftoolError(

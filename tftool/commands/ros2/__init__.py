@@ -31,8 +31,9 @@ def ros2(
 
     topic list, echo, find, hz, bw, delay, info, type, pub; service list, type, info, find, call;
     param list, get, set, dump, load, describe; node list, info; action list, type, info, send_goal;
-    interface show, list, package, packages, proto; pkg list, executables, prefix. The options of
-    each are those of ROS 2. Options of this command go before COMMAND.
+    interface show, list, package, packages, proto; pkg list, executables, prefix; test FILE runs
+    a file of launch tests, in real time. The options of each are those of ROS 2. Options of this
+    command go before COMMAND.
 
     tftool ros2 topic list
     tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2}"

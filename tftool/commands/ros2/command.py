@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import typer
@@ -9,14 +10,16 @@ import yaml
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.hosting import open_session
+from tftool.commands.shared.hosting import open_empty_session, open_session
 from tftool.commands.shared.notices import tell_record
 from tftool.commands.shared.open_from import NO_SESSION
+from tftool.commands.shared.programs import workspace_here
 from tftool.ros import ros2 as ros2_command
 from tftool.ros import running
 from tftool.ros.host import user_code
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch_testing.runner import run_tests
 
 _ELSEWHERE = {
     "run": "run",
@@ -74,6 +77,8 @@ def run(
         asked = " ".join(words[:length])
         if asked in _ELSEWHERE:
             raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here.")
+    if words[0] == "test":
+        return _run_launch_tests(connection, words[1:])
     workspace = Workspace(Path.cwd())
     lines = _JsonLines(words)
     body = ros2_command.body(words, workspace, lines if as_json else typer.echo)
@@ -103,3 +108,30 @@ def run(
         if isinstance(failed.__cause__, UsageError):
             raise TftoolError(str(failed.__cause__)) from failed
         raise
+
+
+def _run_launch_tests(connection: Connection, words: list[str]) -> int:
+    """Run `tftool ros2 test FILE [name:=value …]` in a session of its own, in real time.
+
+    Raises:
+        UsageError: If no file is named.
+    """
+    if not words or ":=" in words[0] or words[0].startswith("-"):
+        raise UsageError("'ros2 test' needs a file of launch tests, then name:=value arguments")
+    path, arguments = Path(words[0]), words[1:]
+    user_code.compile_file(path)
+    running.arguments_of(arguments)
+    workspace = workspace_here(verbose=False)
+    with running.ros_free():
+        running.packages.use(workspace)
+        session = open_empty_session(connection)
+        world = session.world
+        ending = running.Ending(world)
+
+        async def work() -> None:
+            body = user_code.whole(partial(run_tests, path, arguments))
+            Program(world, world.free_name("launch_test"), body, argv=[*words], on_exit=ending)
+            await ending.over.wait()
+
+        session.run(work())
+        return ending.judge()

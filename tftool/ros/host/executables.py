@@ -278,6 +278,7 @@ COMMANDS = {
     ("tf2_tools", "view_frames"): ("tree", "--format", "pdf"),
     ("rqt_tf_tree", "rqt_tf_tree"): ("tree", "--watch"),
     ("rviz2", "rviz2"): ("view",),
+    ("launch_testing", "launch_test"): ("ros2", "test"),
 }
 """Programs of ROS that have a command of tftool, which `tftool run` runs in their place."""
 

@@ -285,6 +285,49 @@ launch_ros.utilities: launch.scope: normalize_remap_rule normalize_remap_rules
 launch_ros.utilities: launch.scope: add_node_name get_node_name_count
 launch_ros.utilities: launch.parameters: normalize_parameters normalize_parameter_dict
 launch_ros.utilities: launch.parameters: evaluate_parameters evaluate_parameter_dict
+launch_testing: launch_testing.description: parametrize post_shutdown_test ReadyAggregator
+launch_testing: launch_testing.description: ready_to_test_action_timeout
+launch_testing: launch_testing.records: ActiveIoHandler IoHandler ActiveProcInfoHandler
+launch_testing: launch_testing.records: ProcInfoHandler
+launch_testing.actions: launch_testing.description: ReadyToTest Test GTest PyTest
+launch_testing.asserts: launch_testing.records: assertExitCodes assertInStream assertInStdout
+launch_testing.asserts: launch_testing.records: assertInStderr assertDefaultStream NO_CMD_ARGS
+launch_testing.asserts: launch_testing.records: assertSequentialStdout SequentialTextChecker
+launch_testing.asserts: launch_testing.records: EXIT_OK EXIT_SIGINT EXIT_SIGQUIT EXIT_SIGKILL
+launch_testing.asserts: launch_testing.records: EXIT_SIGSEGV
+launch_testing.decorator: launch_testing.description: post_shutdown_test
+launch_testing.event_handlers: launch_testing.description: StdoutReadyListener
+launch_testing.io_handler: launch_testing.records: ActiveIoHandler IoHandler
+launch_testing.loader: launch_testing.runner: LoadTestsFromPythonModule TestRun
+launch_testing.markers: launch_testing.description: keep_alive retry_on_failure
+launch_testing.parse_arguments: launch_testing.runner: parse_launch_arguments
+launch_testing.proc_info_handler: launch_testing.records: ActiveProcInfoHandler ProcInfoHandler
+launch_testing.ready_aggregator: launch_testing.description: ReadyAggregator
+launch_testing.test_result: launch_testing.runner: TestResult
+launch_testing.test_runner: launch_testing.runner: LaunchTestRunner
+launch_testing.tools: launch_testing.records: ProcessProxy launch_process
+launch_testing.tools: launch_testing.text: basic_output_filter expect_output
+launch_testing.tools: launch_testing.text: expected_output_from_file
+launch_testing.tools.output: launch_testing.text: basic_output_filter expect_output
+launch_testing.tools.output: launch_testing.text: expected_output_from_file
+launch_testing.tools.output: launch_testing.text: get_default_filtered_prefixes
+launch_testing.tools.output: launch_testing.text: get_default_filtered_patterns
+launch_testing.tools.process: launch_testing.records: ProcessProxy launch_process
+launch_testing.tools.text: launch_testing.text: build_line_match build_text_match
+launch_testing.util: launch_testing.description: KeepAliveProc
+launch_testing.util: launch_testing.records: resolveProcesses NoMatchingProcessException NO_CMD_ARGS
+launch_testing_ros: launch_testing.topics: WaitForTopics MessagePump DataRepublisher
+launch_testing_ros: launch_testing.runner: LaunchTestRunner
+launch_testing_ros.data_republisher: launch_testing.topics: DataRepublisher
+launch_testing_ros.message_pump: launch_testing.topics: MessagePump
+launch_testing_ros.test_runner: launch_testing.runner: LaunchTestRunner
+launch_testing_ros.tools: launch_testing.text: basic_output_filter
+launch_testing_ros.tools.output: launch_testing.text: basic_output_filter
+launch_testing_ros.wait_for_topics: launch_testing.topics: WaitForTopics
+launch_pytest: launch_testing.fixtures: fixture
+launch_pytest.actions: launch_testing.description: ReadyToTest
+launch_pytest.tools: launch_testing.processes: *
+launch_pytest.tools.process: launch_testing.processes: *
 rosidl_runtime_py: rosidl_runtime: message_to_csv message_to_ordereddict message_to_yaml
 rosidl_runtime_py: rosidl_runtime: set_message_fields
 rosidl_runtime_py.convert: rosidl_runtime: message_to_csv message_to_ordereddict message_to_yaml
@@ -315,7 +358,10 @@ _WITH_MODULES_OF_CLASSES = (
     "launch_ros.substitutions",
 )
 
-WHOLE_PACKAGES = ("rclpy", "launch", "launch_ros", "tf2_ros", "message_filters")
+WHOLE_PACKAGES = (
+    "rclpy", "launch", "launch_ros", "tf2_ros", "message_filters",
+    "launch_testing", "launch_testing_ros", "launch_pytest",
+)  # fmt: skip
 """Packages whose modules are there after no more than `import launch`."""
 
 

@@ -69,6 +69,7 @@ class Program(Node):
         event_loops: Event loops of asyncio that it made, closed at the end.
         lines_with_angles: Lines of it whose angles were looked at: whether they are degrees.
         advice: Functions that sum its lookups up at the end: a sentence, or "".
+        on_print: Receives what it prints, with whether that goes to its standard output.
     """
 
     is_shown: ClassVar[bool] = False
@@ -110,6 +111,7 @@ class Program(Node):
         self.log_levels: dict[str, int] = {}
         self.lines_with_angles: set[Any] = set()
         self.advice: list[Callable[[], str]] = []
+        self.on_print: Callable[[str, bool], object] | None = None
         self._on_exit = on_exit
         self._others: set[asyncio.Task[None]] = set()
         self._loop: asyncio.AbstractEventLoop | None = None

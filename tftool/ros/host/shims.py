@@ -1,4 +1,4 @@
-"""Replacements of four standard modules in users' files.
+"""Replacements of four standard modules, and of `print`, in users' files.
 
 In a user's own files `import time` gives a module whose `sleep` and clocks are the
 world's, `import threading` one whose threads take turns too and whose locks wait in the
@@ -9,6 +9,7 @@ event loops wait in the world's time. The four of all other modules stay as they
 import asyncio
 import builtins
 import importlib.util
+import io
 import queue
 import sys
 import threading
@@ -25,6 +26,7 @@ from tftool.ros.host.fibers import Fiber
 from tftool.ros.host.locks import running_program
 
 _REAL_SLEEP = time.sleep  # noqa: TID251
+_REAL_PRINT = print
 
 
 class _Shim(ModuleType):
@@ -60,6 +62,17 @@ def _now_ns() -> int:
 def _elapsed_ns() -> int:
     owner = running_program()
     return time.monotonic_ns() if owner is None else owner.now() - owner.clock.epoch
+
+
+def _print(*values: object, **options: Any) -> None:
+    """Print as Python does; the launch that has started the program reads it as well."""
+    _REAL_PRINT(*values, **options)
+    owner = running_program()
+    if owner is None or owner.on_print is None:
+        return
+    if (file := options.get("file") or sys.stdout) in (sys.stdout, sys.stderr):
+        _REAL_PRINT(*values, **{**options, "file": (text := io.StringIO()), "flush": False})
+        owner.on_print(text.getvalue(), file is sys.stdout)
 
 
 class UserThread(threading.Thread):
@@ -225,4 +238,4 @@ def builtins_for_users() -> dict[str, Any]:
                 return builtins.__import__(name, globals, locals, fromlist, level)
         return builtins.__import__(name, globals, locals, fromlist, level)
 
-    return {**vars(builtins), "__import__": import_}
+    return {**vars(builtins), "__import__": import_, "print": _print}

@@ -26,17 +26,7 @@ def file_body(path: Path) -> Callable[[], None]:
     code = compile_file(path)
 
     def body() -> None:
-        folder = path.resolve().parent
-        module = ModuleType("__main__")
-        if (folder / "__init__.py").is_file():
-            # A node's file in its package imports that package by name, and files beside
-            # it by a dot, as when installed.
-            importing.look_in(folder.parent)
-            module.__package__ = folder.name
-        importing.look_in(folder)
-        module.__file__ = str(path)
-        module.__dict__["__builtins__"] = builtins_for_users()
-        exec(code, module.__dict__)
+        module = load_module(path, "__main__", code)
         owner = program.current()
         if owner.context is not None:
             return
@@ -49,6 +39,32 @@ def file_body(path: Path) -> Callable[[], None]:
     return body
 
 
+def load_module(path: Path, name: str = "", code: CodeType | None = None) -> ModuleType:
+    """Run a user's file in the program that runs, and return its module.
+
+    Args:
+        path: The file.
+        name: The module's name; the file's own unless given.
+        code: Its code, if it is compiled already.
+
+    Raises:
+        InputError: If it cannot be read or is no Python; the line is shown.
+    """
+    code = compile_file(path) if code is None else code
+    folder = path.resolve().parent
+    module = ModuleType(name or path.stem)
+    if (folder / "__init__.py").is_file():
+        # A node's file in its package imports that package by name, and files beside
+        # it by a dot, as when installed.
+        importing.look_in(folder.parent)
+        module.__package__ = folder.name
+    importing.look_in(folder)
+    module.__file__ = str(path)
+    module.__dict__["__builtins__"] = builtins_for_users()
+    exec(code, module.__dict__)
+    return module
+
+
 def _reads(code: CodeType, name: str) -> bool:
     """Whether a file's own statements, outside functions, use a global name."""
     import dis  # Only for those that have ended without a node.
@@ -58,7 +74,7 @@ def _reads(code: CodeType, name: str) -> bool:
     )
 
 
-def compile_file(path: Path) -> Any:
+def compile_file(path: Path) -> CodeType:
     """Compile a file.
 
     Raises:
@@ -71,7 +87,8 @@ def compile_file(path: Path) -> Any:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     try:
         # An attribute that users' own `from __future__` decides, not ours.
-        return compile(source, str(path), "exec", dont_inherit=True)
+        code: CodeType = compile(source, str(path), "exec", dont_inherit=True)
+        return code
     except SyntaxError as error:
         if error.filename is None:
             raise InputError(f"'{path}' is no Python text: {error.msg}") from None

@@ -38,8 +38,16 @@ class SystemCommand:
     emulate_tty: bool = False
 
 
-def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[int, str]:
-    """Run a command to its end, or kill it after a timeout; `say` receives its output lines.
+Streams = Sequence[tuple[asyncio.StreamReader, bool]]
+"""Readers of a command's output, each with whether it is its standard output."""
+
+
+def run_at_once(command: SystemCommand, say: Callable[[str, bool], object]) -> tuple[int, str]:
+    """Run a command to its end, or kill it after a timeout.
+
+    Args:
+        command: What to run.
+        say: Receives its output lines, each with whether it came from its standard output.
 
     Returns:
         Its exit status, and why it was killed ("" if it was not).
@@ -47,7 +55,7 @@ def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[i
     Raises:
         UsageError: If it cannot be run.
     """
-    reason = ""
+    reason, errors = "", b""
     try:
         if command.emulate_tty:
             output, status = _run_on_terminal(command)
@@ -60,17 +68,18 @@ def run_at_once(command: SystemCommand, say: Callable[[str], object]) -> tuple[i
                 check=False,
                 timeout=LONGEST_RUN,
             )
-            output, status = done.stdout + done.stderr, done.returncode
+            output, errors, status = done.stdout, done.stderr, done.returncode
     except subprocess.TimeoutExpired as error:
-        output, status = (error.stdout or b"") + (error.stderr or b""), -signal.SIGKILL
+        output, errors, status = error.stdout or b"", error.stderr or b"", -signal.SIGKILL
         reason = (
             f"'{shlex.join(command.words)}' had not ended after {LONGEST_RUN:g} s, and simulated "
             "time waits for a command's end; start one that goes on running by itself"
         )
     except OSError as error:
         raise _cannot_run(command, error) from None
-    for line in output.decode(errors="replace").splitlines():
-        say(line)
+    for written, is_stdout in ((output, True), (errors, False)):
+        for line in written.decode(errors="replace").splitlines():
+            say(line, is_stdout)
     return status, reason
 
 
@@ -116,9 +125,7 @@ def _run_on_terminal(command: SystemCommand) -> tuple[bytes, int]:
         os.close(ours)
 
 
-async def begin(
-    command: SystemCommand,
-) -> tuple[asyncio.subprocess.Process, asyncio.StreamReader]:
+async def begin(command: SystemCommand) -> tuple[asyncio.subprocess.Process, Streams]:
     """Start a command in its own process group; return it and its output.
 
     Raises:
@@ -131,7 +138,7 @@ async def begin(
             env=dict(command.environment),
             cwd=command.cwd,
             stdout=output,
-            stderr=asyncio.subprocess.STDOUT,
+            stderr=output,
             start_new_session=True,
         )
     except OSError as error:
@@ -143,12 +150,13 @@ async def begin(
             os.close(output)
     if ours is None:
         assert process.stdout is not None
-        return process, process.stdout
+        assert process.stderr is not None
+        return process, ((process.stdout, True), (process.stderr, False))
     reader = asyncio.StreamReader()
     await asyncio.get_running_loop().connect_read_pipe(
         lambda: asyncio.StreamReaderProtocol(reader), os.fdopen(ours, "rb", buffering=0)
     )
-    return process, reader
+    return process, ((reader, True),)
 
 
 def _cannot_run(command: SystemCommand, error: OSError) -> UsageError:

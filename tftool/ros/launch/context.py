@@ -10,6 +10,7 @@ from typing import Any
 
 from tftool.base.errors import UsageError
 from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch import packages
 
 DEEPEST = 50
 """How many launch files may include each other in a row."""
@@ -58,9 +59,9 @@ class LaunchContext:
 
     @property
     def workspace(self) -> Workspace:
-        """Return the folder where packages are searched: this one unless another was given."""
+        """Return the folder where packages are searched: the command's unless another was given."""
         if self._workspace is None:
-            self._workspace = Workspace(Path.cwd())
+            self._workspace = packages.workspace()
         return self._workspace
 
     @property
@@ -77,7 +78,7 @@ class LaunchContext:
         known = {} if self.event is None else {"event": self.event}
         return {**known, **self._locals}
 
-    def register_event_handler(self, event_handler: Any) -> None:
+    def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
         """Register an event handler.
 
         Raises:

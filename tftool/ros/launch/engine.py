@@ -33,7 +33,7 @@ from tftool.ros.launch.events import (
 from tftool.ros.launch.files import load_file
 from tftool.ros.launch.processes import Executable
 from tftool.ros.rclpy.exceptions import NotInitializedException
-from tftool.world.clock import SimClock
+from tftool.world.clock import SimClock, paced
 from tftool.world.log import LogRecord
 from tftool.world.node import Node
 from tftool.world.world import World
@@ -69,6 +69,7 @@ class Launch(Node):
         context: LaunchContext | None = None,
         name: str = "launch",
         contained: bool = False,
+        keep_alive: bool = False,
     ) -> None:
         """Read a launch file, or use a description.
 
@@ -81,6 +82,9 @@ class Launch(Node):
             context: State of the launch; a new one when None.
             name: Its own name in the world.
             contained: Whether a fault of the description ends the launch alone: not the world.
+                On simulated time its system commands then run beside the nodes, and time
+                passes as really while they do.
+            keep_alive: Whether it goes on when nothing of it runs any more.
 
         Raises:
             InputError: If it cannot be read.
@@ -106,7 +110,7 @@ class Launch(Node):
         self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
         self._count = 0
         self._closing = False
-        self._contained = contained
+        self._contained, self._keep_alive = contained, keep_alive
         self._events = EventQueue(self._tell)
         self._over: asyncio.Future[None] | None = None
         self._actions: dict[str, Any] = {}  # by label
@@ -199,12 +203,10 @@ class Launch(Node):
 
     def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
         """Handle a line written by a process."""
-        event = ProcessIO(
-            action=self._actions.get(label),
-            name=label,
-            text=f"{line}\n".encode(),
-            from_stdout=to_stdout,
-        )
+        action: Any = self._actions.get(label)
+        if getattr(action, "cached_output", False):
+            action.output_lines.append((to_stdout, f"{line}\n"))
+        event = ProcessIO(text=f"{line}\n".encode(), from_stdout=to_stdout, **self._of(label))
         if self.is_awaited(event):
             self._guarded(lambda: self.emit(event))
 
@@ -213,9 +215,27 @@ class Launch(Node):
             line = f"[{record.level}] [{record.node}]: {record.text}"
             self._wrote(record.program, line, to_stdout=False)
 
-    def _line(self, label: str, line: str) -> None:
+    def _line(self, label: str, line: str, is_stdout: bool = True) -> None:
         self._say("", label, line)
-        self._wrote(label, line, to_stdout=True)
+        self._wrote(label, line, to_stdout=is_stdout)
+
+    def _printed(self, label: str, text: str, is_stdout: bool) -> None:
+        """Handle what a program has printed (in its own thread)."""
+        for line in text.splitlines():
+            program.current().ask(partial(self._wrote, label, line, to_stdout=is_stdout))
+
+    def _of(self, label: str) -> dict[str, Any]:
+        """Return the action and the details of a process, for its events."""
+        action = self._actions.get(label)
+        details = getattr(action, "process_details", None) or {"name": label}
+        return {"action": action, **details}
+
+    def _note_start(self, action: Any, label: str, words: Sequence[str], **details: Any) -> None:
+        """Report that a process has started."""
+        action.process_details = {"name": label, "cmd": list(words), **details}
+        shown = f": {shlex.join(words)}" if details else ""  # a node's are its package's business
+        self._say("INFO", label, f"process started{shown}")
+        self.emit(ProcessStarted(**self._of(label)))
 
     def is_awaited(self, event: Event) -> bool:
         """Whether a handler matches an event."""
@@ -342,13 +362,13 @@ class Launch(Node):
                 self.warn(f"left out: {error}")
                 return
             if isinstance(node, Program):
+                node.on_print = partial(self._printed, label)
                 self._running[label] = partial(self._remove, action, label, node)
             else:
                 self.labels[node.name] = label
                 # It lives as long as the world, which ends with the launch.
                 self._running[label] = partial(self._ended, action, label, 0, "")
-            self._say("INFO", label, "process started")
-            self.emit(ProcessStarted(action=action, name=label))
+            self._note_start(action, label, [executable.name, *executable.arguments])
 
         self._start(label, start, respawn)
 
@@ -367,10 +387,10 @@ class Launch(Node):
         self._actions[label] = action
 
         def start() -> None:
-            self._say("INFO", label, f"process started: {shlex.join(command.words)}")
-            self.emit(ProcessStarted(action=action, name=label))
-            if isinstance(self.clock, SimClock):
-                status, reason = run_at_once(command, lambda line: self._line(label, line))
+            env, cwd = dict(command.environment), command.cwd
+            self._note_start(action, label, command.words, cwd=cwd, env=env)
+            if isinstance(self.clock, SimClock) and not self._contained:
+                status, reason = run_at_once(command, partial(self._line, label))
                 # Not at once: the handler of its end may stand further down in the file.
                 self._start_task(self._end_soon(action, label, status, reason), self._watches)
             else:
@@ -389,27 +409,42 @@ class Launch(Node):
         Raises:
             UsageError: If the words are no command of ROS 2's that is known here.
         """
-        label = self._label("ros2")
+        show: list[Callable[[str], object]] = []
+        body = ros2.body(words, self.context.workspace, lambda line: show[0](line))
+        label = self.start_body(action, ["ros2", *words], body, respawn)
+        show.append(lambda line: program.current().ask(lambda: self._line(label, line)))
+
+    def start_body(
+        self,
+        action: Any,
+        argv: Sequence[str],
+        body: Callable[[], None],
+        respawn: float | None = None,
+    ) -> str:
+        """Run a function as a program of the world; return its label.
+
+        Args:
+            action: What asked for it, for events.
+            argv: Its command line; the first word is its name in the log.
+            body: The function.
+            respawn: As for `start_node`.
+        """
+        label = self._label(Path(argv[0]).name)
         self._actions[label] = action
 
-        def show(line: str) -> None:
-            program.current().ask(lambda: self._line(label, line))
-
-        body = ros2.body(words, self.context.workspace, show)
-
         def start() -> None:
-            self._say("INFO", label, f"process started: {shlex.join(['ros2', *words])}")
             started = Program(
                 self.world,
                 label,
                 user_code.whole(body),
-                argv=["ros2", *words],
+                argv=argv,
                 on_exit=partial(self._program_ended, action, label),
             )
             self._running[label] = partial(self._remove, action, label, started)
-            self.emit(ProcessStarted(action=action, name=label))
+            self._note_start(action, label, argv, cwd=None)
 
         self._start(label, start, respawn)
+        return label
 
     def _start(self, label: str, start: Callable[[], None], respawn: float | None) -> None:
         if self._closing:
@@ -424,16 +459,22 @@ class Launch(Node):
 
     async def _watch(self, action: Any, label: str, command: SystemCommand) -> None:
         try:
-            process, output = await begin(command)
+            process, streams = await begin(command)
         except UsageError as error:
             self._ended(action, label, 127, str(error))
             return
+        action.process_details["pid"] = process.pid
         self._running[label] = partial(interrupt, process)
         if self._closing:
             interrupt(process)
-        async for line in lines_of(output):
-            self._line(label, line)
-        status = await process.wait()
+
+        async def read(stream: asyncio.StreamReader, is_stdout: bool) -> None:
+            async for line in lines_of(stream):
+                self._line(label, line, is_stdout)
+
+        with paced(self.clock):
+            await asyncio.gather(*(read(*one) for one in streams))
+            status = await process.wait()
         self._ended(action, label, status, "")
 
     # What ends
@@ -465,7 +506,10 @@ class Launch(Node):
             self.failed.append(label)
             told = f": {reason}" if reason else ""
             self._say("ERROR", label, f"process has died, exit status {status}{told}")
-        event = ProcessExited(action=action, name=label, returncode=status)
+            for line in reason.splitlines():
+                self._wrote(label, line, to_stdout=False)
+        action.return_code = status
+        event = ProcessExited(returncode=status, **self._of(label))
         self._guarded(lambda: self.emit(event))
         if not self._respawn(label):
             self._guarded(lambda: self.complete(action))
@@ -494,7 +538,8 @@ class Launch(Node):
             self._end()
 
     def _look_round(self) -> None:
-        if self._closing or not (self._running or self._timers or self._watches):
+        runs = self._keep_alive or self._running or self._timers or self._watches
+        if self._closing or not runs:
             self._end()
 
     def _end(self) -> None:

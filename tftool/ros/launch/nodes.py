@@ -10,7 +10,7 @@ from tftool.base.errors import UsageError
 from tftool.ros.host import names
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parameters import normalize_parameters, read_all
-from tftool.ros.launch.processes import Executable, Startable
+from tftool.ros.launch.processes import Executable, Startable, is_python
 from tftool.ros.launch.scope import (
     add_node_name,
     get_node_name_count,
@@ -118,6 +118,8 @@ class Node(Startable):
             options.name = more.name or options.name
         package = None if self.package is None else perform(context, self.package)
         executable = perform(context, self.executable)
+        if package is None and is_python(executable) and arguments:
+            executable, *arguments = arguments
         if package is None:
             executable = python_file(executable)
         self.handle_exit(context)

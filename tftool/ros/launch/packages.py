@@ -16,12 +16,13 @@ class PackageNotFoundError(KeyError):
 _current: list[Workspace] = []
 
 
-def use(workspace: Workspace) -> None:
+def use(searched: Workspace) -> None:
     """Search this workspace from now on."""
-    _current[:] = [workspace]
+    _current[:] = [searched]
 
 
-def _workspace() -> Workspace:
+def workspace() -> Workspace:
+    """Return the workspace that is searched: the one around this folder unless told."""
     if not _current:
         _current.append(Workspace(Path.cwd()))
     return _current[0]
@@ -34,7 +35,7 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
         PackageNotFoundError: If there is no such package.
     """
     try:
-        return str(_workspace().share(package_name))
+        return str(workspace().share(package_name))
     except UsageError as error:
         raise PackageNotFoundError(str(error)) from None
 
@@ -51,7 +52,7 @@ def get_package_prefix(package_name: str) -> str:
 
 def get_packages_with_prefixes() -> dict[str, str]:
     """Return every package and its folder."""
-    return {name: str(package.path) for name, package in _workspace().packages.items()}
+    return {name: str(package.path) for name, package in workspace().packages.items()}
 
 
 def get_resources(resource_type: str) -> dict[str, str]:

@@ -54,7 +54,14 @@ class Executable:
 
 
 class Startable(Action):
-    """Action that starts something, which ends some time and may be restarted."""
+    """Action that starts something, which ends some time and may be restarted.
+
+    Attributes:
+        process_details: Its name in the log and its words, once it has started; None before.
+        return_code: Its exit status, once it has ended; None before.
+        output_lines: With `cached_output`, the lines it has written, each with whether it
+            wrote it to its standard output.
+    """
 
     takes_time: ClassVar[bool] = True
 
@@ -70,12 +77,27 @@ class Startable(Action):
     ) -> None:
         # These are about how real processes end, and where their output goes.
         self.emulate_tty = kwargs.pop("emulate_tty", False)
-        for name in ("sigterm_timeout", "sigkill_timeout", "log_cmd",
-                     "output_format", "cached_output"):  # fmt: skip
+        self.cached_output = kwargs.pop("cached_output", False)
+        for name in ("sigterm_timeout", "sigkill_timeout", "log_cmd", "output_format"):
             kwargs.pop(name, None)
         super().__init__(**kwargs)
+        self.process_details: dict[str, Any] | None = None
+        self.return_code: int | None = None
+        self.output_lines: list[tuple[bool, str]] = []
         self.on_exit, self.prefix, self.output = on_exit, prefix, output
         self.respawn, self.respawn_delay = respawn, respawn_delay
+
+    def get_stdout(self) -> str:
+        """Return what it has written to its standard output, with `cached_output`."""
+        return "".join(line for is_stdout, line in self.output_lines if is_stdout)
+
+    def get_stderr(self) -> str:
+        """Return what it has written to its standard error, with `cached_output`."""
+        return "".join(line for is_stdout, line in self.output_lines if not is_stdout)
+
+    def get_output(self) -> str:
+        """Return all that it has written, with `cached_output`."""
+        return "".join(line for _, line in self.output_lines)
 
     def handle_exit(self, context: LaunchContext) -> None:
         """Handle its end."""
@@ -211,9 +233,14 @@ def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
     return list(words[1:])
 
 
+def is_python(word: str) -> bool:
+    """Whether a command is a Python interpreter."""
+    return re.fullmatch(r"python(3(\.\d+)?)?", Path(word).name) is not None
+
+
 def _rclpy_program(words: Sequence[str], cwd: str | None) -> Path | None:
     """Return the file of `python3 FILE …` if it imports rclpy; None for other commands."""
-    if len(words) < 2 or not re.fullmatch(r"python(3(\.\d+)?)?", Path(words[0]).name):
+    if len(words) < 2 or not is_python(words[0]):
         return None
     file = Path(cwd or "", words[1])
     is_program = file.suffix == ".py" and file.is_file() and b"rclpy" in file.read_bytes()

@@ -11,6 +11,7 @@ from tftool.ros.host.event_loops import SLICE
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.engine import Launch
+from tftool.ros.launch.events import Event
 
 
 class LaunchService:
@@ -26,8 +27,12 @@ class LaunchService:
         self._loops: set[asyncio.AbstractEventLoop] = set()
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
-        """Add a description, which is executed when it runs."""
-        self._entities.append(launch_description)
+        """Add a description, which is executed when it runs; at once if it runs already."""
+        launch = self._launch
+        if launch is None or self._owner is None:
+            self._entities.append(launch_description)
+        else:
+            self._owner.ask(lambda: launch.do([launch_description]))
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
         """Launch, and block until everything has ended.
@@ -35,11 +40,23 @@ class LaunchService:
         Returns:
             0, or 1 if something failed.
         """
-        launch = self._begin()
+        self.begin(keep_alive=not shutdown_when_idle)
+        return self.wait()
+
+    def wait(self) -> int:
+        """Block until a launch that was begun has ended; return as `run` does."""
+        launch = self._launch
+        if launch is None:
+            return 0
         program.current().ask(launch.ended.wait)
         return int(bool(launch.failed))
 
-    def _begin(self) -> Launch:
+    def begin(self, *, keep_alive: bool = False) -> Launch:
+        """Start the launch, which goes on by itself.
+
+        Args:
+            keep_alive: Whether it goes on when nothing of it runs any more.
+        """
         self._owner = owner = program.current()
 
         def say(level: str, who: str, text: str) -> None:
@@ -49,7 +66,13 @@ class LaunchService:
             name = owner.world.free_name("launch")
             description = LaunchDescription(self._entities)
             made = Launch(
-                owner.world, description, context=self.context, say=say, name=name, contained=True
+                owner.world,
+                description,
+                context=self.context,
+                say=say,
+                name=name,
+                contained=True,
+                keep_alive=keep_alive,
             )
             self._loops = {asyncio.get_running_loop()}
             return [made]
@@ -59,7 +82,7 @@ class LaunchService:
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
         """Run it beside other coroutines; a cancellation ends the launch."""
-        launch = self._begin()
+        launch = self.begin(keep_alive=not shutdown_when_idle)
         self._loops.add(asyncio.get_running_loop())
         try:
             while not launch.ended.is_set():
@@ -69,6 +92,17 @@ class LaunchService:
             self._end(launch)
             raise
         return int(bool(launch.failed))
+
+    @property
+    def failed_itself(self) -> bool:
+        """Whether the launch, and not only a process of it, has failed."""
+        return self._launch is not None and "launch" in self._launch.failed
+
+    def emit_event(self, event: Event) -> None:
+        """Pass an event to the handlers, if it runs."""
+        launch = self._launch
+        if launch is not None and self._owner is not None:
+            self._owner.ask(lambda: launch.emit(event))
 
     def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
         """End the launch, if it runs.

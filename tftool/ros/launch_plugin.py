@@ -1,0 +1,147 @@
+"""pytest plugin: launch tests of launch_testing and launch_pytest, with `--ros-free`."""
+
+import unittest
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tftool.ros.launch_testing import fixtures
+from tftool.ros.launch_testing.runner import MAKES, LaunchTestRunner, LoadTestsFromPythonModule
+from tftool.ros.testing import RosRuntime
+
+MARKS = ("launch_test", "rostest")
+"""Marks of a function that describes a launch with tests."""
+
+launch_service = fixtures.service_fixture("function")
+launch_context = fixtures.context_fixture("function")
+event_loop = fixtures.loop_fixture("function")
+
+
+class LaunchTestFailure(Exception):
+    """Error for failed tests beside a launch."""
+
+    def __init__(self, failures: Iterable[tuple[Any, str]]) -> None:
+        super().__init__("\n\n".join(f"{case}\n{text}" for case, text in failures))
+
+
+class LaunchTestItem(pytest.Item):
+    """A launch with its tests, once for each set of its parameters."""
+
+    def runtest(self) -> None:
+        """Run it in a world of its own.
+
+        Raises:
+            LaunchTestFailure: If a test fails.
+        """
+        module: Any = self.getparent(LaunchTestModule)
+        arguments = [word for words in self.config.getoption("--launch-args") for word in words]
+        with RosRuntime():
+            runs = LoadTestsFromPythonModule(module.obj, name=module.obj.__name__)
+            runner = LaunchTestRunner(runs, arguments)
+            runner.validate()
+            results: list[unittest.TestResult] = list(runner.run().values())
+        if all(result.testsRun == len(result.skipped) for result in results) and results:
+            reasons = [reason for result in results for _, reason in result.skipped]
+            if reasons:
+                pytest.skip(reasons[0])
+        failures = [one for result in results for one in (*result.errors, *result.failures)]
+        if failures or not all(result.wasSuccessful() for result in results):
+            raise LaunchTestFailure(failures)
+
+    def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
+        """Return the failed tests, without the lines of this plugin."""
+        if isinstance(excinfo.value, LaunchTestFailure):
+            return str(excinfo.value)
+        return super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Path, int, str]:
+        """Return where it is."""
+        return self.path, 0, f"launch tests: {self.name}"
+
+
+class LaunchTestModule(pytest.Module):
+    """A file that may describe a launch with tests."""
+
+    def collect(self) -> Iterable[Any]:
+        """Return the launch as one test, or the file's tests if it is another file."""
+        function = getattr(self.obj, MAKES, None)
+        marks = {mark.name for mark in getattr(function, "pytestmark", ())}
+        if marks.isdisjoint(MARKS):
+            return super().collect()
+        item = LaunchTestItem.from_parent(self, name=self.obj.__name__)
+        for mark in function.pytestmark:  # type: ignore[union-attr]
+            item.add_marker(getattr(pytest.mark, mark.name)(*mark.args, **mark.kwargs))
+        return [item]
+
+
+def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> pytest.Module | None:
+    """Look closer at files that may describe a launch."""
+    if MAKES.encode() not in module_path.read_bytes():
+        return None
+    return LaunchTestModule.from_parent(parent, path=module_path)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
+    """Collect tests beside the launch of a fixture."""
+    marks = [mark for mark in getattr(obj, "pytestmark", ()) if mark.name == "launch"]
+    if not marks or not collector.funcnamefilter(name) or hasattr(obj, "launch_key"):
+        return None
+    fixture, scope = fixtures.fixture_of(obj)
+    after_end = bool(marks[0].kwargs.get("shutdown"))
+    tests: list[tuple[str, Any, bool]] = [
+        (name, fixtures.as_function(obj, after_end=after_end), after_end)
+    ]
+    if scope != "function" and fixtures.is_generator(obj):
+        rest = fixtures.as_function(obj, after_end=True, second=True)
+        tests.append((f"{name}[shutdown_test]", rest, True))
+    items: list[Any] = []
+    for shown, test, is_after in tests:
+        test.launch_key = (fixture, is_after)
+        if fixture:
+            test = pytest.mark.usefixtures("launch_service", fixture)(test)
+        else:
+            reason = "pytest.mark.launch needs the fixture: pytest.mark.launch(fixture=…)"
+            test = pytest.mark.skip(reason)(test)
+        # pytest reads a test from its module or class.
+        setattr(collector.obj, shown, test)
+        items += collector.ihook.pytest_pycollect_makeitem(
+            collector=collector, name=shown, obj=test
+        )
+    return items
+
+
+def _launch_of(item: Any) -> tuple[Any, ...] | None:
+    """Return the launch that a test runs beside; None for other tests."""
+    key = getattr(getattr(item, "obj", None), "launch_key", None)
+    if key is None or fixtures.scope_of(item.obj) == "function":
+        return None
+    callspec = getattr(item, "callspec", None)
+    indices = {} if callspec is None else callspec.indices
+    return item.getparent(pytest.Module), key[0], indices.get(key[0])
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[Any]) -> None:
+    """Run the tests after a launch's end after those beside it."""
+    late = [one for one in items if _launch_of(one) is not None and one.obj.launch_key[1]]
+    for one in late:
+        launch = _launch_of(one)
+        others = [at for at, item in enumerate(items) if _launch_of(item) == launch]
+        items.remove(one)
+        items.insert(others[-1], one)
+
+
+@pytest.hookimpl(wrapper=True, trylast=True)
+def pytest_fixture_setup(fixturedef: Any, request: Any) -> Iterator[None]:
+    """Launch the description that a fixture of launch_pytest returns."""
+    options = getattr(fixturedef.func, "launch_options", None)
+    service: Any = None if options is None else request.getfixturevalue("launch_service")
+    value = yield
+    if options is not None:
+        # Before the fixtures it uses are gone, and before `launch_service` itself is.
+        fixturedef.addfinalizer(service.finish)
+        fixtures.launched(options, service, value)
+    return value

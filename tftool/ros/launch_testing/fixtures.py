@@ -1,0 +1,247 @@
+"""launch_pytest: fixtures that launch a description, and tests that run beside it."""
+
+import asyncio
+import functools
+import inspect
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from tftool.ros.host import program
+from tftool.ros.host.event_loops import UserEventLoop
+from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch.service import LaunchService
+from tftool.ros.launch_testing.description import ReadyToTest, ready_actions
+from tftool.ros.launch_testing.runner import wait_for_first
+
+
+class LaunchedService(LaunchService):
+    """The launch of a fixture.
+
+    Attributes:
+        event_loop: Where its tests' coroutines run; None once it has ended.
+        auto_shutdown: Whether it is shut down after its tests.
+        waiting: The tests that go on after its end, by their function.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.event_loop: asyncio.AbstractEventLoop | None = None
+        self.auto_shutdown = True
+        self.waiting: dict[Any, Any] = {}
+
+    def start(self, description: LaunchDescription, *, keep_alive: bool) -> None:
+        """Launch a description, and wait until its tests may start.
+
+        Raises:
+            AssertionError: If it says at several places when that is.
+        """
+        program.current()  # for a fixture of a module, the program that lasts as long
+        self.event_loop = UserEventLoop()
+        if not (found := list(ready_actions(description.entities))):
+            description.add_action(action := ReadyToTest())
+            found = [action]
+        if len(found) > 1:
+            raise AssertionError("a launch_pytest fixture has one ReadyToTest action at most")
+        ready = asyncio.Event()
+        found[0].callbacks.append(ready.set)
+        self.include_launch_description(description)
+        launch = self.begin(keep_alive=keep_alive)
+        wait_for_first((ready, launch.ended))
+
+    def finish(self) -> None:
+        """Shut it down unless it ends by itself, and wait for its end.
+
+        Raises:
+            AssertionError: If it has failed.
+        """
+        if self.event_loop is None:
+            return
+        if self.auto_shutdown:
+            self.shutdown(force_sync=True)
+        self.event_loop = None
+        self.wait()
+        # As in ROS 2 a process that fails is for the tests to judge.
+        if self.failed_itself:
+            raise AssertionError("the launch has failed: its lines above say why")
+
+    def _is_idle(self) -> bool:
+        """Whether it has ended; the examples of launch_pytest ask."""
+        return self.event_loop is None
+
+
+def service_fixture(scope: Any) -> Any:
+    """Return the fixture `launch_service` for a scope."""
+
+    @pytest.fixture(scope=scope, name="launch_service")
+    def launch_service() -> Iterator[LaunchedService]:
+        """Launch service of a fixture of launch_pytest."""
+        service = LaunchedService()
+        yield service
+        service.finish()
+
+    return launch_service
+
+
+def context_fixture(scope: Any) -> Any:
+    """Return the fixture `launch_context` for a scope."""
+
+    @pytest.fixture(scope=scope, name="launch_context")
+    def launch_context(launch_service: LaunchedService) -> Any:
+        """Return the context of the launch."""
+        return launch_service.context
+
+    return launch_context
+
+
+def loop_fixture(scope: Any) -> Any:
+    """Return the fixture `event_loop` for a scope."""
+
+    @pytest.fixture(scope=scope, name="event_loop")
+    def event_loop(launch_service: LaunchedService) -> Any:
+        """Return the loop in which the tests' coroutines run."""
+        return launch_service.event_loop
+
+    return event_loop
+
+
+SHARED = {
+    "launch_service": service_fixture,
+    "launch_context": context_fixture,
+    "event_loop": loop_fixture,
+}
+
+
+def fixture(
+    decorated: Any = None,
+    *args: Any,
+    shutdown_when_idle: bool = True,
+    auto_shutdown: bool = True,
+    **kwargs: Any,
+) -> Any:
+    """Declare a fixture that returns a launch description, alone or first in a sequence.
+
+    Args:
+        decorated: The function.
+        args: As for `pytest.fixture`.
+        shutdown_when_idle: Whether the launch ends once nothing of it runs any more.
+        auto_shutdown: Whether it is shut down after its tests.
+        kwargs: As for `pytest.fixture`.
+    """
+    scope = kwargs.get("scope", "function")
+    if scope != "function":
+        # The fixtures that all launches share must last as long as this one.
+        module = sys._getframe(1).f_globals
+        for name, made in SHARED.items():
+            module.setdefault(name, made(scope))
+
+    def declare(function: Any) -> Any:
+        function.launch_options = (shutdown_when_idle, auto_shutdown)
+        made: Any = pytest.fixture(*args, **kwargs)(function)
+        made.launch_fixture = (function.__name__, scope)
+        return made
+
+    return declare if decorated is None else declare(decorated)
+
+
+def launched(options: tuple[bool, bool], service: LaunchedService, value: Any) -> None:
+    """Start the launch of a fixture that has given a value.
+
+    Raises:
+        AssertionError: If that is no description.
+    """
+    description = value[0] if isinstance(value, tuple | list) and value else value
+    if not isinstance(description, LaunchDescription):
+        raise AssertionError(
+            "a launch_pytest fixture returns a LaunchDescription, or a sequence that begins "
+            f"with one, not {value!r}"
+        )
+    shutdown_when_idle, service.auto_shutdown = options
+    service.start(description, keep_alive=not shutdown_when_idle)
+
+
+def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable[..., None]:
+    """Return an ordinary test function for a function, coroutine or generator of any kind.
+
+    Args:
+        test: What the user wrote.
+        after_end: Whether it runs after the end of the launch.
+        second: Whether this is the part of a generator after its `yield`, as a test of its own.
+    """
+    takes = inspect.signature(test)
+    wants_service = "launch_service" in takes.parameters
+
+    @functools.wraps(test)
+    def run(*args: Any, **given: Any) -> None:
+        service = given["launch_service"] if wants_service else given.pop("launch_service")
+        if second:
+            if (generator := service.waiting.pop(test, None)) is None:
+                pytest.skip("the part before its yield has failed")
+            service.finish()
+            _end(generator)
+            return
+        loop = service.event_loop or UserEventLoop()
+        if after_end:
+            service.finish()
+        made = test(*args, **given)
+        if inspect.iscoroutine(made):
+            loop.run_until_complete(made)
+        elif inspect.isgenerator(made) or inspect.isasyncgen(made):
+            steps = _steps(made, loop)
+            next(steps)
+            if scope_of(test) == "function":
+                service.finish()
+                _end(steps)
+            else:
+                service.waiting[test] = steps
+
+    own = list(takes.parameters.values())
+    if not wants_service:
+        own.append(inspect.Parameter("launch_service", inspect.Parameter.KEYWORD_ONLY))
+    run.__signature__ = takes.replace(parameters=own)  # type: ignore[attr-defined]
+    return run
+
+
+def scope_of(test: Any) -> str:
+    """Return the scope of the launch that a test runs beside."""
+    return str(fixture_of(test)[1])
+
+
+def fixture_of(test: Any) -> tuple[str, str]:
+    """Return the name and the scope of the fixture that a test names; "" for none."""
+    for mark in getattr(test, "pytestmark", ()):
+        if mark.name == "launch" and (named := mark.kwargs.get("fixture")) is not None:
+            if hasattr(named, "launch_fixture"):
+                return named.launch_fixture  # type: ignore[no-any-return]
+            return named.__name__, "function"
+    return "", "function"
+
+
+def is_generator(test: Any) -> bool:
+    """Whether a test is a generator of either kind."""
+    return inspect.isgeneratorfunction(test) or inspect.isasyncgenfunction(test)
+
+
+def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
+    """Yield where a generator of either kind does."""
+    if inspect.isgenerator(generator):
+        yield from generator
+        return
+    while True:
+        try:
+            loop.run_until_complete(anext(generator))
+        except StopAsyncIteration:
+            return
+        yield
+
+
+def _end(steps: Iterator[None]) -> None:
+    """Run the rest of a generator.
+
+    Raises:
+        AssertionError: If it yields once more.
+    """
+    if next(steps, steps) is not steps:
+        raise AssertionError("a launch test yields once: what follows runs after the launch's end")

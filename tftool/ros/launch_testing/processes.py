@@ -1,0 +1,91 @@
+"""launch_pytest's tools: waiting for a process and its output.
+
+Each has a twin that is no coroutine, with `_sync` behind its name. They take the launch's context,
+the process's action, the function that says what is waited for, and a timeout in seconds.
+"""
+
+import asyncio
+from collections.abc import Callable
+from typing import Any
+
+from tftool.base.stamps import as_seconds, seconds
+from tftool.ros.host import program
+from tftool.ros.host.event_loops import SLICE
+
+Condition = Callable[[Any, Any], Any]
+"""Says of an action, and of a user's function, whether the wait is over."""
+
+
+def _limit(timeout: float | None) -> Callable[[], bool]:
+    """Return a function that says whether a timeout is over."""
+    clock = program.current().clock
+    end = None if timeout is None else clock.now() + seconds(timeout)
+    return lambda: end is not None and clock.now() >= end
+
+
+def _waits(condition: Condition, otherwise: Callable[[Any, Any], object]) -> tuple[Any, Any]:
+    """Return a coroutine function that waits for a condition, and its twin.
+
+    Args:
+        condition: What they wait for.
+        otherwise: Called where it does not come to hold in time.
+    """
+
+    async def wait(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:
+        is_over = _limit(timeout)
+        while not (holds := bool(condition(action, check))) and not is_over():
+            # In the loop of a user's test, whose time is the world's.
+            await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
+        if not holds:
+            otherwise(action, check)
+        return holds
+
+    def wait_sync(context: Any, action: Any, check: Any, timeout: float | None = None) -> bool:
+        is_over = _limit(timeout)
+        while not (holds := bool(condition(action, check))) and not is_over():
+            program.current().sleep(SLICE)
+        if not holds:
+            otherwise(action, check)
+        return holds
+
+    return wait, wait_sync
+
+
+def _waits_alone(condition: Callable[[Any], bool]) -> tuple[Any, Any]:
+    """Return the two for a condition that needs no function of the user's."""
+    wait_checked, wait_checked_sync = _waits(lambda action, _: condition(action), lambda *_: None)
+
+    async def wait(context: Any, action: Any, timeout: float | None = None) -> Any:
+        return await wait_checked(context, action, None, timeout)
+
+    def wait_sync(context: Any, action: Any, timeout: float | None = None) -> Any:
+        return wait_checked_sync(context, action, None, timeout)
+
+    return wait, wait_sync
+
+
+def _passes(check: Callable[[str], object], output: str) -> bool:
+    """Whether an output passes the assertions of a function."""
+    try:
+        check(output)
+    except AssertionError:
+        return False
+    return True
+
+
+wait_for_start, wait_for_start_sync = _waits_alone(lambda one: one.process_details is not None)
+wait_for_exit, wait_for_exit_sync = _waits_alone(lambda one: one.return_code is not None)
+wait_for_output, wait_for_output_sync = _waits(
+    lambda action, check: check(action.get_stdout()), lambda *_: None
+)
+wait_for_stderr, wait_for_stderr_sync = _waits(
+    lambda action, check: check(action.get_stderr()), lambda *_: None
+)
+assert_output, assert_output_sync = _waits(
+    lambda action, check: _passes(check, action.get_stdout()),
+    lambda action, check: check(action.get_stdout()),
+)
+assert_stderr, assert_stderr_sync = _waits(
+    lambda action, check: _passes(check, action.get_stderr()),
+    lambda action, check: check(action.get_stderr()),
+)

@@ -1,0 +1,429 @@
+"""launch_testing's records of processes and of their output, and assertions about them."""
+
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from tftool.ros.host.locks import StateMonitor
+from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch.events import (
+    ProcessExited,
+    ProcessIO,
+    ProcessStarted,
+    RunningProcessEvent,
+    ShutdownProcess,
+    matches_action,
+)
+from tftool.ros.launch.processes import Startable
+from tftool.ros.launch_testing.text import build_text_match, without_escapes
+
+EXIT_OK, EXIT_SIGINT, EXIT_SIGQUIT, EXIT_SIGKILL, EXIT_SIGSEGV = 0, 130, 131, 137, 139
+
+NO_CMD_ARGS = object()
+"""As `cmd_args`: a process without arguments."""
+
+
+class NoMatchingProcessException(Exception):
+    """Error for a process that nothing is recorded of."""
+
+
+class _Record:
+    """Events of processes in order of arrival; tests may wait for them."""
+
+    def __init__(self) -> None:
+        self._state = StateMonitor()
+        self._events: list[Any] = []
+
+    def append(self, event: RunningProcessEvent) -> None:
+        """Add an event."""
+        self._state.change(lambda: self._events.append(event))
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(list(self._events))
+
+    def processes(self) -> list[Any]:
+        """Return the actions that started the processes."""
+        return list(dict.fromkeys(event.action for event in self))
+
+    def process_names(self) -> list[str]:
+        """Return the names of the processes."""
+        return list(dict.fromkeys(event.process_name for event in self))
+
+    def holds_within(self, check: Callable[[], bool], timeout: float | None) -> bool:
+        """Wait until something holds, at most for `timeout` seconds; return whether it does."""
+
+        def holds() -> bool:
+            try:
+                return check()
+            except NoMatchingProcessException:  # not yet
+                return False
+
+        return self._state.wait(holds, timeout)
+
+
+class ProcInfoHandler(_Record):
+    """The newest event of each process: its start or its end."""
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter({event.action: event for event in list(self._events)}.values())
+
+    def __getitem__(self, key: Any) -> Any:
+        """Return the newest event of a process, given by its action or a part of its name."""
+        for event in self:
+            if event.action is key or (isinstance(key, str) and key in event.process_name):
+                return event
+        raise KeyError(key)
+
+    def assertWaitForShutdown(
+        self, process: Any, cmd_args: Any = None, *, timeout: float | None = 10
+    ) -> None:
+        """Wait for the end of a process.
+
+        Raises:
+            AssertionError: If it does not end in time.
+        """
+
+        def has_ended() -> bool:
+            found = resolveProcesses(self, process=process, cmd_args=cmd_args)[0]
+            return isinstance(self[found], ProcessExited)
+
+        assert self.holds_within(has_ended, timeout), (
+            f"Timed out waiting for process '{process}' to finish"
+        )
+
+    def assertWaitForStartup(
+        self, process: Any, cmd_args: Any = None, *, timeout: float | None = 10
+    ) -> None:
+        """Wait for the start of a process.
+
+        Raises:
+            AssertionError: If it does not start in time.
+        """
+        assert self.holds_within(
+            lambda: bool(resolveProcesses(self, process=process, cmd_args=cmd_args)), timeout
+        ), f"Timed out waiting for process '{process}' to start"
+
+
+class IoHandler(_Record):
+    """The output of processes, line by line."""
+
+    def track(self, process_name: str) -> None:
+        """Do nothing: a process without output has none to show."""
+
+    def __getitem__(self, key: Any) -> list[ProcessIO]:
+        """Return the output of a process, given by its action or its name."""
+        return [event for event in self if key in (event.action, event.process_name)]
+
+    def waitFor(
+        self,
+        expected_output: Any,
+        process: Any = None,
+        cmd_args: Any = None,
+        *,
+        timeout: float | None = 10,
+        **options: Any,
+    ) -> bool:
+        """Wait for output; return whether it came in time.
+
+        Args:
+            expected_output: A text, a pattern, or a list of these in order.
+            process: The process, by its action or a part of its name; None for any.
+            cmd_args: Arguments that it has, where a name fits several.
+            timeout: Seconds to wait at most.
+            options: As for `assertInStream`.
+
+        Raises:
+            NoMatchingProcessException: If the process has written nothing at all.
+        """
+
+        def is_there() -> bool:
+            try:
+                assertInStream(self, expected_output, process, cmd_args, **options)
+            except AssertionError:
+                return False
+            return True
+
+        found = self.holds_within(is_there, timeout)
+        if not found:
+            resolveProcesses(self, process=process, cmd_args=cmd_args, strict_proc_matching=False)
+        return found
+
+    def assertWaitFor(self, *args: Any, **kwargs: Any) -> None:
+        """Wait for output as `waitFor` does.
+
+        Raises:
+            AssertionError: If it does not come in time.
+        """
+        assert self.waitFor(*args, **kwargs), "Waiting for output timed out"
+
+
+ActiveProcInfoHandler, ActiveIoHandler = ProcInfoHandler, IoHandler
+
+
+def _described(action: Any) -> str:
+    details = action.process_details or {"name": "not started", "cmd": ()}
+    return " ".join((details["name"], *details["cmd"][1:]))
+
+
+def resolveProcesses(
+    info_obj: Any, *, process: Any = None, cmd_args: Any = None, strict_proc_matching: bool = True
+) -> list[Any]:
+    """Return the actions of recorded processes.
+
+    Args:
+        info_obj: A record.
+        process: An action, a part of a name, or None for all.
+        cmd_args: With a name: an argument or several, or NO_CMD_ARGS.
+        strict_proc_matching: Whether a name may fit only one.
+
+    Raises:
+        NoMatchingProcessException: If there is none.
+        ValueError: If a name fits several.
+        TypeError: If `process` is something else.
+    """
+    known = info_obj.processes()
+    if process is None or isinstance(process, Startable):
+        found = [one for one in known if process in (None, one)]
+        if not found:
+            whose = "any process" if process is None else f"proc {_described(process)}"
+            raise NoMatchingProcessException(f"No data recorded for {whose}")
+        return found
+    if not isinstance(process, str):
+        raise TypeError(f"a process is named by its action or a text, not by {process!r}")
+    wanted = [cmd_args] if isinstance(cmd_args, str) else cmd_args
+
+    def fits(action: Any) -> bool:
+        arguments = action.process_details["cmd"][1:]
+        if cmd_args is NO_CMD_ARGS:
+            return not arguments
+        return cmd_args is None or all(one in arguments for one in wanted)
+
+    found = [one for one in known if process in one.process_details["name"] and fits(one)]
+    names = ", ".join(sorted(map(_described, known)))
+    if not found:
+        raise NoMatchingProcessException(
+            f"Did not find any processes matching name '{process}' and args '{cmd_args}'. "
+            f"Procs: {names}"
+        )
+    if strict_proc_matching and len(found) > 1:
+        raise ValueError(
+            f"Found multiple processes matching name '{process}' and cmd_args '{cmd_args}'. "
+            f"Procs: {names}"
+        )
+    return found
+
+
+def assertExitCodes(
+    proc_info: Any,
+    allowable_exit_codes: Collection[int] = (EXIT_OK,),
+    process: Any = None,
+    cmd_args: Any = None,
+    *,
+    strict_proc_matching: bool = True,
+) -> None:
+    """Check the exit statuses of processes, of all unless one is named.
+
+    Raises:
+        AssertionError: If one is not among the allowed ones.
+    """
+    for code in allowable_exit_codes:
+        assert isinstance(code, int), f"Provided exit code {code} is not an int"
+    for action in resolveProcesses(
+        proc_info, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching
+    ):
+        event = proc_info[action]
+        assert event.returncode in allowable_exit_codes, (
+            f"Proc {event.process_name} exited with code {event.returncode}"
+        )
+
+
+def assertInStream(
+    proc_output: Any,
+    expected_output: Any,
+    process: Any,
+    cmd_args: Any = None,
+    *,
+    output_filter: Callable[[str], str] | None = None,
+    strict_proc_matching: bool = True,
+    strip_ansi_escape_sequences: bool = True,
+    stream: str = "stderr",
+) -> None:
+    """Check that a process has written something.
+
+    Args:
+        proc_output: The record of output.
+        expected_output: A text, a pattern, or a list of these in order.
+        process: The process, by its action or a part of its name.
+        cmd_args: Arguments that it has, where a name fits several.
+        output_filter: Changes the output before it is compared.
+        strict_proc_matching: Whether a name may fit only one process.
+        strip_ansi_escape_sequences: Whether colours are removed before.
+        stream: "stdout" or "stderr".
+
+    Raises:
+        AssertionError: If it is in none of their outputs.
+        ValueError: If there is no such stream.
+    """
+    if stream not in ("stdout", "stderr"):
+        raise ValueError(f"a stream is 'stdout' or 'stderr', not {stream!r}")
+    match = build_text_match(expected_output)
+    found = resolveProcesses(
+        proc_output, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching
+    )
+    for action in found:
+        written = (line for line in proc_output[action] if line.from_stdout == (stream == "stdout"))
+        text = "".join(line.text.decode() for line in written)
+        if strip_ansi_escape_sequences:
+            text = without_escapes(text)
+        if match(text if output_filter is None else output_filter(text)) is not None:
+            return
+    names = ", ".join(sorted(action.process_details["name"] for action in found))
+    raise AssertionError(
+        f"Did not find '{expected_output}' in output for any of the matching processes: {names}"
+    )
+
+
+def assertInStdout(
+    proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, **options: Any
+) -> None:
+    """Check that a process has written something to its standard output."""
+    assertInStream(proc_output, expected_output, process, cmd_args, **options, stream="stdout")
+
+
+def assertInStderr(
+    proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, **options: Any
+) -> None:
+    """Check that a process has written something to its standard error."""
+    assertInStream(proc_output, expected_output, process, cmd_args, **options, stream="stderr")
+
+
+def assertDefaultStream() -> str:
+    """Return the stream that `assertInStream` takes unless told."""
+    return "stderr"
+
+
+class SequentialTextChecker:
+    """Search for texts in an output, each after the one before."""
+
+    def __init__(self, output: list[str]) -> None:
+        """Search in pieces of output; no text is found across two of them."""
+        self._output = output
+        self._piece = self._column = 0
+
+    def assertInStdout(self, msg: str) -> None:
+        """Check that a text follows.
+
+        Raises:
+            AssertionError: If it does not.
+        """
+        column = self._column
+        for piece in range(self._piece, len(self._output)):
+            at = self._output[piece].find(msg, column)
+            if at >= 0:
+                self._piece, self._column = piece, at + len(msg)
+                return
+            column = 0
+        raise AssertionError(
+            f"'{msg}' not found in sequence after previous match.  "
+            f"The output near the last matched line:\n{self.get_nearby_lines()}"
+        )
+
+    assertInText = assertInStdout
+
+    def get_nearby_lines(self) -> str:
+        """Return the line that was found last, with two on either side."""
+        lines = "".join(self._output).splitlines()
+        before = "".join(self._output[: self._piece])
+        before += "".join(self._output[self._piece : self._piece + 1])[: self._column]
+        at = before.count("\n")
+        return "\n".join(lines[max(0, at - 2) : at + 3])
+
+
+@contextmanager
+def assertSequentialStdout(
+    proc_output: Any, process: Any, cmd_args: Any = None
+) -> Iterator[SequentialTextChecker]:
+    """Check inside this block that a process has written texts in order."""
+    (action,) = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)
+    yield SequentialTextChecker([line.text.decode() for line in proc_output[action]])
+
+
+class ProcessProxy:
+    """A process with its state and its output."""
+
+    def __init__(
+        self,
+        process_action: Any,
+        proc_info: ProcInfoHandler,
+        proc_output: IoHandler,
+        *,
+        output_filter: Callable[[str], str] | None = None,
+    ) -> None:
+        self.target_process_action = process_action
+        self._info, self._output, self._filter = proc_info, proc_output, output_filter
+
+    def wait_for_shutdown(self, timeout: float | None = None) -> bool:
+        """Wait for its end; return whether it came in time."""
+        return self._info.holds_within(lambda: self.terminated, timeout)
+
+    def wait_for_output(
+        self, condition: Callable[[str], bool] = lambda _: True, timeout: float | None = None
+    ) -> bool:
+        """Wait until its output is as a function says; return whether it is in time."""
+        return self._output.holds_within(lambda: self.running and condition(self.output), timeout)
+
+    def _text(self, *streams: bool) -> str:
+        lines = self._output[self.target_process_action]
+        text = "".join(line.text.decode() for line in lines if line.from_stdout in streams)
+        return text if self._filter is None else self._filter(text)
+
+    @property
+    def stdout(self) -> str:
+        """Return what it has written to its standard output."""
+        return self._text(True)
+
+    @property
+    def stderr(self) -> str:
+        """Return what it has written to its standard error."""
+        return self._text(False)
+
+    @property
+    def output(self) -> str:
+        """Return what it has written."""
+        return self._text(True, False)
+
+    def _is(self, state: type) -> bool:
+        known = {event.action: event for event in self._info}
+        return isinstance(known.get(self.target_process_action), state)
+
+    @property
+    def running(self) -> bool:
+        """Whether it runs."""
+        return self._is(ProcessStarted)
+
+    @property
+    def terminated(self) -> bool:
+        """Whether it has ended."""
+        return self._is(ProcessExited)
+
+    @property
+    def exit_code(self) -> int:
+        """Its exit status."""
+        return int(self._info[self.target_process_action].returncode)
+
+
+@contextmanager
+def launch_process(
+    launch_service: Any,
+    process_action: Any,
+    proc_info: ProcInfoHandler,
+    proc_output: IoHandler,
+    **options: Any,
+) -> Iterator[ProcessProxy]:
+    """Run a process inside this block; `options` are those of ProcessProxy."""
+    launch_service.include_launch_description(LaunchDescription([process_action]))
+    try:
+        yield ProcessProxy(process_action, proc_info, proc_output, **options)
+    finally:
+        matcher = matches_action(process_action)
+        launch_service.emit_event(ShutdownProcess(process_matcher=matcher))

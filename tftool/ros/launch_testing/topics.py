@@ -1,0 +1,166 @@
+"""launch_testing_ros: helpers of launch tests that use topics."""
+
+import random
+import string
+from collections import deque
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import Any
+
+from tftool.ros.host.locks import StateMonitor
+from tftool.ros.host.shims import UserThread
+from tftool.ros.rclpy import core
+from tftool.ros.rclpy.context import Context
+from tftool.ros.rclpy.exceptions import ExternalShutdownException
+from tftool.ros.rclpy.executors import SingleThreadedExecutor
+from tftool.ros.rclpy.node import Node
+
+
+class MessagePump:
+    """Spins a node on a thread."""
+
+    def __init__(self, node: Any, context: Any = None) -> None:
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(node)
+        self._is_over = False
+        self._thread = UserThread(target=self._spin, name="msg_pump_thread")
+
+    def _spin(self) -> None:
+        try:
+            while not self._is_over:
+                self._executor.spin_once(timeout_sec=0.1)
+        except ExternalShutdownException:
+            return
+
+    def start(self) -> None:
+        """Start spinning."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop spinning."""
+        self._is_over = True
+        self._thread.join()
+
+
+class WaitForTopics:
+    """Waits for a message on each of some topics; as a block it raises if one does not come."""
+
+    def __init__(
+        self,
+        topic_tuples: Iterable[tuple[str, Any]],
+        timeout: float = 5.0,
+        messages_received_buffer_length: int | None = 10,
+    ) -> None:
+        """Make a node of its own.
+
+        Args:
+            topic_tuples: The topics, each with the type of its messages.
+            timeout: Seconds to wait at most.
+            messages_received_buffer_length: How many messages of each are kept; None for all.
+        """
+        self.topic_tuples, self.timeout = list(topic_tuples), timeout
+        self._kept = messages_received_buffer_length
+        self._state = StateMonitor()
+        self._messages: dict[str, deque[Any]] = {}
+        self._context = Context()
+        core.init(context=self._context)
+        letters = "".join(random.choices(string.ascii_uppercase + string.digits, k=10))
+        self._node = Node(f"_test_node_{letters}", context=self._context)
+        self._pump = MessagePump(self._node, self._context)
+        self._pump.start()
+
+    def wait(self) -> bool:
+        """Wait for a message on each; return whether all have come."""
+        for topic, kind in self.topic_tuples:
+            if topic not in self._messages:
+                kept = self._messages[topic] = deque(maxlen=self._kept)
+                self._node.create_subscription(kind, topic, partial(self._take, kept), 10)
+            self._messages[topic].clear()
+        return self._state.wait(lambda: all(self._messages.values()), self.timeout)
+
+    def _take(self, kept: deque[Any], message: Any) -> None:
+        self._state.change(lambda: kept.append(message))
+
+    def shutdown(self) -> None:
+        """Destroy its node."""
+        self._pump.stop()
+        self._node.destroy_node()
+        self._context.try_shutdown()
+
+    def topics_received(self) -> set[str]:
+        """Return the topics on which a message has come."""
+        return {topic for topic, messages in self._messages.items() if messages}
+
+    def topics_not_received(self) -> set[str]:
+        """Return the topics on which none has come."""
+        return {topic for topic, _ in self.topic_tuples} - self.topics_received()
+
+    def received_messages(self, topic_name: str) -> list[Any]:
+        """Return the last messages of a topic.
+
+        Raises:
+            KeyError: If it is not among those waited for.
+        """
+        if topic_name not in self._messages:
+            raise KeyError(f"No messages received for topic: {topic_name}")
+        return list(self._messages[topic_name])
+
+    def __enter__(self) -> "WaitForTopics":
+        if not self.wait():
+            missing = self.topics_not_received()
+            self.shutdown()
+            raise RuntimeError("Did not receive messages on these topics: ", missing)
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.shutdown()
+
+
+class DataRepublisher:
+    """Publishes the messages of one topic on another, changed by a function."""
+
+    def __init__(
+        self,
+        node: Any,
+        listen_topic: str,
+        publish_topic: str,
+        msg_type: Any,
+        transform_fn: Callable[[Any], Any],
+    ) -> None:
+        """Start.
+
+        Args:
+            node: The node that does it.
+            listen_topic: Where messages come from.
+            publish_topic: Where they go.
+            msg_type: Their type.
+            transform_fn: Returns the changed message, or None for one to drop.
+        """
+        self._node, self._change = node, transform_fn
+        self._received = 0
+        self._republished: list[Any] = []
+        self._publisher = node.create_publisher(msg_type, publish_topic, 10)
+        self._subscription = node.create_subscription(msg_type, listen_topic, self._take, 10)
+
+    def _take(self, message: Any) -> None:
+        self._received += 1
+        if changed := self._change(message):
+            self._republished.append(message)
+            self._publisher.publish(changed)
+
+    def shutdown(self) -> None:
+        """Stop."""
+        self._node.destroy_subscription(self._subscription)
+        self._node.destroy_publisher(self._publisher)
+
+    def get_num_received(self) -> int:
+        """Return how many messages have come."""
+        return self._received
+
+    def get_num_republished(self) -> int:
+        """Return how many were published."""
+        return len(self._republished)
+
+    def get_republished(self) -> list[Any]:
+        """Return the messages that were published."""
+        return self._republished
