@@ -107,7 +107,7 @@ def test_the_remedy_of_a_timeout_is_that_of_its_refusal_from_the_beginning():
 def test_a_path_where_a_recording_is_wanted_is_told_how_to_open_it(ask):
     with pytest.raises(TypeError, match=r"not 'run.mcap': tftool.open_recording\('run.mcap'\)"):
         ask("run.mcap")
-    with pytest.raises(TypeError, match="a Recording or a Buffer is wanted, not 42"):
+    with pytest.raises(TypeError, match="expected a Recording or a Buffer, not 42"):
         ask(42)
 
 

@@ -34,7 +34,7 @@ def refused(read, path):
 
 
 def test_a_pipe_into_which_no_process_writes_is_refused(pipe):
-    assert refused(read_named, pipe) == "it is a pipe into which no process writes"
+    assert refused(read_named, pipe) == "it is a pipe, and no process writes into it"
     assert refused(open_regular, pipe) == "it is no regular file"
 
 
@@ -63,7 +63,7 @@ def test_files_are_read_whole_folders_and_what_never_ends_are_refused(tmp_path):
         assert opened.read() == read_named(file) == file.read_bytes()
     for read in (open_regular, read_named):
         assert refused(read, tmp_path) == "Is a directory"
-    assert refused(read_named, "/dev/zero") == f"more than {LARGEST >> 20} MiB come out of it"
+    assert refused(read_named, "/dev/zero") == f"it is larger than {LARGEST >> 20} MiB"
     assert answered(lambda: read_named("/dev/null")) == b""
 
 

@@ -420,7 +420,7 @@ def test_what_is_no_sample_is_refused_by_what_one_is(buffer, sample, static):
     put(buffer, 0.5)
     setter = buffer.set_transform_static if static else buffer.set_transform
 
-    with pytest.raises(TypeError, match=r"what is set is a TransformStamped\(stamp, .* not "):
+    with pytest.raises(TypeError, match=r"expected a TransformStamped\(stamp, .* not "):
         setter(sample, "me")
 
     assert buffer.snapshot(0).frame("turtle1").samples == 1

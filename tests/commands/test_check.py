@@ -227,7 +227,7 @@ def test_a_report_goes_to_no_file_called_dash(tftool, scenarios):
     result = tftool("check", "good.yaml", "--junit", "-")
 
     assert result.status == 2
-    assert "'-' stands for stdout" in result.err
+    assert "'-' means stdout" in result.err
     assert not (scenarios / "-").exists()
 
 

@@ -49,7 +49,7 @@ def test_a_domain_in_the_environment_that_is_none_is_named(tftool, monkeypatch, 
     ("words", "told"),
     [
         (["--join", "--host"], "contradict each other"),
-        (["--host", "--read-only"], "cannot --host one"),
+        (["--host", "--read-only"], "cannot --host a session"),
         (["--listen", "7448"], "'7448' is no endpoint"),
         (["--connect", "http/localhost:1"], "'http/localhost:1' is no endpoint"),
         (["--connect", "tcp/127.0.0.1"], "'tcp/127.0.0.1' has no port: write tcp/HOST:PORT"),
@@ -58,7 +58,7 @@ def test_a_domain_in_the_environment_that_is_none_is_named(tftool, monkeypatch, 
         (["--connect", "tcp/there#iface=lo:1"], "has no port"),
         (["--connect", "tls/there:7448"], "needs --tls-cert, --tls-key and --tls-ca"),
         (["--tls-cert", "pyproject.toml"], "give --tls-cert, --tls-key and --tls-ca together"),
-        (["--zenoh-config", "README.md", "--listen", "tcp/0.0.0.0:1"], "says all endpoints"),
+        (["--zenoh-config", "README.md", "--listen", "tcp/0.0.0.0:1"], "sets all endpoints"),
         (["--domain", "233"], "233"),
     ],
 )
@@ -90,7 +90,7 @@ def test_a_named_world_cannot_be_joined(tftool, words):
     result = tftool(*words, "--join")
 
     assert result.status == 2
-    assert "'robot' is always hosted: leave out --join, or the name." in result.err
+    assert "'robot' is always hosted: leave out --join, or the name of the scenario." in result.err
 
 
 @pytest.mark.parametrize("option", [["--listen", "tcp/127.0.0.1:7999"], ["--read-only"]])

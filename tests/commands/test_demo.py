@@ -112,7 +112,7 @@ def test_a_run_without_end_is_refused(tftool, seconds):
         result = tftool(words[0], "--for", seconds, *words[1:])
 
         assert result.status == 2
-        assert "is too long for simulated time: a day is played at most" in result.err
+        assert "is too long for simulated time, which is limited to a day" in result.err
 
 
 def test_a_scenario_may_expect_nothing(tftool, tmp_path):

@@ -73,8 +73,8 @@ def test_info_for_programs_holds_the_same(tftool, robot):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["doctor"], "publishes nothing to judge"),
-        (["monitor"], "no message arrives"),
+        (["doctor"], "without published transforms"),
+        (["monitor"], "which sends no messages"),
         (["demo"], "a scenario is needed here"),
     ],
 )

@@ -64,7 +64,7 @@ def test_a_dash_is_no_name_of_a_file(tftool, run, tmp_path, monkeypatch, words):
     result = tftool("export", *words[:-2], run, *words[-2:], "-o", "-")
 
     assert result.status == 2
-    assert "'-' stands for stdout, to which this is not written: name a file." in result.err
+    assert "'-' means stdout, to which this cannot be written: name a file." in result.err
     assert os.listdir(tmp_path) == ["run.mcap"]
 
 
@@ -383,7 +383,7 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
     for name in ("run.mcap", "link.mcap"):
         result = tftool("export", run, "-o", tmp_path / name, "--force")
         assert result.status == 2
-        assert "is being read" in result.err
+        assert "is the input" in result.err
     assert run.read_bytes() == before
 
 
@@ -391,16 +391,16 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
     ("words", "status", "told"),
     [
         (["odom", "base", "RUN"], 2, "-o FILE"),
-        (["odom", "base", "RUN", "-o", "a.doc"], 2, "does not say what to write"),
+        (["odom", "base", "RUN", "-o", "a.doc"], 2, "has no known suffix"),
         (["odom", "base", "RUN", "-o", "a.urdf"], 2, "holds links"),
         (["RUN", "-o", "a.tum"], 2, "TARGET SOURCE"),
-        (["odom", "base", "RUN", "more", "-o", "a.tum"], 2, "three words"),
+        (["odom", "base", "RUN", "more", "-o", "a.tum"], 2, "TARGET SOURCE [FROM], not 4 words"),
         (["RUN", "--pair", "odom", "-o", "a.csv"], 2, "TARGET:SOURCE"),
         (["RUN", "--pair", "odom:base", "--pair", "odom:camera", "-o", "a.tum"], 2, "one pair"),
         (["odom", "base", "RUN", "-o", "a.tum", "--rate", "1", "--every", "1"], 2, "give one"),
         (["odom", "base", "RUN", "-o", "a.tum", "--rpy"], 2, "columns of CSV"),
         (["odom", "base", "RUN", "-o", "a.tum", "--at", "1"], 2, "--from and --to"),
-        (["odom", "base", "RUN", "-o", "a.tum", "--from", "2", "--to", "1"], 2, "behind"),
+        (["odom", "base", "RUN", "-o", "a.tum", "--from", "2", "--to", "1"], 2, "is after --to"),
         (["odom", "base", "RUN", "-o", "a.tum", "--from", "100"], 2, "100 s is after its end."),
         (["odom", "base", "RUN", "-o", "a.tum", "--to", "1e9"], 2, "is before that."),
         (["odom", "base", "RUN", "-o", "a.tum", "--for", "1"], 2, "--for is for"),
@@ -411,7 +411,7 @@ def test_the_input_is_never_written_to(tftool, run, tmp_path):
         (["odom", "base", "RUN", "-o", "no/where/a.tum"], 3, "no folder"),
         (["odom", "base", "RUN", "-o", "/dev/full", "-f", "tum", "--force"], 2, "device"),
         (["RUN", "-o", "a.sh", "--at", "1"], 2, "--with-moving"),
-        (["RUN", "-o", "a.sh", "--with-moving"], 2, "moving links have none"),
+        (["RUN", "-o", "a.sh", "--with-moving"], 2, "moving links cannot be written"),
         (["RUN", "-o", "a.urdf", "--foxglove"], 2, "MCAP"),
         (["RUN", "-o", "a.urdf", "--root", "nope"], 4, "nope"),
     ],

@@ -226,7 +226,7 @@ def test_a_place_that_needs_another_package_is_wrong_usage(tftool):
     ("words", "told"),
     [
         (["--scheduler", "tcp://127.0.0.1:1"], "add -o FILE"),
-        (["-o", "x.jsonl", "-j", "2", "--scheduler", "tcp://127.0.0.1:1"], "leave out --jobs"),
+        (["-o", "x.jsonl", "-j", "2", "--scheduler", "tcp://127.0.0.1:1"], "leave --jobs out"),
         (["-o", "x.jsonl", "--scheduler", "nothing"], "is no address of a Dask scheduler"),
     ],
 )

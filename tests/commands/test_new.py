@@ -106,12 +106,12 @@ def test_what_is_there_already_is_left_alone(tftool, place, words):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["Bad-Name"], "is no name for a package"),
-        (["import"], "Python's own"),
-        (["random"], "Python's own"),
+        (["Bad-Name"], "is no valid package name"),
+        (["import"], "of Python"),
+        (["random"], "of Python"),
         (["my_frames", "--example", "carot"], "there is no example 'carot'"),
-        (["rclpy"], "a package of ROS 2's own"),
-        (["geometry_msgs"], "a package of ROS 2's own"),
+        (["rclpy"], "a package of ROS 2"),
+        (["geometry_msgs"], "a package of ROS 2"),
         (["mine.yaml"], "With --scenario it is a scenario."),
     ],
 )
@@ -177,8 +177,8 @@ def test_a_package_of_one_empty_node_runs_by_its_name_and_builds(tftool, place):
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("a", "--node-name", "my-node"), "is no name for a node"),
-        (("a", "--node-name", "class"), "is no name for a node"),
+        (("a", "--node-name", "my-node"), "is no valid node name"),
+        (("a", "--node-name", "class"), "is no valid node name"),
         (("a", "--node-name", "b", "--exercise"), "leave out --node-name"),
         (("a", "--scenario", "--exercise"), "--scenario makes no package"),
     ],

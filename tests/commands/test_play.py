@@ -40,8 +40,8 @@ def test_over_and_over_it_tells_of_every_jump_back(tftool, simulated, run):
     ("words", "sentence"),
     [
         (["--from", "99"], "The recording lasts 0."),
-        (["--to", "99"], "99 s lies outside it"),
-        (["--from", "0.3", "--to", "0.1"], "--from 0.3 s lies after --to 0.1 s"),
+        (["--to", "99"], "99 s is outside of that"),
+        (["--from", "0.3", "--to", "0.1"], "--from 0.3 s is after --to 0.1 s"),
         (["--rate", "0"], "is not between 0.01 and 100"),
         (["--restamp", "yesterday"], "yesterday"),
         (["--read-only"], "--read-only publishes nothing"),
@@ -72,7 +72,7 @@ def test_where_no_one_can_join_the_other_topics_go_nowhere(tftool, simulated, ru
     result = tftool("play", run, "--all")
 
     assert result.status == 0
-    assert "--all sends nothing else" in result.err
+    assert "--all has no effect here" in result.err
 
 
 @pytest.mark.parametrize(

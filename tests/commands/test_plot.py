@@ -211,7 +211,7 @@ def test_in_python_it_draws_into_axes_of_ones_own():
     assert above.get_xlabel() == "time, s"
     assert np.allclose(above.lines[0].get_ydata()[0], 126.0)
     assert (below.get_xlabel(), below.get_ylabel()) == ("x, m", "y, m")
-    with pytest.raises(library.UsageError, match="one panel, and these are 5"):
+    with pytest.raises(library.UsageError, match="one panel, not 5"):
         library.plot(path, ax=above, what=["position", "yaw", "distance", "speed", "turn rate"])
     assert matplotlib
 

@@ -91,18 +91,21 @@ def test_a_finding_of_the_doctors_ends_it_and_is_said(here, tftool):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["-o", "run.bag"], "'.mcap' does"),
+        (["-o", "run.bag"], "use '.mcap'"),
         (
             ["-o", "run.mcap", "--max-duration", "2"],
             "into a folder: name one, without '.mcap' (-o run)",
         ),
         (["-o", "run", "--max-size", "lots"], "--max-size takes a number"),
-        (["-o", "run", "--max-size", "5k"], "less than a file needs"),
+        (["-o", "run", "--max-size", "5k"], "is too small"),
         (["-o", "run", "--ring", "5", "--max-size", "5M"], "--ring writes one file"),
         (["-o", "run.mcap", "--on", "split-tre"], "did you mean split-tree"),
         (["-o", "there.mcap"], "exists: --force"),
         (["-o", "run.mcap", "orbit"], "--in orbit records a scenario, /orbit a topic of that name"),
-        (["-o", "run.mcap", "there.mcap"], "'there.mcap' is a scenario or a file, and topics are"),
+        (
+            ["-o", "run.mcap", "there.mcap"],
+            "'there.mcap' is a scenario or a file, and the words here are topics",
+        ),
     ],
 )
 def test_what_contradicts_is_refused_before_anything_runs(here, tftool, words, told):

@@ -161,7 +161,7 @@ def test_a_recording_in_the_place_of_a_frame_is_told(tftool, run, command):
     result = tftool(*command, "base_link", run)
 
     assert result.status == 2
-    assert "a frame's name is expected here: write two frames before it" in result.err
+    assert "the words here are frames: write two of them before it" in result.err
 
 
 def test_topics_there_are_stand_beside_one_there_is_not(tftool, run):
@@ -246,7 +246,7 @@ def test_echo_answers_at_the_moments_of_messages(tftool, run):
     assert told == np.array(scans)[valid].tolist()
     assert valid.all()
     missing = tftool("echo", "map", "laser", run, "--at-stamps-of", "/scan")
-    assert "At 1 of 15 moments there is no answer." in missing.err
+    assert "1 of 15 lookups were refused." in missing.err
     assert tftool("echo", "odom", "laser", run, "--at-stamps-of", "/scam").status == 3
     assert tftool("echo", "odom", "laser", "--at-stamps-of", "/scan").status == 2
 

@@ -125,7 +125,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
     ("argv", "status", "told"),
     [
         (["run", "gone.py"], 3, "cannot read 'gone.py': No such file"),
-        (["run", "--simulated", "x.py"], 2, "needs an end: --for SECONDS"),
+        (["run", "--simulated", "x.py"], 2, "needs --for SECONDS"),
         (["run", "pkg_tf"], 2, "which executable of package 'pkg_tf'? (dynamic_carrot"),
         (["run", "pkg_tff", "x"], 2, "did you mean 'pkg_tf'?"),
         (["run", "pkg_tf", "turtle_folowing"], 2, "did you mean 'turtle_following'?"),
@@ -137,7 +137,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
             "'out' is not a topic of a turtle: give --remap turtle1/cmd_vel:=turtle2/cmd_vel",
         ),
         (["run", "pkg_tf", "rotate", "--ros-args", "-q"], 2, "'-q' is no option after --ros-args"),
-        (["run", "pkg_tf", "rotate", "--ros-args", "-p"], 2, "'-p' after --ros-args wants a value"),
+        (["run", "pkg_tf", "rotate", "--ros-args", "-p"], 2, "'-p' after --ros-args needs a value"),
         (["run", "pkg_tf", "rotate", "--ros-args", "-p", "x"], 2, "write name:=value"),
         (["run", "pkg_tf", "rotate", "--ros-args", "-r", "x"], 2, "write old:=new"),
         (["run", "pkg_tf", "rotate", "--ros-args", "--params-file", "no"], 3, "cannot read the"),
@@ -149,7 +149,7 @@ def test_show_args_prints_what_a_file_takes(capsys):
         (["launch", "nothing", "x"], 2, "there is no package 'nothing' below"),
         (["launch", "pkg_tf", "carrot.launch.xml", "x"], 2, "'x' is no launch argument"),
         (["launch", "pkg_tf", "carrot.launch.xml", "sorce_frame:=x"], 2, "mean 'source_frame"),
-        (["launch", "pkg_tf", "carrot.launch.xml", "--simulated"], 2, "needs an end"),
+        (["launch", "pkg_tf", "carrot.launch.xml", "--simulated"], 2, "needs --for SECONDS"),
     ],
 )
 def test_what_cannot_be_run_is_said_in_one_sentence(capsys, argv, status, told):
@@ -256,7 +256,7 @@ def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch
     said = capsys.readouterr().err
     assert "'mine' has been busy for 1.5 s and simulated time waits for it" in said
     assert "endless.py:5, in tick: while True:" in said or "endless.py:6, in tick: pass" in said
-    assert "'endless' did not come to rest for 3 s" in said
+    assert "'endless' has not waited for anything for 3 s" in said
 
 
 @pytest.mark.parametrize("swallows", [False, True])

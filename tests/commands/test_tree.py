@@ -102,7 +102,7 @@ def test_a_pdf_goes_down_a_pipe_as_bytes():
 @pytest.mark.parametrize(
     ("words", "status", "sentence"),
     [
-        (["-o", "frames.bmp"], 2, "'frames.bmp' does not say what to write"),
+        (["-o", "frames.bmp"], 2, "'frames.bmp' has no known suffix"),
         (["-o", "/"], 2, "'/' is a folder: name a file in it."),
         (
             ["-o", "/nowhere/frames.svg"],

@@ -117,7 +117,7 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
         few.sent("odom", "base_link", at, (0.5 * at + 0.04, 0.0, 0.0, *NO_TURN))
     conflict = found(few, "publisher-conflict")
     assert (conflict.severity, conflict.confidence) == (Severity.WARNING, Confidence.POSSIBLE)
-    assert [fix.text.split(":")[0] for fix in conflict.fixes] == ["find out who publishes it"]
+    assert [fix.text.split(":")[0] for fix in conflict.fixes] == ["find its publishers"]
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])
@@ -434,7 +434,7 @@ def test_a_picture_in_optical_axes_is_fine_whatever_its_name():
     sideways.hears("/image", "camera_frame", kind="sensor_msgs/Image")
     finding = found(sideways, "image-not-optical")
     assert finding.confidence is Confidence.POSSIBLE
-    assert finding.fixes[0].text.startswith("look whether")
+    assert finding.fixes[0].text.startswith("check whether")
 
 
 def test_odometry_to_a_link_below_the_root_of_the_mounts_is_one_finding():

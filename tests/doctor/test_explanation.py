@@ -129,7 +129,7 @@ def test_a_question_after_the_recording_blames_no_link_that_went_on_until_its_en
     assert found.why == (
         "the recording ends with base_link in odom at 1750000007.980, 4.02 s before the question",
     )
-    assert found.remedies[0].text == "ask about 1750000007.980, or before"
+    assert found.remedies[0].text == "ask for 1750000007.980 or earlier"
 
 
 def test_a_moment_in_a_hole_waits_for_its_end():
@@ -176,8 +176,8 @@ def test_two_clocks_never_meet():
             "odom",
             "camera_link",
             Cause.SPLIT,
-            "nothing in the data says where camera_link belongs: look at what should publish it "
-            "(a driver, the robot description and its joint states, a localiser)",
+            "nothing in the data says where camera_link belongs: check the node that should "
+            "publish it (a driver, the robot description and its joint states, a localiser)",
         ),
     ],
 )

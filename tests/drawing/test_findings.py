@@ -38,22 +38,24 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "error  split-tree: camera_link is not joined to the tree of odom",
         "       tree 2: camera_link, camera_optical; used by /image (80 messages)",
         "       so:  nothing in it can be placed in odom, and nothing of odom in it",
-        "       fix: nothing in the data says where camera_link belongs: look at what should "
-        "publish it (a driver, the robot description and its joint states, a localiser)",
+        "       fix: nothing in the data says where camera_link belongs: check the node that "
+        "should publish it (a driver, the robot description and its joint states, a "
+        "localiser)",
         "",
-        "note  latched-overwrite: statics are spread over 2 messages",
+        "note  latched-overwrite: statics are in 2 messages",
         "       the last lacks laser",
         "       so:  a player that publishes them from one node keeps only the last for late "
         "listeners",
         "       fix: start listeners before playing",
-        "            or bring them into one message:",
+        "            or combine them in one message:",
         "            tftool edit RECORDING -o WHOLE --statics-first",
         "",
         "warning  teleport: base_link in odom jumps 2.51 m within 20 ms",
         "       base_link in odom: 2.51 m and 0° at 1750000005.020, once; usual 0.5 m/s",
-        "       so:  what is placed before and after does not fit; REP-105 wants this transform "
+        "       so:  things placed before and after the jump do not fit together; REP-105 "
+        "wants this transform "
         "continuous",
-        "       fix: look at the source at that moment: encoder overflow, a reset of the filter, "
+        "       fix: check the source at that moment: encoder overflow, a reset of the filter, "
         "wheel slip, a tracker that mistook the body",
         "",
         "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /image)"

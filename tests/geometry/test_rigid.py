@@ -79,7 +79,7 @@ def test_a_transform_is_a_value():
         ((1, 2, 3), (0, 0, 1), "a rotation is 4 numbers, not 3"),
         (("x", 2, 3), (0, 0, 0, 1), "a translation is 3 numbers, not"),
         (None, (0, 0, 0, 1), "a translation is 3 numbers, not None"),
-        ((1, 2, 3), (0, 0, 0, 0), r"no turn at all is \(0, 0, 0, 1\)"),
+        ((1, 2, 3), (0, 0, 0, 0), r"the identity is \(0, 0, 0, 1\)"),
     ],
 )
 def test_what_is_no_transform_is_refused_with_a_sentence(translation, rotation, told):
@@ -160,7 +160,7 @@ def test_other_values_are_neither_put_together_nor_repeated(value):
         lambda: 2 * value,
         lambda: plain + value,
     ):
-        with pytest.raises(TypeError, match=f"a {name} is no list"):
+        with pytest.raises(TypeError, match=f"a {name} cannot be joined"):
             compute()
 
 

@@ -190,7 +190,7 @@ def test_a_workspace_can_add_definitions_of_its_own():
     [
         (("msg", "A"), "float64", "'float64' is no field; write 'type name'"),
         (("msg", "A"), "Unknown x", "field 'x': there is no interface pkg/msg/Unknown"),
-        (("srv", "A"), "int8 x", "2 parts set apart by '---' make it up, this has 1"),
+        (("srv", "A"), "int8 x", "2 parts separated by '---' are expected, not 1"),
     ],
 )
 def test_a_wrong_definition_is_refused_with_its_name(key, text, told):
@@ -215,7 +215,7 @@ def test_a_message_that_contains_itself_is_refused_with_the_fields_that_lead_the
 
     assert str(refused.value) == (
         "pkg/msg/Shop: field 'stock': pkg/msg/Tree: field 'b': pkg/msg/Branch: field 't': "
-        "pkg/msg/Tree contains itself, so no message of it can ever be made"
+        "pkg/msg/Tree contains itself, so that no message of it can exist"
     )
 
 

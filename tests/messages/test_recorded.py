@@ -167,7 +167,11 @@ def test_a_services_event_is_read_from_the_definition_of_the_service():
         ("pkg/A", "int8", "pkg/msg/A: 'int8' is no field"),
         ("pkg/A", "no/such/Type x", "'no/such/Type' is no name of an interface"),
         ("pkg/A", f"int8 x\n{RULE}\nint8 y", "does not begin with 'MSG: name'"),
-        ("pkg/A", f"int8 x\n{RULE}\nIDL: pkg/msg/B\nmodule pkg", "in IDL, which is not read"),
+        (
+            "pkg/A",
+            f"int8 x\n{RULE}\nIDL: pkg/msg/B\nmodule pkg",
+            "in IDL, and only .msg can be read",
+        ),
         ("pkg/A", "int8 X=three", "pkg/msg/A: 'X': 'three' is no int8"),
         ("pkg/A", "int8 x three", "pkg/msg/A: 'x': 'three' is no int8"),
         ("pkg/A", f"int8 x {'9' * 5000}", "is no int8"),
@@ -180,7 +184,7 @@ def test_a_services_event_is_read_from_the_definition_of_the_service():
             "L0 x"
             + "".join(f"\n{RULE}\nMSG: pkg/L{n}\nL{n + 1} x" for n in range(1000))
             + f"\n{RULE}\nMSG: pkg/L1000\nint8 x",
-            "more than 64 messages lie within each other",
+            "more than 64 levels of nested messages",
         ),
     ],
 )

@@ -155,8 +155,8 @@ def test_a_file_that_may_not_be_read_is_left_out_of_many(tmp_path, locked, word)
     with open_recording(f"{folder}{word}") as recording:
         count = len(recording.transforms)
         assert recording.damage == (
-            f"locked.mcap is left out: '{folder / 'locked.mcap'}' may not be read: "
-            "permission denied.",
+            f"locked.mcap is left out: '{folder / 'locked.mcap'}' cannot be read: permission "
+            "denied.",
         )
     report = edit([f"{folder}{word}"], tmp_path / "out.mcap", Edits())
     assert count > 100
@@ -164,7 +164,7 @@ def test_a_file_that_may_not_be_read_is_left_out_of_many(tmp_path, locked, word)
     assert "locked.mcap is left out" in report.notes[0]
 
     locked |= {"a.mcap", "b.mcap"}
-    with pytest.raises(InputError, match=r"a\.mcap' may not be read: permission denied\.$"):
+    with pytest.raises(InputError, match=r"a\.mcap' cannot be read: permission denied\.$"):
         open_recording(f"{folder}{word}")
 
 
@@ -177,7 +177,7 @@ def test_a_part_that_may_not_be_read_or_is_none_is_left_out_of_a_split_recording
         assert len(recording.transforms) > 50
         damage = recording.damage
     assert damage[0].startswith("run_1.mcap is left out: ")
-    assert damage[0].endswith("may not be read: permission denied.")
+    assert damage[0].endswith("cannot be read: permission denied.")
     assert damage[1].startswith("run_2.mcap is left out: ")
     assert damage[1].endswith("is an empty file (0 bytes): nothing was recorded.")
     assert len(damage) == 2
@@ -272,7 +272,7 @@ def test_a_message_that_is_shorter_than_its_head_is_told(tmp_path, is_chunked):
     with open_recording(path) as recording:
         assert len(recording.transforms) > 30
         # In a chunk its index is found wrong first.
-        told = "its message index points" if is_chunked else "announces 7 bytes"
+        told = "its message index points" if is_chunked else "has the length 7 bytes"
         assert any(told in one for one in recording.damage)
 
 
@@ -290,7 +290,9 @@ def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
     with open_recording(path) as recording:
         recording.buffer.frames()
 
-        assert any("are announced" in one or "announce" in one for one in recording.damage)
+        assert any(
+            "bytes instead of" in one or "claim to unpack" in one for one in recording.damage
+        )
 
 
 def test_what_a_damaged_piece_takes_that_is_not_installed_is_told(monkeypatch):
@@ -383,7 +385,9 @@ def test_a_file_that_is_written_over_while_it_is_read_is_said_to_have_changed(
         raise OverflowError("int too large to convert")
 
     monkeypatch.setattr(Recording, "__init__", overwritten)
-    with pytest.raises(InputError, match="changed while it was read: ask again when it is whole"):
+    with pytest.raises(
+        InputError, match="changed while it was read: try again when it is complete"
+    ):
         open_recording(path)
 
 

@@ -171,7 +171,7 @@ def test_what_tells_of_a_topic_in_too_many_bytes_is_not_taken(
     except InputError as error:
         told = str(error)
 
-    assert "may have 10" in told or "0 messages were read" in told
+    assert "at most 10 are read" in told or "0 messages were read" in told
 
 
 def first_index(data, code):
@@ -406,7 +406,7 @@ def test_topics_of_a_closed_database_are_refused_and_not_counted_as_empty(tmp_pa
     with open_recording(path) as recording:
         pass
 
-    with pytest.raises(UsageError, match="is closed: read what you need"):
+    with pytest.raises(UsageError, match="is closed: read it while"):
         _ = recording.topics
     assert recording.damage == ()
 

@@ -174,7 +174,7 @@ def test_a_place_that_cannot_be_written_is_refused_with_a_sentence(tmp_path):
         tftool.write_recording(tmp_path / "missing" / "a.mcap")
     with pytest.raises(UsageError, match="no compression of MCAP"):
         tftool.write_recording(tmp_path / "a.mcap", compression="rar")
-    with pytest.raises(UsageError, match="names no container"):
+    with pytest.raises(UsageError, match="has no suffix of a recording"):
         tftool.write_recording(tmp_path / "a.txt")
 
     assert os.listdir(tmp_path) == []

@@ -179,7 +179,7 @@ def test_odd_rows_are_counted(tmp_path):
         ('{"frames": [{"file_path": "a"}]}', "found no 'transform_matrix'"),
         ("cam0:\n  T_cam_imu: [1, 2]\n", "found no matrix"),
         ("T_BS:\n  data: [1]\n", "found 1 numbers"),
-        ("P0: 1 2\n", r"a:1': expected 12 numbers behind 'P0:', found 2"),
+        ("P0: 1 2\n", r"a:1': expected 12 numbers after 'P0:', found 2"),
         ("nan nan nan 0 0 0 0 1\n", "the stamp 'nan'"),
     ],
 )

@@ -205,7 +205,7 @@ def test_what_is_there_is_replaced_only_when_asked_to(tmp_path):
 
 
 def test_names_that_cannot_hold_it_are_refused(tmp_path):
-    with pytest.raises(UsageError, match=r"'\.mcap' does"):
+    with pytest.raises(UsageError, match=r"use '\.mcap'"):
         RollingRecording(tmp_path / "a.bag")
     with pytest.raises(
         UsageError, match=r"several files, into a folder: name one, without '.mcap'"

@@ -305,13 +305,13 @@ def test_who_waits_for_an_actions_completion_too_late_is_told(tmp_path):
     )
 
     assert done.said("launch") == [
-        "an OnExecutionComplete is never told, as in ROS 2: its ExecuteProcess was carried out "
+        "this OnExecutionComplete is never called, as in ROS 2: its ExecuteProcess was executed "
         "before. Register it above its target_action"
     ]
 
 
 def test_handlers_that_set_each_other_off_without_end_are_found_out(tmp_path):
-    with pytest.raises(NodeFailed, match="set each other off without end"):
+    with pytest.raises(NodeFailed, match="trigger each other without end"):
         described(
             tmp_path, "RegisterEventHandler(OnExecutionComplete(on_completion=LogInfo(msg='x')))"
         )
@@ -446,7 +446,7 @@ def test_what_handlers_do_knows_their_event(tmp_path):
         (
             "Node(package='turtlesim', executable='turtlesim_node', parameters=["
             "{'a': ParameterValue(TextSubstitution(text='x'), value_type=int)}])",
-            "is to be int, not 'x'",
+            "must be int, not 'x'",
         ),
     ],
 )
@@ -489,10 +489,10 @@ def test_what_cannot_be_launched_is_said_in_one_sentence(tmp_path, action, told)
         ("a.launch.xml", '<launch><log message="$(not)"/></launch>', "wrong number of words"),
         ("a.launch.xml", '<launch><log message="$(eval \'1)"/></launch>', "quote .* not closed"),
         ("a.launch.yaml", "launch: [", r"yaml:1:10: "),
-        ("a.launch.yaml", "node: {}", "one key at its top, 'launch'"),
+        ("a.launch.yaml", "node: {}", "one top-level key, 'launch'"),
         ("a.launch.yaml", "launch: {}", "'launch' is a list of actions"),
         ("a.launch.yaml", "launch:\n- a\n", r"yaml:2: an action is one key"),
-        ("a.launch.yaml", "launch:\n- log: 5\n", r"yaml:2: 'log' needs its attributes"),
+        ("a.launch.yaml", "launch:\n- log: 5\n", r"yaml:2: 'log' needs attributes"),
     ],
 )
 def test_a_wrong_launch_file_is_refused_with_its_line(tmp_path, name, text, told):

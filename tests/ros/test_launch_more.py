@@ -169,7 +169,7 @@ def test_the_loggers_of_launch_say_and_write_what_is_set(ros_runtime, tmp_path, 
     assert LaunchLogDir().perform(launch.LaunchContext()) == str(tmp_path)
     with pytest.raises(ValueError, match="does not exist"):
         config.log_dir = str(tmp_path / "none")
-    with pytest.raises(ValueError, match="a style of its own"):
+    with pytest.raises(ValueError, match="mixes styles"):
         config.set_screen_format("default", screen_style="%")
     launch.logging.reset()
     assert launch.logging.get_logger("outer").getEffectiveLevel() == config.level == 20

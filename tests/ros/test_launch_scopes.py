@@ -55,8 +55,8 @@ def test_whole_numbers_beside_others_become_floats_and_files_become_paths(tmp_pa
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ({5: "x"}, "a text, a substitution or a list of both was wanted, not 5"),
-        ({"a": {1, 2}}, "a parameter has no value like {1, 2}"),
+        ({5: "x"}, "expected a text, a substitution or a list of both, not 5"),
+        ({"a": {1, 2}}, "{1, 2} is no value of a parameter"),
         ({"a": [1, [2]]}, r"not \[2\]"),
         ({"a": [True, 2]}, "Expected a non-empty sequence of bool, int, float or str alone"),
         ({"a": []}, "parameter 'a': Expected a non-empty sequence"),
@@ -91,9 +91,9 @@ def test_a_value_of_a_given_type_is_of_it_from_the_beginning_or_refused():
         assert made.evaluate(context) == ("who", ["1", "x"])
         assert (made.name, made.value_type) == ("who", list[str])
         assert ParameterValue(text("2"), value_type=float).evaluate(context) == 2.0
-        with pytest.raises(TypeError, match="is to be int, not '1'"):
+        with pytest.raises(TypeError, match="must be int, not '1'"):
             ParameterValue("1", value_type=int)
-        with pytest.raises(ValueError, match="is to be int, not 'x'"):
+        with pytest.raises(ValueError, match="must be int, not 'x'"):
             ParameterValue(text("x"), value_type=int).evaluate(context)
 
 

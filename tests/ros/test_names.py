@@ -114,7 +114,7 @@ def test_a_parameter_file_names_nodes_by_patterns(tmp_path, pattern, fits):
     ("text", "told"),
     [
         ("a: [", r"p\.yaml:\d+:\d+: "),
-        ("node: {a: 1}", "no parameters in it; the layout is"),
+        ("node: {a: 1}", "it has no parameters; the layout is"),
         ("\xff", "it is not UTF-8 text"),
     ],
 )

@@ -119,7 +119,7 @@ def test_two_nodes_of_one_name_are_told_apart_with_a_warning(node, ros_runtime):
 
     rclpy.create_node("probe")
 
-    assert any("a node named 'probe' is here already" in text for text in ros_runtime.log())
+    assert any("a node named 'probe' exists already" in text for text in ros_runtime.log())
 
 
 def test_handles_of_a_destroyed_node_and_of_its_entities_are_invalid(node):

@@ -266,7 +266,7 @@ def test_a_parameter_without_a_value_gives_way_to_an_alternative(node):
     assert get_parameter_value("null").string_value == "null"
     with pytest.raises(RuntimeError, match="42"):
         parameter_value_to_python(ParameterValue(type=42))
-    with pytest.warns(UserWarning, match="'y' is declared by its name alone"):
+    with pytest.warns(UserWarning, match="'y' is declared without a value"):
         node.declare_parameters("", [("y",)])
 
 

@@ -103,7 +103,9 @@ def test_a_topic_carries_one_type(node):
     from turtlesim.msg import Pose
 
     node.create_publisher(Twist, "turtle1/cmd_vel", 1)
-    with pytest.raises(Exception, match="carries geometry_msgs/msg/Twist, not turtlesim/msg/Pose"):
+    with pytest.raises(
+        Exception, match="has the type geometry_msgs/msg/Twist, not turtlesim/msg/Pose"
+    ):
         node.create_subscription(Pose, "turtle1/cmd_vel", print, 1)
 
 

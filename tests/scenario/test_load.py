@@ -62,7 +62,7 @@ ten.yaml:7:46: '1 parsec' is not a duration: 'parsec' is no unit of it; its unit
 s, ms, us, µs, ns, min, h
      7 |   - follower: {leader: $sorce_frame, period: 1 parsec, period: 2 s}
        |                                              ^^^^^^^^
-ten.yaml:7:56: the key 'period' is there already, in line 7
+ten.yaml:7:56: the key 'period' is given twice, first in line 7
      7 |   - follower: {leader: $sorce_frame, period: 1 parsec, period: 2 s}
        |                                                        ^^^^^^
 ten.yaml:9:21: 'lefft' is not a key; did you mean 'left'?
@@ -78,7 +78,7 @@ ten.yaml:10:48: 'fast' is not a speed such as 2 m/s
 ten.yaml:12:67: 'LookupExeption' is not a transform exception; did you mean 'LookupException'?
     12 | t: 2 s, lookup: {target: turtle2, source: turtle1}, raises: LookupExeption}
        |                                                             ^^^^^^^^^^^^^^
-ten.yaml:13:5: what must it be? say below, above, between: [low, high], or is
+ten.yaml:13:5: the limit is missing: write below, above, between: [low, high], or is
     13 |   - {by: 20 s, distance: {from: turtle2, to: turtle1}}
        |     ^"""
 
@@ -310,7 +310,7 @@ def test_an_alias_bomb_is_refused():
 
 def test_an_alias_to_what_holds_it_is_refused():
     assert told("nodes: &n [*n]") == ["*n stands inside what it stands for"]
-    assert told("nodes: [*n, &n x]") == ["*n names no anchor that ends before it"]
+    assert told("nodes: [*n, &n x]") == ["*n is no anchor defined before"]
 
 
 def test_deep_nesting_is_refused():
@@ -419,7 +419,7 @@ def test_an_unknown_argument_is_told_which_there_are():
 def test_arguments_are_named_by_a_word_and_single_values():
     assert told(SMALLEST + "arguments: {a b: 1, c: [1], d: $e}") == [
         "'a b' names no argument: letters, digits and _ only",
-        "a list stands where a text is wanted",
+        "expected a text, not a list",
         "unknown argument '$e'; declare it under 'arguments'",
     ]
 
@@ -437,18 +437,18 @@ def test_a_value_from_outside_is_checked_where_it_is_used():
 @pytest.mark.parametrize(
     ("nodes", "wrong"),
     [
-        ("turtlesim", "a list (one node an item) is wanted here; begin each item with '- '"),
-        ("[[]]", "a list stands where a mapping (a node's kind) is wanted"),
+        ("turtlesim", "expected a list (one node an item); begin each item with '- '"),
+        ("[[]]", "expected a mapping (a node's kind), not a list"),
         ("[~]", "a node is missing here; there are turtlesim, broadcaster, "),
         ("[wheel]", "there is no node 'wheel'; there are turtlesim, broadcaster, "),
         (
             "[{broadcaster: ~, turtle: turtle1}]",
-            "'turtle' stands beside 'broadcaster', not in it; "
+            "'turtle' is beside 'broadcaster', not in it; "
             "write 'broadcaster: {turtle: ...}', or indent it further",
         ),
         (
             "[{turtlesim: ~, teleop: ~}]",
-            "'teleop' stands beside 'turtlesim', not in it; begin each node with '- '",
+            "'teleop' is beside 'turtlesim', not in it; begin each node with '- '",
         ),
         ("[broadcaster]", "a broadcaster needs the key 'turtle'"),
         ("[{broadcaster: {turtle: 1a}}]", "'1a' names no turtle: letters, digits and _ only"),
@@ -458,7 +458,7 @@ def test_a_value_from_outside_is_checked_where_it_is_used():
         ("[{follower: {period: 0 s}}]", "0 s is not a duration from 0.001 to 86400 s"),
         ("[{follower: {speed_limit: -1}}]", "-1 m/s is not a speed of 0 m/s or more"),
         ("[{follower: {leader: turtle2}}]", "'turtle2' cannot follow itself"),
-        ("[{static: {parent: '', child: b}}]", "a frame is wanted here, not blanks"),
+        ("[{static: {parent: '', child: b}}]", "expected a frame, not blanks"),
     ],
 )
 def test_a_wrong_node_is_told_what_is_wrong(nodes, wrong):
@@ -474,7 +474,7 @@ def test_two_nodes_of_one_name_are_refused():
 @pytest.mark.parametrize("name", ["script", "expectations", "teleop"])
 def test_a_name_that_a_play_needs_itself_is_refused(name):
     assert told(SMALLEST + f"nodes: [turtlesim: {{name: {name}}}]") == [
-        f"the name '{name}' is kept; call this node something else"
+        f"the name '{name}' is reserved; choose another name"
     ]
     assert load.parse(SMALLEST + "nodes: [teleop]", "s.yaml").nodes[0].name == "teleop"
 
@@ -494,18 +494,18 @@ def test_none_may_come_from_an_argument():
     [
         ("{at: 1 s}", "an action needs one of keys, drive, spawn, kill, "),
         ("{at: 1 s, flyy: 1}", "unknown key 'flyy'; an action is one of keys, drive, "),
-        ("{at: 1 s, kill: a, reset: ~}", "an action is about one thing; write kill, reset apart"),
+        ("{at: 1 s, kill: a, reset: ~}", "an action has one subject; write kill, reset separately"),
         ("{kill: turtle1}", "an action (kill) needs the key 'at'"),
-        ("{at: 3 s, kill: a}", "3 s lies after the end of the scenario, which lasts 1 s"),
+        ("{at: 3 s, kill: a}", "3 s is after the end of the scenario, which lasts 1 s"),
         ("{at: 1 s, drive: {}}", "an action (drive) needs the key 'for'"),
         ("{at: 1 s, kill: ~}", "kill needs the key 'turtle'"),
         ("{at: 1 s, kill: a, for: 2 s}", "an action (kill) has no key 'for'; it may have at"),
-        ("{at: 1 s, reset: now}", "'now' stands where a mapping (empty) is wanted"),
-        ("{at: 1 s, keys: ''}", "a key is wanted here, not blanks"),
+        ("{at: 1 s, reset: now}", "expected a mapping (empty), not 'now'"),
+        ("{at: 1 s, keys: ''}", "expected a key, not blanks"),
         ("{at: 1 s, keys: up x}", "'x' is not a key; it may be up, down, "),
         ("{at: 1 s, stop: turtlesm}", "no node is named 'turtlesm'; did you mean 'turtlesim'?"),
         ("{at: 1 s, stop: wheel}", "no node is named 'wheel'; there are turtlesim, teleop"),
-        ("just a text", "'just a text' stands where a mapping"),
+        ("just a text", "expected a mapping"),
     ],
 )
 def test_a_wrong_action_is_told_what_is_wrong(entry, wrong):
@@ -523,33 +523,33 @@ LOOKUP = "lookup: {target: a, source: b}"
         ("{trees: 1}", "when must it hold?; say one of at: 2 s, by: 20 s, "),
         ("{at: 1 s, by: 1 s, trees: 1}", "at, by exclude each other; say one of at: 2 s, "),
         ("{at: 1 s, every: 1 s, trees: 1}", "'every' goes with by, during or always"),
-        ("{at: [], trees: 1}", "at which moment? the list is empty"),
-        ("{always: false, trees: 1}", "always: false says nothing; leave the expectation out"),
-        ("{during: [1 s, 0 s], trees: 1}", "during: the first moment lies after the last one"),
+        ("{at: [], trees: 1}", "the list of moments is empty"),
+        ("{always: false, trees: 1}", "always: false tests nothing; leave the expectation out"),
+        ("{during: [1 s, 0 s], trees: 1}", "during: the first moment is after the last one"),
         ("{during: [1 s], trees: 1}", "first and last moment takes 2 values, not 1"),
-        ("{at: 2 s, trees: 1}", "2 s lies after the end of the scenario, which lasts 1 s"),
+        ("{at: 2 s, trees: 1}", "2 s is after the end of the scenario, which lasts 1 s"),
         ("{at: 1 s, trees: 1.5}", "a whole number from 0 to 100000 is wanted here, not 1.5"),
-        ("{at: 1 s, roots: world}", "a list (frames) is wanted here; begin each item with '- '"),
-        ("{at: 1 s, rate: a, between: [2, 1]}", "between 2 and 1 lies nothing"),
+        ("{at: 1 s, roots: world}", "expected a list (frames); begin each item with '- '"),
+        ("{at: 1 s, rate: a, between: [2, 1]}", "between 2 and 1 is nothing"),
         ("{at: 1 s, rate: a, above: 1, tolerance: 1}", "a tolerance goes with 'is'"),
         (
             "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 cm}",
-            "one tolerance for metres and radians alike has no unit; write {position: 5 cm}",
+            "a tolerance for metres and radians together has no unit; write {position: 5 cm}",
         ),
         (
             "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 deg}",
-            "one tolerance for metres and radians alike has no unit; write {angle: 5 deg}",
+            "a tolerance for metres and radians together has no unit; write {angle: 5 deg}",
         ),
-        ("{at: 1 s, frame: a, exists: no, parent: b}", "a frame that does not exist has nothing"),
+        ("{at: 1 s, frame: a, exists: no, parent: b}", "a missing frame has no"),
         ("{at: 1 s, pose: turtle1, value: {}}", "a value needs one of x, y, theta, linear, "),
         (f"{{at: 1 s, {LOOKUP}, says: x}}", "'says' goes with 'raises'"),
         (
             f"{{at: 1 s, {LOOKUP}, raises: LookupException, value: {{x: 1}}}}",
-            "a lookup that raises has no value; keep one of them",
+            "a lookup that raises has no value: leave one out",
         ),
         (
             f"{{at: 1 s, {LOOKUP}, value: {{rotation: [0, 0, 0, 1], yaw: 1}}}}",
-            "a rotation or roll, pitch, yaw: keep one of them",
+            "give a rotation or roll, pitch, yaw, not both",
         ),
         (
             f"{{at: 1 s, {LOOKUP}, value: {{rotation: [0, 0, 1, 1]}}}}",
@@ -587,7 +587,7 @@ def test_a_wrong_expectation_is_told_what_is_wrong(entry, wrong):
 def test_expectations_that_would_look_for_ever_are_refused():
     text = "duration: 24 h\nexpect:\n  - {always: true, every: 1 ms, trees: 1}\n"
 
-    assert told(text) == ["that is more than 1,000,000 looks in all; give 'every' a longer time"]
+    assert told(text) == ["that is more than 1,000,000 checks; give 'every' a longer time"]
 
 
 # Files.

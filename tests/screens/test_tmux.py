@@ -50,7 +50,7 @@ def apart(screen):
 
 
 def marked(screen):
-    """The name of the marked row in the list of scenarios, None while there is no list."""
+    """The name of the marked row in the list of scenarios, None while there cannot be joined."""
     found = re.search(r"│▸ (\w+)", screen)
     return found and found[1]
 

@@ -233,7 +233,7 @@ def test_a_node_that_has_left_is_forgotten():
 def test_two_nodes_of_one_name_cannot_live_together():
     world = World(SimClock())
     Node(world, "sim")
-    with pytest.raises(TftoolError, match="'sim' is here already"):
+    with pytest.raises(TftoolError, match="'sim' exists already"):
         Node(world, "sim")
     assert world.node("sim").name == "sim"
     with pytest.raises(TftoolError, match="no node is named 'nobody'"):
@@ -414,7 +414,7 @@ def test_work_for_a_node_of_a_world_that_does_not_run_is_refused():
     async def work():
         raise AssertionError("never begun")
 
-    with pytest.raises(TftoolError, match="node 'early' can start no work"):
+    with pytest.raises(TftoolError, match="node 'early' cannot start work"):
         node.start_soon(work())
 
 

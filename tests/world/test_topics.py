@@ -54,7 +54,9 @@ def test_one_name_carries_one_kind():
     world = World(SimClock())
     assert world.topic("/turtle1/pose", Pose) is world.topic("turtle1/pose", Pose)
 
-    with pytest.raises(TftoolError, match="carries turtlesim/msg/Pose, not geometry_msgs/msg/T"):
+    with pytest.raises(
+        TftoolError, match="has the type turtlesim/msg/Pose, not geometry_msgs/msg/T"
+    ):
         world.topic("turtle1/pose", Twist)
 
 
@@ -149,7 +151,7 @@ def test_a_service_nobody_serves_is_named():
 def test_two_may_not_serve_one_name():
     world = World(SimClock())
     world.serve("spawn", lambda _: None)
-    with pytest.raises(TftoolError, match="'spawn' is served already"):
+    with pytest.raises(TftoolError, match="'spawn' already has a server"):
         world.serve("/spawn", lambda _: None)
 
 

@@ -228,7 +228,7 @@ def _read_frames(word: str) -> list[str]:
 
         return list(load_urdf(word).links)
     if not found.kind.is_recording:
-        raise UsageError("no frames are known of it before it runs")
+        raise UsageError("its frames are unknown until it runs")
     kept = frames_kept(found)
     if kept is None and not key_of(found):
         from tftool.recordings.column_cache import ColumnCache

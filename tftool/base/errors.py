@@ -456,4 +456,4 @@ def without_frames(given: object) -> TypeError:
     hint = ""
     if isinstance(given, str | os.PathLike):
         hint = f": tftool.open_recording({os.fspath(given)!r}) opens one"
-    return TypeError(f"a Recording or a Buffer is wanted, not {given!r:.80}{hint}")
+    return TypeError(f"expected a Recording or a Buffer, not {given!r:.80}{hint}")

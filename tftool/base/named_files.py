@@ -43,13 +43,13 @@ def open_named(path: Path) -> BinaryIO:
         # None: a process has it open, and has not written yet.
         first = file.read(io.DEFAULT_BUFFER_SIZE)
         if first == b"" and stat.S_ISFIFO(mode):
-            raise OSError(errno.EINVAL, "it is a pipe into which no process writes", str(path))
+            raise OSError(errno.EINVAL, "it is a pipe, and no process writes into it", str(path))
         os.set_blocking(file.fileno(), True)
         data = bytearray(first or b"")
         while len(data) <= LARGEST and (more := file.read(io.DEFAULT_BUFFER_SIZE)):
             data += more
     if len(data) > LARGEST:
-        raise OSError(errno.EFBIG, f"more than {LARGEST >> 20} MiB come out of it", str(path))
+        raise OSError(errno.EFBIG, f"it is larger than {LARGEST >> 20} MiB", str(path))
     return io.BytesIO(data)
 
 

@@ -828,7 +828,7 @@ def _parts(transform: TransformStamped) -> tuple[Stamp, str, str, Transform]:
         pose = None
     if not isinstance(pose, Transform):
         raise TypeError(
-            "what is set is a TransformStamped(stamp, frame_id, child_frame_id, Transform(…)), "
+            "expected a TransformStamped(stamp, frame_id, child_frame_id, Transform(…)), "
             f"not {transform!r:.200}"
         )
     return stamp, parent, child, pose

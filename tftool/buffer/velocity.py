@@ -85,7 +85,7 @@ def twist(
     """
     time, interval = whole(time), whole(interval)
     if interval <= 0:
-        raise ValueError(f"a velocity wants a positive interval, not {interval} ns")
+        raise ValueError(f"a velocity needs a positive interval, not {interval} ns")
     newest = buffer.newest_common(observation, tracking)
     middle = time or newest
     end = min(middle + interval // 2, newest) if newest else middle + interval // 2

@@ -24,8 +24,8 @@ _SYNCHRONISE = (
 )
 _COMPARE = (
     Fix(
-        "compare the clocks of the two computers (chronyc tracking); where they agree, or it is "
-        "one computer, the delay is the node's own work: wait for it"
+        "compare the clocks of the two computers (chronyc tracking); if they agree, or both "
+        "are one computer, the node needs that time: wait for it"
     ),
 )
 
@@ -48,7 +48,7 @@ CONSTANTS_AHEAD = seconds(1)
     fixes=(
         Fix(
             "use_sim_time: {setting} for the nodes that publish them; `ros2 param get NODE "
-            "use_sim_time` tells what a node has"
+            "use_sim_time` prints a node's setting"
         ),
     ),
     causes=(
@@ -163,7 +163,7 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
     " different moments",
     fixes=(
         Fix(
-            "lower the tolerance that dates it ahead (transform_tolerance, "
+            "lower the tolerance that is added to its stamp (transform_tolerance, "
             "transform_time_offset), or set the publisher's clock"
         ),
     ),
@@ -232,8 +232,8 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
     " stamped behind is dropped itself",
     fixes=(
         Fix(
-            "look at what the publisher stamps from; `tftool edit --from A --to B` leaves out "
-            "of a recording what is stamped outside"
+            "check the source of the publisher's stamps; `tftool edit --from A --to B` "
+            "removes everything stamped outside from a recording"
         ),
     ),
     causes=(

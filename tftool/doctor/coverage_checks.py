@@ -47,7 +47,7 @@ def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     headline="{where} {concerned:stops|stop} before the end",
     detail="{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
     consequence="lookups through it refuse from then on",
-    fixes=(Fix("look at the node that publishes it: it died, or hangs"),),
+    fixes=(Fix("check the node that publishes it: it crashed or hangs"),),
     causes=(
         "a node that crashed",
         "a lost sensor",
@@ -121,7 +121,9 @@ def _is_detection(model: Model, track: Track) -> bool:
     detail="{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
     "{period:span}){why}{beside}",
     consequence="lookups inside it interpolate across the gap, or refuse during it",
-    fixes=(Fix("look at what stopped then: all edges together mean the recorder or the network"),),
+    fixes=(
+        Fix("check what stopped then: if all edges stop together, the recorder or the network"),
+    ),
     causes=(
         "load",
         "a network that drops",
@@ -359,7 +361,7 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     consequence="a player that publishes them from one node keeps only the last for late listeners",
     fixes=(
         Fix("start listeners before playing"),
-        Fix("or bring them into one message:", "tftool edit RECORDING -o WHOLE --statics-first"),
+        Fix("or combine them in one message:", "tftool edit RECORDING -o WHOLE --statics-first"),
     ),
     causes=("several static publishers",),
     links=threads("ros/ros_comm#706", "ros2/geometry2#585"),
@@ -544,12 +546,12 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     )
     return (
         Fix(
-            f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms serves all that are ever "
-            f"served ({p95} ms serve 95 %)"
+            f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms is enough for all "
+            f"that can ever be placed ({p95} ms for 95 %)"
         ),
         *((Fix(f"or {often}") if later < wait * NANOSECONDS else Fix(often),) if often else ()),
         *((ahead,) if waits.link.is_localisation else ()),
-        Fix(f"let the queue of the message filter hold {depth} message{'s' * (depth > 1)}"),
+        Fix(f"let the message filter's queue hold {depth} message{'s' * (depth > 1)}"),
     )
 
 

@@ -26,7 +26,7 @@ _STATES = "start joint_state_publisher or the controller's broadcaster; or make 
     headline="the robot description cannot be read",
     detail="{mistakes}",
     consequence="robot_state_publisher refuses it or publishes a part; nothing is compared with it",
-    fixes=(Fix("mend the description: `tftool info FILE` shows each mistake in its line"),),
+    fixes=(Fix("correct the description: `tftool info FILE` shows each mistake with its line"),),
     causes=(
         "a link was renamed and its joint was not",
         "xacro that was not expanded",

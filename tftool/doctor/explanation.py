@@ -324,7 +324,7 @@ def _after_end(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
             f"the {ended} ends with {link.name} at {moment(last)}, "
             f"{span(trace.moment - last)} before the question",
         ),
-        (Remedy("skip", f"ask about {moment(last)}, or before"),),
+        (Remedy("skip", f"ask for {moment(last)} or earlier"),),
         ("a timeout: nothing comes any more",),
     )
 
@@ -336,7 +336,7 @@ def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
             f"{link.name} ended at {moment(last)}, {span(trace.moment - last)} before the "
             "question, and nothing follows",
         ),
-        (Remedy("publisher", "look at the node that publishes it: it died, or hangs"),),
+        (Remedy("publisher", "check the node that publishes it: it crashed or hangs"),),
         ("a timeout: nothing comes any more",),
     )
 

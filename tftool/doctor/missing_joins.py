@@ -108,7 +108,7 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
         why = f"{len(edge):,} Odometry messages ({by}) say {edge.child} in {edge.parent}"
         fix = Fix(
             f"{why}, and nothing publishes it as a transform: let the controller or the EKF do it "
-            "(enable_odom_tf, publish_tf: true; MAVROS: tf/send: true); to look at it meanwhile:",
+            "(enable_odom_tf, publish_tf: true; MAVROS: tf/send: true); to use it meanwhile:",
             f"tftool echo {quoted(edge.parent)} {quoted(edge.child)} RECORDING --with-odometry",
         )
         return Join((edge.parent, edge.child), why, fix, guess=False)

@@ -176,7 +176,7 @@ def slash_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:is|are} published with a leading slash",
     detail="{edge}: {found}",
     consequence="harmless to tf2; tools that compare names see two frames",
-    fixes=(Fix("drop the slash in the publisher"),),
+    fixes=(Fix("remove the slash in the publisher"),),
     causes=("a publisher written for tf 1",),
 )
 def leading_slash(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -425,7 +425,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "let listeners and rviz hear them:",
                 f"--ros-args -r /tf:={odd[0]} -r /tf_static:={prefix}/tf_static",
             ),
-            Fix(f"here, --tf-topic {quoted(odd[0])} looks at these alone"),
+            Fix(f"here, --tf-topic {quoted(odd[0])} examines only these"),
         ),
         alone=True,
     )

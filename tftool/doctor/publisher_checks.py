@@ -37,7 +37,7 @@ MOST_FOLLOWED = 20_000
         Fix(
             "let the transform end at the robot's root frame ({root}) instead of {child} "
             "(robot_base_frame, base_frame, LIO-SAM's baselinkFrame), switch one of the two "
-            "off (publish_tf: false and its like), or chain them (RTAB-Map's "
+            "off (publish_tf: false or similar), or chain them (RTAB-Map's "
             "odom_guess_frame_id)"
         ),
     ),
@@ -209,9 +209,7 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     hit = _conflict(track, ("A", "B"), owned, sure)
     hit = replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
     if sure is Confidence.POSSIBLE:
-        hit = replace(
-            hit, fixes=(Fix("find out who publishes it: `ros2 topic info /tf --verbose`"),)
-        )
+        hit = replace(hit, fixes=(Fix("find its publishers: `ros2 topic info /tf --verbose`"),))
     return hit
 
 
@@ -361,7 +359,7 @@ def _conflict(
     detail="moving: {moving}; static: {static}; the kind changes {turns:times}, at most "
     "{history:span} of history are kept",
     consequence="each change of kind clears the history of {child}: lookups in the past fail",
-    fixes=(Fix("keep one of the two: what moves on /tf, a mount on /tf_static"),),
+    fixes=(Fix("keep one of the two: a moving frame on /tf, a mount on /tf_static"),),
     causes=(
         "SLAM beside the robot description, with other parents",
         "an old tf static publisher beside a new one",
@@ -427,7 +425,7 @@ def _ends_at_the_root(
     detail="{edge}: {values} values, up to {moved:m} and {turned:deg} apart",
     consequence="statics have no history: every lookup in the past returns the newest value, "
     "without an error",
-    fixes=(Fix("publish what moves with a TransformBroadcaster, on /tf"),),
+    fixes=(Fix("publish moving frames with a TransformBroadcaster, on /tf"),),
     causes=("a calibration or a detector publishes its result with a static broadcaster",),
     limits={"values": 4, "metres": 1e-6, "radians": 1e-4},
     why="a recalibration happens once or twice",
@@ -677,7 +675,7 @@ def _switches_off(track: Track) -> Fix:
     if track.is_localisation:
         return Fix(
             "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "
-            "publish_map_tf: false (ZED); of a replayed one, take it out of the recording:",
+            "publish_map_tf: false (ZED); a replayed transform: remove it from the recording:",
             f"tftool edit RECORDING -o CLEAN --drop {quoted(f'{track.parent}:{track.child}')}",
         )
     if _is_odometry(track):

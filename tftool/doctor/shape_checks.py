@@ -166,7 +166,8 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
 def nothing_says(root: str) -> Fix:
     """Return the remedy when nothing shows to what a root belongs: where to look."""
     return Fix(
-        f"nothing in the data says where {root} belongs: look at what should publish it (a driver, "
+        f"nothing in the data says where {root} belongs: check the node that should publish "
+        "it (a driver, "
         "the robot description and its joint states, a localiser)"
     )
 
@@ -199,7 +200,12 @@ def _is_complete(tree: Tree) -> bool:
     headline="{where}: a frame is its own parent",
     detail="{frame}: {count:times}",
     consequence="tf2 drops it, so that the intended transform is missing",
-    fixes=(Fix("two options of the publisher name one frame for two roles: give each its own"),),
+    fixes=(
+        Fix(
+            "two options of the publisher name one frame for two roles: give each role a "
+            "frame of its own"
+        ),
+    ),
     causes=(
         "published_frame and odom_frame of cartographer are equal",
         "base frame and odometry frame of rf2o are equal",

@@ -29,9 +29,7 @@ _PICTURES = ("sensor_msgs/Image", "sensor_msgs/CameraInfo", "sensor_msgs/Compres
     detail="{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
     consequence="the frame stops or disappears; things placed through it have no position",
     fixes=(
-        Fix(
-            "look at the source: a division by zero, a filter that diverged, a joint without state"
-        ),
+        Fix("check the source: a division by zero, a filter that diverged, a joint without state"),
     ),
     causes=(
         "an estimator or simulation that diverged",
@@ -131,7 +129,7 @@ def bad_quaternion(model: Model, limits: Limits) -> Iterator[Hit]:
     consequence="things placed before and after the jump do not fit together{also}",
     fixes=(
         Fix(
-            "look at the source at that moment: encoder overflow, a reset of the filter, wheel "
+            "check the source at that moment: encoder overflow, a reset of the filter, wheel "
             "slip, a tracker that mistook the body"
         ),
     ),
@@ -306,7 +304,11 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
                 "axes": ", whose z looks up as a body's does" if is_body else "",
             },
             fixes=(
-                Fix(joint if is_body else f"look whether its z leaves the lens; if not, {joint}"),
+                Fix(
+                    joint
+                    if is_body
+                    else f"check whether its z axis points out of the lens; if not, {joint}"
+                ),
             ),
         )
 
@@ -395,8 +397,8 @@ def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
         },
         fixes=(
             Fix(
-                "compare the child_frame_id of the messages with the base frame of tf: one of both "
-                "is probably another frame than was meant"
+                "compare the child_frame_id of the messages with the base frame of tf: one "
+                "of the two is probably the wrong frame"
             ),
         ),
         alone=True,
@@ -448,7 +450,7 @@ def _disagreement(
     headline="{where} {concerned:is|are} far away for a mount",
     detail="{edge}: {away:m}",
     consequence="if it is in millimetres, everything below is a thousand times too far away",
-    fixes=(Fix("look whether it is in millimetres: tf is in metres"),),
+    fixes=(Fix("check whether it is in millimetres: tf uses metres"),),
     causes=("a CAD export in millimetres",),
     limits={"metres": 10.0},
 )
@@ -480,7 +482,7 @@ def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
     headline="{where} {concerned:is|are} turned over: (1, 0, 0, 0)",
     detail="{edge}: a half turn about x, or no turn written w first",
     consequence="if no rotation was meant, the frame is upside down",
-    fixes=(Fix("write quaternions as x y z w: no turn is 0 0 0 1"),),
+    fixes=(Fix("write quaternions as x y z w: no rotation is 0 0 0 1"),),
     causes=("a quaternion written w first",),
 )
 def suspect_order(model: Model, limits: Limits) -> Iterator[Hit]:

@@ -132,7 +132,7 @@ def plot(
         return ax
     drawn = panels(found, begin, chosen(words or ["position"]))
     if len(drawn) > 1:
-        raise UsageError(f"One axes holds one panel, and these are {len(drawn)}: name one of them.")
+        raise UsageError(f"One axes can hold one panel, not {len(drawn)}: name one of them.")
     _draw_panel(ax, drawn[0], shades(found, begin), dark)
     ax.set_xlabel("time, s")
     return ax
@@ -147,8 +147,8 @@ def _trajectories(
     if isinstance(frames, TransformArray | Trajectory | Sequence):
         if target is not None or source is not None:
             raise TypeError(
-                "poses are of one pair already: plot(path), plot(path, ax=axes); frames take "
-                "one: plot(recording, 'map', 'base_link')"
+                "poses already belong to a pair: plot(path), plot(path, ax=axes); for frames "
+                "name a pair: plot(recording, 'map', 'base_link')"
             )
         given = [frames] if isinstance(frames, TransformArray | Trajectory) else frames
         return [one if isinstance(one, Trajectory) else trajectory_of(one) for one in given]

@@ -80,7 +80,7 @@ def _opened(path: str) -> Side:
     found = find(path)
     if found.kind is Kind.SCENARIO:
         raise UsageError(
-            f"'{path}' is a scenario, which has to be played first: 'tftool diff' does, or give "
+            f"'{path}' is a scenario, which must be played first: use 'tftool diff', or give "
             "the buffer of a world."
         )
     if found.kind is Kind.STATICS:

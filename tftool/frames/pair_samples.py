@@ -112,7 +112,7 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
     path = buffer.lookup_transforms(target, source, asked, missing="nan")
     if not len(asked):
         raise UsageError(
-            f"There is nothing to ask for: {words}, no moment lies in the span that is asked for."
+            f"There is nothing to look up: {words}, there is no moment in the requested span."
         )
     if not path.valid.any():
         # Says why, of the first.
@@ -133,7 +133,7 @@ def only_chain(buffer: Buffer) -> tuple[str, str]:
     leaves = sorted(set(frames) - set(parents.values()))
     if len(roots) != 1 or len(leaves) != 1 or len(frames) < 2:
         raise InputError(
-            f"There is not one chain of frames but {len(leaves)}, to {', '.join(leaves[:5])}"
+            f"There are {len(leaves)} chains of frames, to {', '.join(leaves[:5])}"
             f"{' …' if len(leaves) > 5 else ''}: --pair TARGET:SOURCE names one."
         )
     return roots[0], leaves[0]
@@ -220,9 +220,9 @@ def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
     if count > MOST_MOMENTS:
         raise UsageError(
             f"Every {as_seconds(period):g} s over {as_seconds(end - start):,.0f} s would be "
-            f"{count:,} moments, and {MOST_MOMENTS:,} is the most: ask at a lower rate. If what "
-            "was recorded did not last so long, a stamp is wrong: 'tftool info' says from when to "
-            "when they are."
+            f"{count:,} moments, and {MOST_MOMENTS:,} is the most: ask at a lower rate. If "
+            "the recording is shorter, a stamp is wrong: 'tftool info' shows the first and "
+            "last one."
         )
     return max(start, 1) + period * np.arange(count, dtype=np.int64)
 

@@ -207,7 +207,7 @@ def fitted(a: TransformArray, b: TransformArray, fit: Fit) -> tuple[TransformArr
     u, singular, v = np.linalg.svd(covariance)
     if singular[1] <= 1e-12 * max(singular[0], 1e-300):
         raise InputError(
-            "All positions are on one line or in one point, which does not determine the rotation: "
+            "All positions are on one line or in one point, so that the rotation is undetermined: "
             "--fit first uses the first pose alone."
         )
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(v))])

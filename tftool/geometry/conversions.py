@@ -112,7 +112,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
             # Asked this way round, NaN is refused as well.
             if not abs(dot - (j == k)) < 1e-6:
                 raise ValueError(
-                    "the matrix is no rotation: its rows are not of length 1 and square"
+                    "the matrix is no rotation: its rows are not perpendicular vectors of length 1"
                 )
     if a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0:
         raise ValueError("the matrix is no rotation: it mirrors")
@@ -168,7 +168,7 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
     x, y, z = axis
     length = math.hypot(x, y, z)
     if not 0.0 < length < math.inf:
-        raise ValueError(f"({x}, {y}, {z}) is no axis: it must be finite and not all zero")
+        raise ValueError(f"({x}, {y}, {z}) is no axis: the numbers must be finite and not all zero")
     from transforms3d.quaternions import axangle2quat
 
     return xyzw_from_wxyz(
@@ -240,8 +240,8 @@ def euler_from_matrix(
 def _checked(axes: str) -> str:
     if axes not in AXES:
         raise ValueError(
-            f"{axes!r} names no order of axes: that is 's' (fixed axes) or 'r' (rotating ones) "
-            "and three of x, y, z such as 'sxyz'"
+            f"{axes!r} is no order of axes: write 's' (fixed axes) or 'r' (rotating ones) "
+            "and three of x, y, z, such as 'sxyz'"
         )
     return axes
 

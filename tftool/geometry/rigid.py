@@ -23,8 +23,8 @@ def refuses_arithmetic(kind: type[T]) -> type[T]:
 
     def refuse(self: object, other: object) -> NoReturn:
         raise TypeError(
-            f"a {kind.__name__} is no list to put together or repeat: compute with its fields, "
-            "chain transforms by @, or make a list of it by list(…)"
+            f"a {kind.__name__} cannot be joined or repeated like a list: use its fields, "
+            "chain transforms with @, or convert it with list(…)"
         )
 
     for name in ("__add__", "__radd__", "__mul__", "__rmul__"):
@@ -154,7 +154,7 @@ class Transform(_Parts):
         """
         turn = _floats(rotation, 4, "rotation")
         if not any(turn):
-            raise ValueError("a rotation of all zeros is none: no turn at all is (0, 0, 0, 1)")
+            raise ValueError("a quaternion of zeros is no rotation: the identity is (0, 0, 0, 1)")
         return tuple.__new__(
             cls, (Vector3(*_floats(translation, 3, "translation")), Quaternion(*turn))
         )
@@ -221,7 +221,7 @@ def _floats(numbers: Iterable[float], count: int, what: str) -> tuple[float, ...
         floats = tuple(float(number) for number in numbers)
     except OverflowError as error:
         # A whole number may have any size, and a text of it thousands of digits.
-        raise ValueError(f"a {what} is {count} numbers, and one is too large to be one") from error
+        raise ValueError(f"a {what} is {count} numbers, and one of them is too large") from error
     except (TypeError, ValueError) as error:
         raise ValueError(f"a {what} is {count} numbers, not {numbers!r}") from error
     if len(floats) != count:

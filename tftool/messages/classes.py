@@ -325,9 +325,9 @@ class Interfaces(Schema):
         made = self._made.get(full)
         if made is None:
             if full in within:
-                raise InputError(f"{full} contains itself, so no message of it can ever be made")
+                raise InputError(f"{full} contains itself, so that no message of it can exist")
             if len(within) >= MOST_NESTED:
-                raise InputError(f"more than {MOST_NESTED} messages lie within each other")
+                raise InputError(f"more than {MOST_NESTED} levels of nested messages")
             made = self._made[full] = self._class(self.structure(full), (*within, full))
         return made
 

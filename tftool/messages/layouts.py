@@ -138,7 +138,7 @@ def text_bytes(text: str) -> bytes:
     """
     raw = text.encode()
     if b"\x00" in raw:
-        raise ValueError(f"{text!r} holds a zero character, which ends a text")
+        raise ValueError(f"{text!r} contains a zero character, which would end the text")
     return raw + b"\x00"
 
 

@@ -31,7 +31,7 @@ def value_of(message: Any) -> Any:
         ValueError: If its type is none that ROS 2 knows.
     """
     if message.type >= len(FIELDS):
-        raise ValueError(f"{message.type} is the number of no type of parameter")
+        raise ValueError(f"{message.type} is no known type of a parameter")
     field = FIELDS[message.type]
     value = None if field is None else getattr(message, field)
     return value.tolist() if isinstance(value, array.array) else value

@@ -200,7 +200,7 @@ class Schema:
         texts = re.split(r"^\s*---\s*$", text, flags=re.MULTILINE)
         if len(texts) != len(parts):
             raise InputError(
-                f"{full}: {len(parts)} parts set apart by '---' make it up, this has {len(texts)}"
+                f"{full}: {len(parts)} parts separated by '---' are expected, not {len(texts)}"
             )
         return dict(zip(parts, texts, strict=True))
 
@@ -271,9 +271,9 @@ def _sections(full: str, text: str) -> dict[str, str]:
     for other in others:
         heading = _HEADING.match(other)
         if heading is None:
-            raise InputError(f"{full}: a definition behind '=====' does not begin with 'MSG: name'")
+            raise InputError(f"{full}: a definition after '=====' does not begin with 'MSG: name'")
         if heading["language"] == "IDL":
-            raise InputError(f"{full}: its definition is in IDL, which is not read; .msg is")
+            raise InputError(f"{full}: its definition is in IDL, and only .msg can be read")
         found.setdefault(full_name(heading["name"]), other[heading.end() :])
     return found
 

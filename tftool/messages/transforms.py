@@ -240,7 +240,7 @@ def _count_of_transforms(payload: bytes) -> int:
 
 def _cut_off(length: int, rest: int) -> MalformedMessage:
     return MalformedMessage(
-        "string", f"a text announces {length} bytes and {max(rest, 0)} have arrived"
+        "string", f"a text has the length {length} bytes and {max(rest, 0)} have arrived"
     )
 
 

@@ -335,7 +335,7 @@ class ChunkedReader(File):
         if crc != chunk.crc:
             self.note(
                 f"The CRC of the chunk at byte {chunk.position} is wrong: its messages are "
-                "copied as they are, and may not be what was recorded."
+                "copied unchanged, and may be damaged."
             )
             chunk.whole = False
 

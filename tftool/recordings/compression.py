@@ -30,7 +30,7 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
         return lambda piece: bytes(
             frame.compress(piece, block_linked=False, content_checksum=True, store_size=False)
         )
-    raise UsageError(f"'{method}' is no compression known here: none, zstd, lz4 and bz2 are.")
+    raise UsageError(f"'{method}' is an unknown compression: none, zstd, lz4 and bz2 are known.")
 
 
 def best_compression() -> str:

@@ -128,8 +128,8 @@ def container_of(path: Path) -> str:
             return one.name
     *others, last = (one.suffix for one in CONTAINERS)
     raise UsageError(
-        f"'{path.name}' names no container to write: {', '.join(others)} and {last} do, and a "
-        "name without a suffix is a folder as rosbag2 records it."
+        f"'{path.name}' has no suffix of a recording: use {', '.join(others)} or {last}, or "
+        "no suffix for a rosbag2 folder."
     )
 
 

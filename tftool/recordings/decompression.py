@@ -48,7 +48,7 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
     """
     if method in ("", "none"):
         if len(packed) != size:
-            raise InputError(f"{len(packed)} bytes are there where {size} are announced")
+            raise InputError(f"{len(packed)} bytes instead of {size}")
         return packed
     check_size(len(packed), size)
     try:
@@ -58,7 +58,7 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
     except Exception as error:
         raise InputError(f"its {method} data is damaged ({error})") from error
     if len(found) != size:
-        raise InputError(f"its {method} data gives {len(found)} bytes where {size} are announced")
+        raise InputError(f"its {method} data gives {len(found)} bytes instead of {size}")
     return found
 
 
@@ -276,7 +276,7 @@ def check_size(packed: int, size: int) -> None:
     """
     if size > LARGEST or size > most_of(packed):
         raise InputError(
-            f"{packed} bytes announce {size} unpacked, more than is plausible "
+            f"{packed} bytes claim to unpack to {size}, more than is plausible "
             f"(at most {LARGEST}, and {MOST_GAIN} times)"
         )
 
@@ -328,7 +328,7 @@ def _whole(method: str, packed: bytes, size: int) -> bytes:
         return unpacked
     if method == "bz2":
         return bz2.BZ2Decompressor().decompress(packed, max_length=size + 1)
-    raise InputError(f"it is compressed in a way not known here ({method!r})")
+    raise InputError(f"its compression is unknown ({method!r})")
 
 
 def _stream(method: str) -> Any:
@@ -336,4 +336,4 @@ def _stream(method: str) -> Any:
         return lz4_frame().LZ4FrameDecompressor()
     if method == "bz2":
         return bz2.BZ2Decompressor()
-    raise InputError(f"it is compressed in a way not known here ({method!r})")
+    raise InputError(f"its compression is unknown ({method!r})")

@@ -163,7 +163,7 @@ def find(word: str) -> Found:
             if matches:
                 return _several(word, matches)
             if path.is_symlink():
-                raise InputError(f"'{word}' is a link to nothing: {os.readlink(path)}")
+                raise InputError(f"'{word}' is a broken link to {os.readlink(path)}")
             if word.startswith(("ws://", "wss://")):
                 raise InputError(
                     f"'{word}' is a robot's Foxglove server, and a file is needed here: "
@@ -172,7 +172,7 @@ def find(word: str) -> Found:
             if is_url(word):
                 raise InputError(
                     f"'{word}' is a URL: 'tftool info' and 'tftool doctor' read "
-                    "recordings: fetch it to a file for what else is asked of it."
+                    "recordings: for other commands, save it to a file first."
                 )
             active = Path(f"{word}{ACTIVE}")
             if active.exists():
@@ -187,9 +187,7 @@ def find(word: str) -> Found:
             return Found(word, Kind.ROSBAG2, (path.parent,))
         return Found(word, _kind_with_options(word, path), (path,))
     except PermissionError as error:
-        raise InputError(
-            f"'{error.filename or word}' may not be read: permission denied."
-        ) from None
+        raise InputError(f"'{error.filename or word}' cannot be read: permission denied.") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"'{word}' cannot be read: {reason}") from error
@@ -256,7 +254,7 @@ def kind_of_file(path: Path) -> Kind:
     if head.startswith(_OLD_BAG):
         version = head[1:16].split(b"\n")[0].decode("ascii", "replace")
         raise InputError(
-            f"'{path}' is a bag of ROS's early days ({version}): 'rosbag fix' of ROS 1 "
+            f"'{path}' is a bag of an early version ({version}): 'rosbag fix' of ROS 1 "
             "turns it into one of version 2.0."
         )
     if head.startswith(_LFS):
@@ -293,7 +291,7 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
     if not is_scenario and _are_poses(path, head):
         return Kind.POSES
     if not is_scenario and path.suffix in SUFFIXES:
-        raise InputError(f"'{path}' is text, and not the recording that its name promises.")
+        raise InputError(f"'{path}' is text, and not a recording as its name says.")
     return Kind.SCENARIO
 
 
@@ -405,7 +403,7 @@ def refusal(path: Path, error: OSError) -> InputError:
     if error.errno in (errno.EMFILE, errno.ENFILE):
         raise error
     if isinstance(error, PermissionError):
-        return InputError(f"'{path}' may not be read: permission denied.")
+        return InputError(f"'{path}' cannot be read: permission denied.")
     return InputError(f"'{path}' cannot be read: {error.strerror or error}.")
 
 

@@ -198,7 +198,7 @@ def _fields(payload: bytes) -> Iterator[tuple[int, Any]]:
         else:
             raise ValueError(f"a field of kind {kind}")
         if position + length > size:
-            raise ValueError(f"a field announces {length} bytes")
+            raise ValueError(f"a field has the length {length} bytes")
         yield key >> 3, payload[position : position + length]
         position += length
 

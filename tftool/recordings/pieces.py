@@ -56,9 +56,7 @@ class Piece:
             count = os.pwrite(file, read[:count], place + done)
             again = os.preadv(file, [memoryview(_other)[:count]], place + done)
             if again != count or not _begin_alike(count):
-                raise InputError(
-                    f"the bytes written at byte {place + done} are not those read there"
-                )
+                raise InputError(f"the bytes written at byte {place + done} differ from those read")
             if crc is not None:
                 crc = zlib.crc32(read[:count], crc)
             done += count
@@ -82,7 +80,7 @@ class Piece:
     def _shortened(self, done: int) -> InputError:
         return InputError(
             f"a recording was shortened to {self.place + done} bytes while it was read: "
-            "edit it when nothing writes to it"
+            "edit it when no program writes to it"
         )
 
 

@@ -151,8 +151,8 @@ class Recording:
         # A closed file of SQLite's reads as one in which nothing is.
         if self._closed:
             raise UsageError(
-                f"Recording '{self.name}' is closed: read what you need of it while it is open, "
-                "inside its with block."
+                f"Recording '{self.name}' is closed: read it while it is open, inside its "
+                "with block."
             )
 
     # Content
@@ -401,8 +401,8 @@ class Recording:
         layout = {"cdr": CDR, "ros1": ROS1}.get(found.encoding)
         if layout is None:
             raise InputError(
-                f"The messages of '{topic}' are written as '{found.encoding}', which is not "
-                "decoded here: raw_messages gives their bytes."
+                f"The messages of '{topic}' are written as '{found.encoding}', which cannot "
+                "be decoded here: raw_messages gives their bytes."
             )
         interfaces = Interfaces()
         if found.definition.strip():
@@ -548,7 +548,7 @@ def open_recording(
         if before is None or before == _facts(found):
             raise
         raise InputError(
-            f"'{name}' changed while it was read: ask again when it is whole."
+            f"'{name}' changed while it was read: try again when it is complete."
         ) from error
 
 

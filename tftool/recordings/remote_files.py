@@ -59,7 +59,7 @@ def listed(place: str) -> list[str]:
     with _failures_told(place):
         found = sorted(system.glob(path))
     if not found:
-        raise InputError(f"Nothing is named by '{place}'.")
+        raise InputError(f"'{place}' names no file.")
     return [system.unstrip_protocol(one) for one in found]
 
 

@@ -97,7 +97,7 @@ class RollingRecording:
         self._compression = compression
         self._is_folder = not path.suffix
         if path.suffix not in ("", ".mcap"):
-            raise UsageError(f"'{path.name}' names no container that is recorded: '.mcap' does.")
+            raise UsageError(f"'{path.name}' has a suffix that cannot be recorded: use '.mcap'.")
         if self._limits.splits and not self._is_folder:
             raise UsageError(
                 "--max-size and --max-duration write several files, into a folder: name one, "
@@ -128,12 +128,14 @@ class RollingRecording:
         left = active if not self._is_folder else self.path / f"{self.path.name}_0.mcap{ACTIVE}"
         if left.exists() and not force:
             raise UsageError(
-                f"'{left}' is what a recorder left that did not end: 'tftool edit {left} -o "
+                f"'{left}' was left by a recorder that was killed: 'tftool edit {left} -o "
                 "FILE.mcap' repairs it. --force replaces it."
             )
         if self._is_folder and os.path.lexists(self.path):
             # Its files would have to go before there are new ones.
-            raise UsageError(f"'{self.path}' exists: a folder is not replaced, name another one.")
+            raise UsageError(
+                f"'{self.path}' exists, and a folder is not replaced: choose another name."
+            )
         refuse_existing(self.path, force=force)
         try:
             if self._is_folder:

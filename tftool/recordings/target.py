@@ -27,7 +27,7 @@ def refuse_stdout(path: Path) -> None:
         UsageError: If it is that.
     """
     if str(path) == "-":
-        raise UsageError("'-' stands for stdout, to which this is not written: name a file.")
+        raise UsageError("'-' means stdout, to which this cannot be written: name a file.")
 
 
 def refuse_existing(path: Path, *, force: bool) -> None:
@@ -201,7 +201,7 @@ def failed(path: Path, error: OSError) -> InputError:
     if error.errno == errno.ENOSPC:
         return InputError(f"'{path}' cannot be written: the disk is full.")
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
-        return InputError(f"'{path}' may not be written: {(error.strerror or str(error)).lower()}.")
+        return InputError(f"'{path}' cannot be written: {(error.strerror or str(error)).lower()}.")
     if error.errno == errno.ENOENT and not path.parent.exists():
         return InputError(f"'{path}' cannot be written: there is no folder '{path.parent}'.")
     return InputError(f"'{path}' cannot be written: {error.strerror or error}.")

@@ -97,7 +97,7 @@ def _obj(content: bytes) -> list[Mesh]:
 
 def _dae(content: bytes) -> list[Mesh]:
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
-        raise ValueError("a document type is not read")
+        raise ValueError("a document type is not supported")
     root = ElementTree.fromstring(content)
     for one in root.iter():
         one.tag = one.tag.rpartition("}")[2]
@@ -118,7 +118,7 @@ def _node(
     node: ElementTree.Element, above: Floats, ids: Mapping[str, ElementTree.Element], depth: int
 ) -> Iterator[Mesh]:
     if depth > 50:
-        raise ValueError("its nodes contain themselves")
+        raise ValueError("its nodes contain each other in a loop")
     place: Floats = above
     for one in node:
         if one.tag in ("matrix", "translate", "rotate", "scale"):

@@ -161,10 +161,10 @@ class MeshFolders:
             MeshRefused: If it does not, or is no file of a known kind.
         """
         if "\0" in name or "\\" in name:
-            raise MeshRefused("a name of a mesh has a sign that no path has")
+            raise MeshRefused("a name of a mesh has an invalid character")
         path = Path(os.path.normpath(root / name))
         if not path.is_relative_to(root):
-            raise MeshRefused(f"'{name}' lies outside of '{root.name}', and is never shown")
+            raise MeshRefused(f"'{name}' is outside of '{root.name}', and is never shown")
         if path.suffix.lower() not in KINDS:
             raise MeshRefused(f"'{name}' is no mesh or texture ({', '.join(SHAPES)})")
         try:

@@ -71,7 +71,7 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
     notes = sorted((*mistakes, *computed))
     if not links:
         why = f" {notes[0][1]}" if notes else f" No {PUBLISHER} is in it."
-        raise InputError(f"'{name}' publishes no static transform that can be read.{why}")
+        raise InputError(f"'{name}' publishes no readable static transform.{why}")
     return StaticFrames(name, tuple(links), tuple(text for _, text in notes))
 
 

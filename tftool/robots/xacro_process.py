@@ -61,8 +61,8 @@ def expand(path: Path, arguments: Mapping[str, str]) -> str:
         return str(said["text"])
     if missing := _NO_PACKAGE.search(said["error"]):
         raise InputError(
-            f"{refused}: there is no package '{missing[1]}': put "
-            "the folder it lies in into the environment variable ROS_PACKAGE_PATH, or source "
+            f"{refused}: there is no package '{missing[1]}': add its parent folder to the "
+            "environment variable ROS_PACKAGE_PATH, or source "
             "its workspace"
         )
     if missing := _NO_ARGUMENT.search(said["error"]):

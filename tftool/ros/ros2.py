@@ -300,7 +300,7 @@ def _topic_delay(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
     def delay(message: Any) -> float:
         if not hasattr(message, "header"):
-            raise UsageError(f"{type(message).__name__} has no header: its delay is not known")
+            raise UsageError(f"{type(message).__name__} has no header, so its delay is unknown")
         return float(owner.now() - stamp_of(message.header.stamp)) / 1e9
 
     def tell(delays: list[float]) -> None:

@@ -49,9 +49,7 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
     words = rest
     if is_file(target):
         if ".launch." in Path(target).name:
-            raise UsageError(
-                f"'{target}' is a launch file: 'tftool launch {target}' carries it out"
-            )
+            raise UsageError(f"'{target}' is a launch file: 'tftool launch {target}' runs it")
         user_code.compile_file(_file(workspace, target))
     else:
         _need_executable(workspace, target, rest)

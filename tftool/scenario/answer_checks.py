@@ -134,13 +134,13 @@ def range_form(unit: Unit, default: RangeCheck | None = None, tolerance: float =
             if default is not None:
                 return default
             raise reading.refuse(
-                place, "what must it be? say below, above, between: [low, high], or is"
+                place, "the limit is missing: write below, above, between: [low, high], or is"
             )
         if given["tolerance"] is not None and given["is"] is None:
             raise reading.refuse(place, "a tolerance goes with 'is'")
         between = given["between"]
         if between is not None and between[0] > between[1]:
-            raise reading.refuse(place, f"between {between[0]:g} and {between[1]:g} lies nothing")
+            raise reading.refuse(place, f"between {between[0]:g} and {between[1]:g} is nothing")
         near = tolerance if given["tolerance"] is None else given["tolerance"]
         return RangeCheck(unit, given["below"], given["above"], between, given["is"], near)
 
@@ -222,7 +222,7 @@ _FRAME_FACTS: Mapping[str, Key] = {
 def _frame_check(given: Mapping[str, Any], reading: Reading, place: TextPlace) -> FrameCheck:
     facts = FrameFacts(**{key: given[key] for key in _FRAME_FACTS})
     if not facts.exists and facts != FrameFacts(False):
-        raise reading.refuse(place, "a frame that does not exist has nothing else to it")
+        raise reading.refuse(place, "a missing frame has no other property")
     return FrameCheck(given["name"], facts)
 
 
@@ -301,7 +301,7 @@ def _tolerance(node: Node, reading: Reading) -> Tolerance:
             if len(text) <= SHORT and text.endswith(tuple(unit.factors)):
                 raise reading.refuse(
                     node,
-                    "one tolerance for metres and radians alike has no unit; "
+                    "a tolerance for metres and radians together has no unit; "
                     f"write {{{part}: {visible(text)}}}",
                 )
         both = values.quantity(values.NUMBER, least=0.0)(node, reading)
@@ -407,7 +407,7 @@ def _pose_check(given: Mapping[str, Any], reading: Reading, place: TextPlace) ->
     value = given["value"]
     if given["raises"] is not None:
         if value is not None:
-            raise reading.refuse(place, "a lookup that raises has no value; keep one of them")
+            raise reading.refuse(place, "a lookup that raises has no value: leave one out")
         return RefusalCheck(given["raises"], given["says"])
     if given["says"] is not None:
         raise reading.refuse(place, "'says' goes with 'raises'")
@@ -439,7 +439,7 @@ def _rotation(
     given = parts["rotation"]
     if given is not None:
         if angles:
-            raise reading.refuse(place, "a rotation or roll, pitch, yaw: keep one of them")
+            raise reading.refuse(place, "give a rotation or roll, pitch, yaw, not both")
         norm = math.hypot(*given)
         if abs(norm - 1.0) > 1e-3:
             raise reading.refuse(place, f"a rotation has length 1, not {norm:.6g}")

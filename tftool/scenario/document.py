@@ -182,7 +182,7 @@ class _TreeReader:
         anchor = event.anchor or ""
         known = self.anchors.get(anchor)
         if known is None:
-            self.refuse(event, f"*{showable(anchor)} names no anchor that ends before it")
+            self.refuse(event, f"*{showable(anchor)} is no anchor defined before")
         return known
 
     def refuse(self, event: yaml.Event, text: str) -> NoReturn:

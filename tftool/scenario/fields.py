@@ -90,9 +90,9 @@ class Reading:
         """
         if not isinstance(node, Scalar):
             kind = "a list" if isinstance(node, document.Sequence) else "a mapping"
-            raise self.refuse(node, f"{kind} stands where {wanted} is wanted")
+            raise self.refuse(node, f"expected {wanted}, not {kind}")
         if node.is_nothing:
-            raise self.refuse(node, f"nothing stands where {wanted} is wanted")
+            raise self.refuse(node, f"expected {wanted}, found nothing")
 
         def value(match: re.Match[str]) -> str:
             name = match[1] or match[2]
@@ -116,12 +116,12 @@ class Reading:
             return {}
         if not isinstance(node, document.Mapping):
             kind = "a list" if isinstance(node, document.Sequence) else quoted(node.text)
-            raise self.refuse(node, f"{kind} stands where a mapping ({wanted}) is wanted")
+            raise self.refuse(node, f"expected a mapping ({wanted}), not {kind}")
         found: dict[str, tuple[Scalar, Node]] = {}
         for key, value in node.entries:
             if key.text in found:
                 line = found[key.text][0].place.line + 1
-                self.note(key, f"the key {quoted(key.text)} is there already, in line {line}")
+                self.note(key, f"the key {quoted(key.text)} is given twice, first in line {line}")
             else:
                 found[key.text] = (key, value)
         return found
@@ -131,7 +131,7 @@ class Reading:
         if isinstance(node, Scalar) and node.is_nothing:
             return ()
         if not isinstance(node, document.Sequence):
-            raise self.refuse(node, f"a list ({wanted}) is wanted here; begin each item with '- '")
+            raise self.refuse(node, f"expected a list ({wanted}); begin each item with '- '")
         return node.items
 
     def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
@@ -298,7 +298,7 @@ def _tag(
     reading.try_read(lambda n, r: r.values(n.place, rest, common, what), node)
     if tags:
         second, _ = entries[tags[1]]
-        raise reading.refuse(second, f"{what} is about one thing; write {listed(tags)} apart")
+        raise reading.refuse(second, f"{what} has one subject; write {listed(tags)} separately")
     anywhere = set(common)
     for name, kind in kinds.items():
         anywhere |= {key for key, (_, aside) in parts_of(kind).items() if aside}

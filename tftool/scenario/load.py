@@ -183,7 +183,7 @@ class _ScenarioReader:
         if self.duration is not None and at > self.duration:
             raise reading.refuse(
                 node,
-                f"{as_seconds(at):g} s lies after the end of the scenario, "
+                f"{as_seconds(at):g} s is after the end of the scenario, "
                 f"which lasts {as_seconds(self.duration):g} s",
             )
         return at
@@ -205,7 +205,7 @@ class _ScenarioReader:
             name = given_name or (f"{kind}{numbers[kind]}" if counts[kind] > 1 else kind)
             if name in KEPT and KEPT[name] != kind:
                 whole = False
-                reading.note(item, f"the name '{name}' is kept; call this node something else")
+                reading.note(item, f"the name '{name}' is reserved; choose another name")
             if name in taken:
                 whole = False
                 reading.note(item, f"the node of line {taken[name]} is named {quoted(name)} too")
@@ -274,7 +274,7 @@ class _ScenarioReader:
                 if word in KINDS[kind].fields or word == "name"
                 else "begin each node with '- '"
             )
-            reading.note(other, f"{quoted(word)} stands beside '{kind}', not in it; {hint}")
+            reading.note(other, f"{quoted(word)} is beside '{kind}', not in it; {hint}")
         known = {**KINDS[kind].fields, "name": Key(values.name("a node"), "")}
         parameters = reading.try_read(lambda node, r: r.record(node, known, f"a {kind}"), value)
         if parameters is UNREAD:
@@ -354,7 +354,7 @@ class _ScenarioReader:
         if isinstance(node, document.Sequence):
             found: tuple[Duration, ...] = values.several(self.moment, "moments")(node, reading)
             if not found:
-                raise reading.refuse(node, "at which moment? the list is empty")
+                raise reading.refuse(node, "the list of moments is empty")
             return found
         return (self.moment(node, reading),)
 
@@ -372,18 +372,18 @@ class _ScenarioReader:
             return tuple(When("at", at, at, every) for at in given["at"])
         end = self.duration or 0
         if said == ["always"] and not given["always"]:
-            raise reading.refuse(place, "always: false says nothing; leave the expectation out")
+            raise reading.refuse(place, "always: false tests nothing; leave the expectation out")
         first, last = {
             "by": (0, given["by"]),
             "during": given["during"],
             "always": (0, end),
         }[said[0]]
         if first > last:
-            raise reading.refuse(place, "during: the first moment lies after the last one")
+            raise reading.refuse(place, "during: the first moment is after the last one")
         self.looks += (last - first) // every
         if self.looks > MOST_LOOKS:
             raise reading.refuse(
-                place, f"that is more than {MOST_LOOKS:,} looks in all; give 'every' a longer time"
+                place, f"that is more than {MOST_LOOKS:,} checks; give 'every' a longer time"
             )
         return (When("by" if said == ["by"] else "during", first, last, every),)
 

@@ -163,7 +163,7 @@ def name(what: str = "a name") -> Reader:
     def read(node: Node, reading: Reading) -> str:
         value = reading.text(node, what)
         if not value.strip():
-            raise reading.refuse(node, f"{what} is wanted here, not blanks")
+            raise reading.refuse(node, f"expected {what}, not blanks")
         if not value.isprintable():
             raise reading.refuse(node, f"{quoted(value)} holds characters that cannot be printed")
         return value
@@ -235,7 +235,7 @@ def words(known: Iterable[str], what: str) -> Reader:
     def read(node: Node, reading: Reading) -> tuple[str, ...]:
         found = tuple(reading.text(node, what).split())
         if not found:
-            raise reading.refuse(node, f"{what} is wanted here, not blanks")
+            raise reading.refuse(node, f"expected {what}, not blanks")
         for word in found:
             if word not in choices:
                 near = suggest(word, choices) or f"; it may be {', '.join(choices)}"

@@ -644,8 +644,8 @@ class _VirtualSelector(selectors.DefaultSelector):
             return []
         if self._loop.is_forsaken():
             raise TftoolError(
-                "nothing is due and every task waits: this run would never end. "
-                "Give it an end (until), or something that wakes it."
+                "every task waits and nothing is due, so this run would never end: give it "
+                "an end (until), or a timer."
             )
         # A thread or a file may still wake the loop: simulated time waits for it in real time.
         return super().select(None)

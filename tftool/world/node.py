@@ -122,7 +122,7 @@ class Node(Resident):
                     slipped = True
                     self.warn(
                         f"is {as_seconds(missed * period):.1f} s behind its own timer: "
-                        "the computer was too busy, or stopped it; what it missed it leaves out"
+                        "the computer was too busy, or stopped it; the missed calls are skipped"
                     )
             yield due
             due += period

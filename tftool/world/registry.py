@@ -117,7 +117,7 @@ class NamedOffers(Generic[T]):
         name = name.removeprefix("/")
         if name in self._first and not self._first[name].is_remote:
             if not shares:
-                raise TftoolError(f"{self._what} '{name}' is served already")
+                raise TftoolError(f"{self._what} '{name}' already has a server")
             self._next.setdefault(name, []).append(offer)
         else:
             self._first[name] = offer

@@ -175,7 +175,7 @@ class World:
             self._changed()
         elif topic.kind is not kind:
             carried, named = (interface_name(one) or one.__name__ for one in (topic.kind, kind))
-            raise TftoolError(f"topic '{name}' carries {carried}, not {named}")
+            raise TftoolError(f"topic '{name}' has the type {carried}, not {named}")
         return topic
 
     def publisher(
@@ -528,7 +528,7 @@ class World:
             TftoolError: If a node of that name is here.
         """
         if any(other.name == node.name for other in self.nodes):
-            raise TftoolError(f"a node named '{node.name}' is here already")
+            raise TftoolError(f"a node named '{node.name}' exists already")
         node.rank = self._joined
         self._joined += 1
         self.nodes.append(node)
@@ -544,7 +544,7 @@ class World:
         """
         if self._supervisor is None:
             work.close()
-            raise TftoolError(f"node '{node.name}' can start no work: its world does not run")
+            raise TftoolError(f"node '{node.name}' cannot start work: its world does not run")
         return self._supervisor.start_soon(node, work)
 
     def free_name(self, wanted: str) -> str:

@@ -215,7 +215,7 @@ def test_a_host_that_leaves_is_told_once():
 
         (told,) = texts(two.there)
         assert told.startswith("'tftool demo' (process ")
-        assert told.endswith("which hosted, has left; what it sent stays as it was.")
+        assert told.endswith("which hosted, has left; its last transforms stay.")
         two.guest.close()
 
     play(leave())

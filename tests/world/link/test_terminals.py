@@ -62,7 +62,7 @@ def test_three_terminals_play_the_tutorial(terminal):
     demo.shows("ended with 0")
     echo.has_shown("which hosted, has left")
     echo.has_shown("Waiting for turtle1 in turtle2")
-    teleop.shows("has left; what it sent stays as it was.")
+    teleop.shows("has left; its last transforms stay.")
     told = "there is no turtle 'turtle1' here"
     teleop.until(lambda screen: teleop.press("Up") or told in screen, told)
     teleop.press("q")

@@ -101,7 +101,7 @@ def test_a_follower_that_is_there_already_will_do():
     Follower(world, "listener")
     play(world, 20.0)
 
-    assert log_texts(world, "listener") == ["turtle2 is there already, and will do"]
+    assert log_texts(world, "listener") == ["turtle2 exists already, and is used"]
     assert distance(sim) < 0.01
 
 
@@ -152,9 +152,9 @@ def test_stale_data_stops_the_follower_with_one_clear_sentence_until_it_is_fresh
 
     said = log_texts(world, "listener")
     assert said[1:] == [
-        "What is known of turtle1 seen from turtle2 is 1.904 s old, the limit is 1 s: "
-        "stopping until there is something newer",
-        "There is newer data of turtle1: following again",
+        "The newest transform of turtle1 in turtle2 is 1.904 s old, the limit is 1 s: "
+        "stopping until there is a newer one",
+        "There are new transforms of turtle1: following again",
     ]
     # t = 3, 4, 5, the stop at 6, and 10, 11, 12 again.
     assert len(commands) == 7

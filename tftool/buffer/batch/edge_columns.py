@@ -151,7 +151,9 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
     """
     given = np.asarray(times)
     if given.ndim == 0:
-        raise ValueError(f"{name} have the shape (n,), not (): one goes as a list, [{given}]")
+        raise ValueError(
+            f"{name} have the shape (n,), not (): write a single one as a list, [{given}]"
+        )
     if given.ndim != 1:
         raise ValueError(f"{name} have the shape (n,), not {given.shape}")
     if given.size == 0:

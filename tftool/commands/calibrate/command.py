@@ -304,7 +304,7 @@ class _Published:
         """
         if self.mount is None:
             raise UsageError(
-                f"No mount of '{self.name}' on '{self.parent}' is published: name a "
+                f"No mount of '{self.name}' on '{self.parent}' is published: give a "
                 "description with --urdf FILE, or the frame with --mounted NAME."
             )
 

@@ -42,7 +42,7 @@ def run(
             f"--into {visible(target)}: there is {known}, and orders of axes such as sxyz."
         )
     if target is not None and (for_programs or all_orders):
-        raise UsageError("--into prints one form alone: leave out --json and --all.")
+        raise UsageError("--into prints only one form: leave out --json and --all.")
     first = read(_text(words), form, degrees=degrees)
     read_all = [first, *(read(text, form, degrees=degrees) for text in then or ())]
     pose = first.transform

@@ -72,8 +72,8 @@ class _Showing:
             return self._hosted(chosen, found)
         if self.recording is not None:
             raise UsageError(
-                "A session runs here, which 'tftool record' records: --record is for a world of "
-                "the demo's own (--host)."
+                "'tftool record' records the running session: --record is for a demo that "
+                "hosts (--host)."
             )
         return self._joined(found.session)
 
@@ -201,12 +201,12 @@ def run(
         return ExitStatus.DONE
     if recording is not None and recording.exists():
         # Said before the screen comes up.
-        raise UsageError(f"'{recording}' exists: --record takes a name that is free.")
+        raise UsageError(f"'{recording}' exists: give --record a new name.")
     arguments = _arguments(settings or (), source_frame)
     if scenario is not None and named(scenario).kind.is_recording:
         if arguments or rate != 1.0 or lasting is not None or for_programs:
             raise UsageError(
-                "A recording stands still: leave out --set, --source-frame, --rate, --for and "
+                "A recording does not move: leave out --set, --source-frame, --rate, --for and "
                 "--json. 'tftool play' plays it."
             )
         _show_recording(connection, scenario, ascii_only=ascii_only, light=light)
@@ -216,8 +216,9 @@ def run(
     if for_programs or lacking:
         if connection.needs_link:
             raise UsageError(
-                "Without a terminal the demo plays on simulated time, which cannot be shared. "
-                "'tftool monitor' and 'tftool view' share a session without one."
+                "Without a terminal the demo plays on simulated time, which cannot be "
+                "shared. 'tftool monitor' and 'tftool view' share a session without a "
+                "terminal."
             )
         refuse_long_simulation(lasting)
         if not for_programs and sys.stdout.isatty():

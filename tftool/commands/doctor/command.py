@@ -167,7 +167,7 @@ def run(
         (ends,), _ = pairs_and_place([], [pair]) if pair else ([("", "")], None)
         return _show_steps(connection, places or [], ends, (lasting, scope), for_programs)
     if baseline is not None and output is not None:
-        raise UsageError("--baseline judges reports, and -o writes rows: leave one out.")
+        raise UsageError("--baseline applies to reports, and -o writes rows: leave one out.")
     accepted = None if baseline is None else Baseline.read(baseline)
     if mounts and output is not None:
         raise UsageError("--mounts goes with a report: leave -o out.")

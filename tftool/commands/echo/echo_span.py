@@ -53,4 +53,4 @@ def print_span(
         stamp = int(stamps[row])
         printer.found(stamp, TransformStamped(stamp, *pair, pose))
     if len(rows) < len(stamps):
-        notice(f"At {len(stamps) - len(rows)} of {len(stamps)} moments there is no answer.")
+        notice(f"{len(stamps) - len(rows)} of {len(stamps)} lookups were refused.")

@@ -100,7 +100,7 @@ def _frame(option: str, text: str) -> str:
     """Return a frame name or prefix as tf2 stores it: without a leading slash."""
     name = stripped(text)
     if not name.strip():
-        raise UsageError(f"{option}: '{text}' is empty, and tf2 has no frame without a name.")
+        raise UsageError(f"{option}: '{text}' is empty: a frame needs a name.")
     if name != name.strip() or not name.isprintable() or len(name.encode()) > LONGEST_NAME:
         raise UsageError(f"{option}: '{text}' is no name of a frame.")
     if name.startswith("/") or "//" in name:
@@ -126,8 +126,8 @@ def _pose(text: str) -> "tuple[LinkName, tuple[float, ...]]":
         return link, (*numbers[:3], *quaternion_from_rpy(*numbers[3:]))
     if len(numbers) != 7:
         raise UsageError(
-            f"--set {name} takes 6 numbers (x, y, z, roll, pitch, yaw) or 7 (x, y, z and the "
-            f"quaternion x, y, z, w), not {len(numbers)}."
+            f"--set {name} takes 6 numbers (x, y, z, roll, pitch, yaw) or 7 (x, y, z, then "
+            f"the quaternion x, y, z, w), not {len(numbers)}."
         )
     length = math.sqrt(sum(value * value for value in numbers[3:]))
     if abs(length - 1.0) > 1e-3:

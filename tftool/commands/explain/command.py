@@ -53,10 +53,10 @@ def run(
                 "and --asked-at."
             )
         return _explain_joints(connection, place, (target, source), for_programs=for_programs)
-    connection.robot.refuse("Only a robot description has joints to set and arguments")
+    connection.robot.refuse("Only a robot description has joints and arguments")
     topic, _, behind = message.partition("@")
     if behind and at is not None:
-        raise UsageError(f"--message {message} names a moment already: leave out --at.")
+        raise UsageError(f"--message {message} already names a moment: leave out --at.")
     if behind:
         at = moment(behind)
     settings = Settings(cache_time=cache_time or seconds(10))

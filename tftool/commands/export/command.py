@@ -117,7 +117,7 @@ def _refuse_misfits(
     )
     refuse_several_choices(*when.choices)
     if any(one is not None for one in when.choices) and not form.is_trajectory:
-        raise UsageError(f"{form} holds links, which are written once: leave out the moments.")
+        raise UsageError(f"{form} holds links without times: leave out the options of time.")
 
 
 def _as_object(done: Exported) -> dict[str, object]:
@@ -160,4 +160,4 @@ def _tell(done: Exported) -> None:
     names = " and ".join(str(path) for path in done.paths)
     notice(visible(f"Wrote {count(done.count, what)} to {names}{when}."))
     if done.format is Format.kitti:
-        notice("KITTI's own frames look along z: these are written as they are.")
+        notice("KITTI's own frames look along z: the poses are written unchanged.")

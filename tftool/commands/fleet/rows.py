@@ -70,9 +70,7 @@ class RowFile:
         self._columns = columns
         self._suffix = path.suffix.lower()
         if self._suffix not in SUFFIXES:
-            raise UsageError(
-                f"'{path}' does not say what to write: end it in .jsonl, .csv or .parquet."
-            )
+            raise UsageError(f"'{path}' has no known suffix: end it in .jsonl, .csv or .parquet.")
         self._is_parquet = self._suffix == ".parquet"
         if self._is_parquet:
             _arrow()

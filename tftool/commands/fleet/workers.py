@@ -124,5 +124,5 @@ def workers_of(processes: int, scheduler: str) -> Workers:
     if not scheduler:
         return OneProcess() if processes == 1 else Processes(processes)
     if processes != 1:
-        raise UsageError("--scheduler says who works: leave out --jobs.")
+        raise UsageError("--scheduler replaces --jobs: leave --jobs out.")
     return Cluster(scheduler)

@@ -96,7 +96,8 @@ def run(
     if session.is_hosted and follower not in broadcasters:
         Broadcaster(world, f"broadcaster_{follower}", turtle=follower)
     notice(
-        f"{visible(follower)} follows {visible(leader)}, looking every {as_seconds(period):g} s."
+        f"{visible(follower)} follows {visible(leader)}, with a lookup every "
+        f"{as_seconds(period):g} s."
     )
     session.run(_last(session, follower, run_for))
     return ExitStatus.DONE

@@ -145,7 +145,7 @@ def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: 
     from tftool.drawing import robot_view as view
 
     RobotOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
-        "'info' shows joints as they rest"
+        "'info' shows joints at rest"
     )
     robot = load_urdf(path, connection.robot.arguments)
     if for_programs:

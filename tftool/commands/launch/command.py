@@ -27,7 +27,7 @@ def run(
 ) -> ExitStatus:
     """Run `tftool launch`; the parameters are its options."""
     if simulated and run_for is None and not show_args:
-        raise UsageError("on simulated time a launch needs an end: --for SECONDS")
+        raise UsageError("on simulated time a launch needs --for SECONDS")
     if simulated:
         refuse_long_simulation(run_for)
     workspace = workspace_here(verbose=verbose)

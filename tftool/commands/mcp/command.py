@@ -39,7 +39,7 @@ with how many are missing: `part` names one key of an answer, `skip` leaves out 
 def run(root: Path) -> ExitStatus:
     """Run `tftool mcp`; the parameters are its options."""
     if not root.is_dir():
-        raise InputError(f"'{root}' is no folder: name the one that holds the recordings.")
+        raise InputError(f"'{root}' is no folder: name the folder of the recordings.")
     try:
         # An extra: 40 MB that only this command needs.
         from mcp.server import MCPServer
@@ -237,7 +237,9 @@ class Questions:
         except (OSError, ValueError, RuntimeError) as error:
             raise InputError(f"'{source}' is no file below the root.") from error
         if not self._stays_inside(path):
-            raise InputError(f"'{source}' is, or leads, out of the root: it is not read.")
+            raise InputError(
+                f"'{source}' is outside of the root, or a link that leads there: it is not read."
+            )
         word = f"./{path.relative_to(self._root)}"
         if path.suffix == ".xacro" or source.endswith(".xacro"):
             raise InputError(f"'{source}' is xacro, which may run code: expand it first.")

@@ -24,7 +24,7 @@ def run(
 ) -> ExitStatus:
     """Run `tftool monitor`; the parameters are its options."""
     if as_tf2 and for_programs:
-        raise UsageError("--tf2 and --json are two ways of writing: choose one.")
+        raise UsageError("--tf2 and --json are two output formats: choose one.")
     frames, place = _sorted_out(words or [])
     try:
         is_recording = place is not None and named(place).kind.is_recording

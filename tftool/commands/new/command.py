@@ -42,21 +42,21 @@ def _check_name(name: str) -> None:
     if not re.fullmatch(r"[a-z](_?[a-z0-9])*", name):
         hint = " With --scenario it is a scenario." if name.endswith((".yaml", ".yml")) else ""
         raise UsageError(
-            f"'{name}' is no name for a package: small letters, digits and single "
+            f"'{name}' is no valid package name: use small letters, digits and single "
             f"underscores, a letter first, as in 'my_frames'.{hint}"
         )
     if keyword.iskeyword(name) or name in sys.stdlib_module_names:
-        raise UsageError(f"'{name}' is a word of Python's own; choose another name.")
+        raise UsageError(f"'{name}' is a keyword or module of Python; choose another name.")
 
     if name in OF_ROS or name in INTERFACES.packages():
-        raise UsageError(f"'{name}' is a package of ROS 2's own; choose another name.")
+        raise UsageError(f"'{name}' is a package of ROS 2; choose another name.")
 
 
 def _check_node(name: str) -> None:
     """Refuse a node name that Python could not import."""
     if not name.isidentifier() or not name.isascii() or keyword.iskeyword(name):
         raise UsageError(
-            f"'{name}' is no name for a node: letters, digits and underscores, a letter first, "
+            f"'{name}' is no valid node name: use letters, digits and underscores, a letter first, "
             "as in 'turtle_tf_broadcaster'."
         )
 

@@ -52,7 +52,7 @@ def _refuse_to_mix(link: Link) -> None:
         some = ", ".join(f"'{visible(node)}'" for node in nodes[:3])
         raise UsageError(
             f"/tf has publishers here, {some}: the playback would mix with it, and a robot "
-            "would act on both. Choose another --domain, or --force it."
+            "would act on both. Choose another --domain, or add --force."
         )
 
 
@@ -71,9 +71,9 @@ def _span(
     for asked, stamp in ((begin, first), (until, last)):
         if asked is not None and not low <= stamp <= high:
             lasts = f"{as_seconds(high - recording.start):g} s"
-            raise UsageError(f"The recording lasts {lasts}: {asked} lies outside it.")
+            raise UsageError(f"The recording lasts {lasts}: {asked} is outside of that.")
     if first > last:
-        raise UsageError(f"--from {begin} lies after --to {until}.")
+        raise UsageError(f"--from {begin} is after --to {until}.")
     return first, last
 
 
@@ -125,7 +125,7 @@ class _Playing:
     def _feed(self, link: Link | None) -> TopicFeed | None:
 
         if link is None:
-            notice("--all sends nothing else: no other process can join this world.")
+            notice("--all has no effect here: no other process can join this world.")
             return None
         feed = TopicFeed(link, self.recording.source, self.timeline.clock, "player")
         for sentence in feed.left_out:

@@ -124,7 +124,7 @@ def _form_of(output: Path, force: bool) -> str:
 
     form = output.suffix.lower().removeprefix(".")
     if form not in figure.FORMATS:
-        raise UsageError(f"'{output}' does not say what to draw: end it in .svg, .pdf or .png.")
+        raise UsageError(f"'{output}' has no known suffix: end it in .svg, .pdf or .png.")
     refuse_existing(output, force=force)
     return form
 

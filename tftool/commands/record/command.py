@@ -85,7 +85,7 @@ def _size(text: str | None) -> int:
         raise UsageError(f"--max-size takes a number and k, M or G, such as 500M, not '{text}'.")
     found = int(float(match[1]) * _UNITS[match[2]])
     if found < _LEAST_SIZE:
-        raise UsageError(f"--max-size {text} is less than a file needs: 100k at least.")
+        raise UsageError(f"--max-size {text} is too small: 100k is the minimum.")
     return found
 
 
@@ -101,7 +101,7 @@ def _refuse_places(topics: Sequence[str]) -> None:
         if builtin.path_of(word) is not None or Path(word).is_file():
             shown = visible(word)
             raise UsageError(
-                f"'{shown}' is a scenario or a file, and topics are named here: --in {shown} "
+                f"'{shown}' is a scenario or a file, and the words here are topics: --in {shown} "
                 f"records a scenario, /{shown} a topic of that name."
             )
 
@@ -136,7 +136,7 @@ def run(
         ring = ring or RING
     if ring is not None and (max_size or max_duration):
         raise UsageError(
-            "--ring writes one file in the end: leave out --max-size and --max-duration."
+            "--ring writes one file at the end: leave out --max-size and --max-duration."
         )
     _refuse_places(topics or ())
     limits = RecordLimits(_size(max_size), max_duration or 0, ring or 0)

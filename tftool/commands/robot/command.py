@@ -108,7 +108,7 @@ def _draw(
     """Draw the robot at given joint positions into a file."""
     form = output.suffix.lower().removeprefix(".")
     if form not in ("svg", "png"):
-        raise UsageError(f"'{output}' does not say what to draw: end it in .svg or .png.")
+        raise UsageError(f"'{output}' has no known suffix: end it in .svg or .png.")
     poses = {described.root: Transform.identity()}
     for one in described.transforms(joints):
         poses[one.child_frame_id] = poses[one.frame_id] @ one.transform
@@ -157,7 +157,7 @@ def run(
             f"'{visible(place)}' is {kind_in_words(found)}: a robot description is needed here."
         )
     if follow and connection.robot.joints:
-        raise UsageError("--follow leaves the joints to others: leave out --joint.")
+        raise UsageError("--follow takes joints from others: leave out --joint.")
     if output is None and not no_screen and (lacking := screen_lacks()):
         raise UsageError(f"The sliders need a terminal, and {lacking}: add --no-screen.")
     described = load_described(found, connection.robot)

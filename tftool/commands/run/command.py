@@ -78,7 +78,7 @@ def _refuse_misplaced(target: str, words: Sequence[str]) -> None:
     if not any(f"{quote}{word}{quote}" in text for word in given for quote in "'\""):
         raise UsageError(
             f"put {' and '.join(given)} before FILE: words after it go to the program. "
-            "'tftool run FILE -- WORDS' gives it any."
+            "'tftool run FILE -- WORDS' passes any words to it."
         )
 
 
@@ -128,7 +128,7 @@ def run(
 ) -> int:
     """Run `tftool run`; the parameters are its options."""
     if simulated and run_for is None:
-        raise UsageError("on simulated time a run needs an end: --for SECONDS")
+        raise UsageError("on simulated time a run needs --for SECONDS")
     if simulated:
         refuse_long_simulation(run_for)
     words = list(rest or [])

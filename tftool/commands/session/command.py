@@ -118,7 +118,7 @@ def run(
         raise UsageError("'session' only lists processes: leave out --host.")
     link = connection.open_link()
     if link is None:
-        raise LinkError("there is no link to other processes here")
+        raise LinkError("no other process can be reached from here")
     if link.unanswering:
         notice(link.unanswering)
     elif link.graph.is_empty:

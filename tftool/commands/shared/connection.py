@@ -193,7 +193,7 @@ class Connection:
         """
         if word is None and self.reach.only_reads:
             raise UsageError(
-                f"{self.place} is a session that runs, without a past to ask about: leave out the "
+                f"{self.place} is a running session, which keeps no past: leave out the "
                 "moment, or record it first ('tftool record')."
             )
         self.refuse_to_join(word)
@@ -215,7 +215,10 @@ class Connection:
                 f"'{visible(word)}' and {self.place} are two sources: name one at a time."
             )
         if word is not None and self.mode is Mode.JOIN:
-            raise UsageError(f"'{visible(word)}' is always hosted: leave out --join, or the name.")
+            raise UsageError(
+                f"'{visible(word)}' is always hosted: leave out --join, or the name of the "
+                "scenario."
+            )
 
     def refuse_read_only(self, purpose: str) -> None:
         """Refuse --read-only for a command whose whole purpose is to publish.
@@ -232,7 +235,8 @@ class Connection:
         """Explain what --read-only means for nodes that are run."""
         if self.read_only:
             notice(
-                "--read-only: what nodes here publish, broadcast and serve, no other process gets."
+                "--read-only: other processes get nothing that nodes here publish, broadcast "
+                "or serve."
             )
 
 
@@ -264,7 +268,7 @@ def read(
     if join and host:
         raise UsageError("--join and --host contradict each other: choose one.")
     if host and read_only:
-        raise UsageError("--read-only looks at a session, so it cannot --host one.")
+        raise UsageError("--read-only publishes nothing, so it cannot --host a session.")
     far = None
     if address is not None:
         from tftool.opener import refuse_beside_address
@@ -298,7 +302,7 @@ def _joint(word: str) -> tuple[str, float]:
         position = math.nan
     if not name or not equals or not math.isfinite(position):
         raise UsageError(
-            f"'--joint {word}' is no joint and position: write NAME=VALUE, such as "
+            f"'--joint {word}' sets no joint: write NAME=VALUE, such as "
             "--joint elbow=0.5 or --joint elbow=30deg."
         )
     return name, position

@@ -56,7 +56,7 @@ def evidence_from(
     if kind is Kind.DESCRIPTION:
         shown = visible(word or "")
         raise UsageError(
-            f"'{shown}' is a robot description, which publishes nothing to judge: "
+            f"'{shown}' is a robot description, without published transforms: "
             f"'tftool doctor RECORDING --urdf {shown}' compares the two, "
             f"'tftool info {shown}' reports its mistakes."
         )

@@ -208,7 +208,7 @@ def _refuse_files(word: str | None) -> None:
     if found is not None and found.kind is not Kind.SCENARIO:
         shown = visible(found.name)
         raise UsageError(
-            f"'{shown}' is {kind_in_words(found)}, from which no message arrives: "
+            f"'{shown}' is {kind_in_words(found)}, which sends no messages: "
             f"'tftool tree {shown}' shows its frames."
         )
 
@@ -244,9 +244,9 @@ def refuse_moment(connection: Connection) -> None:
         if link.graph.has_sources:
             running = session_name(link, connection.place)
             raise UsageError(
-                f"A session is running here, {running}; it has no past to ask about. Name a "
-                f"scenario ('{HOME} --at 5') or a recording ('tftool record -o run.mcap', then "
-                f"'run.mcap --at 5'); --host asks '{HOME}' whatever runs."
+                f"A session is running here, {running}; it keeps no past. Name a scenario "
+                f"('{HOME} --at 5') or a recording ('tftool record -o run.mcap', then "
+                f"'run.mcap --at 5'); --host hosts '{HOME}' in any case."
             )
     finally:
         link.close()
@@ -275,7 +275,7 @@ def open_own_session(connection: Connection, *, simulated: bool, because: str) -
             return joined.session
         link = joined.link
         world = World(connection.providers.wall_clock())
-    notice(f"{because}: hosting a world of its own.")
+    notice(f"{because}: hosting a separate world.")
     alive = lived(world, link, "source")
     return Session(world, True, "a world of its own", alive, link=link, tell=tell_news)
 

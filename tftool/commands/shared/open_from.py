@@ -79,7 +79,7 @@ def open_from(
         refuse_moment(connection)
     if not shares:
         if lasting is not None and place is not None and named(place).kind is not Kind.SCENARIO:
-            raise UsageError("--for is for sources that go on: --to leaves out a recording's end.")
+            raise UsageError("--for is for live sources: for a recording use --to.")
         connection.refuse_to_share(place)
     if place is None:
         refuse_options_of_files(connection.robot, connection.recording, None)

@@ -133,8 +133,8 @@ def refuse_long_simulation(lasting: Duration | None) -> None:
     """
     if lasting is not None and lasting > LONGEST_SIMULATED:
         raise UsageError(
-            f"--for {as_seconds(lasting):g} is too long for simulated time: a day is "
-            f"played at most: --for {as_seconds(LONGEST_SIMULATED):.0f}"
+            f"--for {as_seconds(lasting):g} is too long for simulated time, which is limited "
+            f"to a day: --for {as_seconds(LONGEST_SIMULATED):.0f}"
         )
 
 

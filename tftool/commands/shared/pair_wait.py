@@ -143,8 +143,7 @@ class PairWait:
         if back >= cache_time:
             notice(
                 f"--offset goes back {as_seconds(back):g} s, and the buffer remembers "
-                f"{as_seconds(cache_time):g} s: --cache-time {as_seconds(back) + 5:g} makes that "
-                "enough."
+                f"{as_seconds(cache_time):g} s: --cache-time {as_seconds(back) + 5:g} is enough."
             )
 
     def _because(self) -> str:

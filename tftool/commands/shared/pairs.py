@@ -88,8 +88,8 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
         path = Path(word)
         if (path.suffix and path.is_file()) or (path / METADATA).is_file():
             raise UsageError(
-                f"'{visible(word)}' is a file, and a frame's name is expected here: write two "
-                "frames before it, TARGET SOURCE FROM."
+                f"'{visible(word)}' is a file, and the words here are frames: write two of "
+                "them before it, TARGET SOURCE FROM."
             )
 
 
@@ -105,9 +105,9 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
     """
     if len(words) > (1 if given else 3):
         raise UsageError(
-            "With --pair, one word at most is FROM."
+            "With --pair, only one word, FROM, is allowed."
             if given
-            else f"TARGET SOURCE [FROM] are three words at most, not {len(words)}."
+            else f"expected TARGET SOURCE [FROM], not {len(words)} words."
         )
     if not given:
         if len(words) < 2:
@@ -187,7 +187,7 @@ def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | No
     start = None if first is None else first.stamp(begin)
     end = None if last is None else last.stamp(begin)
     if start is not None and end is not None and start > end:
-        raise UsageError(f"--from {first} lies behind --to {last}.")
+        raise UsageError(f"--from {first} is after --to {last}.")
     if start is not None and start > over:
         lasts = as_seconds(over - begin)
         raise UsageError(

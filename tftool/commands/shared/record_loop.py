@@ -165,4 +165,4 @@ def tell(rolling: RollingRecording, recorder: Recorder) -> None:
     for name in recorder.missing:
         notice(f"'{visible(name)}' was never published.")
     if not rolling.transforms:
-        notice("No transform arrived: 'tftool monitor' shows what does.")
+        notice("No transform arrived: 'tftool monitor' shows the traffic.")

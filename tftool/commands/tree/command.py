@@ -105,7 +105,7 @@ def _form_of(output: Path | None) -> TreeFormat:
         raise UsageError(f"'{output}' is a folder: name a file in it.")
     if suffix not in known:
         raise UsageError(
-            f"'{output}' does not say what to write: end it in {', '.join(sorted(known))}, "
+            f"'{output}' has no known suffix: end it in {', '.join(sorted(known))}, "
             "or give --format."
         )
     return known[suffix]

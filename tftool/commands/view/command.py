@@ -68,7 +68,7 @@ def _write(
 ) -> ExitStatus:
     """Write the page and its data into one file."""
     if output.suffix.lower() not in (".html", ".htm"):
-        raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
+        raise UsageError(f"'{output}' has no known suffix: end it in .html.")
     refuse_existing(output, force=force)
     data = _page_data(connection, place, run_for, meshes)
     if not data.buffer.frames():
@@ -90,7 +90,7 @@ def _write(
             f"digits would not fit {MOST_BYTES / 1e6:g} MB."
         )
     if size > MOST_BYTES:
-        notice("A part of the recording needs less: 'tftool edit --from --to' cuts it out.")
+        notice("For a smaller file, cut out a part with 'tftool edit --from --to'.")
     if open_browser and not webbrowser.open(output.resolve().as_uri()):
         notice("No browser could be started: open the file yourself.")
     return ExitStatus.DONE
@@ -190,7 +190,7 @@ def _tell_missing(shown: ShownRobot) -> None:
 
     missing = shown.missing
     for sentence in missing[:_MOST_TOLD]:
-        notice(f"A box stands for a mesh: {visible(sentence)}.")
+        notice(f"A box is drawn for a mesh: {visible(sentence)}.")
     if len(missing) > _MOST_TOLD:
         notice(f"... and for {len(missing) - _MOST_TOLD} more.")
 
@@ -277,7 +277,7 @@ def run(
     """Run `tftool view`; the parameters are its options."""
     if output is not None:
         if cache_time is not None:
-            raise UsageError("A file holds everything: leave out --cache-time.")
+            raise UsageError("A file contains all transforms: leave out --cache-time.")
         return _write(connection, place, output, run_for, meshes or [], force, open_browser)
     if force:
         raise UsageError("--force goes with -o FILE.")

@@ -262,7 +262,7 @@ class _Solver:
         if self.planar and second > 2.0 * SECOND_AXIS:
             raise CalibrationRefused(
                 f"{problem.a.name} tilts by {math.degrees(second):.1f}° in the mean: it is not "
-                "planar. Ask without planar: the motion shows all of the mount.",
+                "planar. Leave out --planar: the motion determines the whole mount.",
             )
         if second < SECOND_AXIS or is_planar:
             if is_planar:

@@ -80,8 +80,8 @@ class BodyMotion:
         name = f"{path.child_frame_id} in {path.frame_id}"
         if len(stamps) < _LEAST_POSES:
             raise CalibrationRefused(
-                f"{name} has too few poses: {len(stamps)} of different stamps, of {_LEAST_POSES} "
-                "that are needed.",
+                f"{name} has too few poses: {len(stamps)} with different stamps, and "
+                f"{_LEAST_POSES} are needed.",
                 "move for half a minute, turning about two axes",
             )
         turns = batch.unit(path.rotations[first])

@@ -163,7 +163,7 @@ def _written(
     buffer = buffer_of(frames)
     if not form.is_trajectory:
         if asked:
-            raise UsageError(f"{form} holds links, and no pair: leave out the frames.")
+            raise UsageError(f"{form} holds links, not a pair: leave out the frames.")
         return write_links(buffer, place, form, style, force=force, progress=progress)
     if not asked:
         raise UsageError(f"{form} holds pairs of frames over time: name a target and a source.")
@@ -188,9 +188,7 @@ def write_trajectories(
         UsageError: If the format holds one pair only, or an extra is missing.
     """
     if len(found) > 1 and form.holds == "pair":
-        raise UsageError(
-            f"{form} holds one pair, and these are {len(found)}: write .csv, .npz or .parquet."
-        )
+        raise UsageError(f"{form} holds one pair, not {len(found)}: write .csv, .npz or .parquet.")
     if style.rpy and form not in (Format.csv, Format.parquet):
         raise UsageError(f"Roll, pitch and yaw are columns of CSV and Parquet, not of {form}.")
     paths = TRAJECTORY_WRITERS[form](found, path, style, force, progress)
@@ -214,23 +212,25 @@ def write_links(
         UsageError: If there is nothing to write, or it does not fit the format.
     """
     if not buffer.frames():
-        raise UsageError("There is no frame: there is nothing to write.")
+        raise UsageError("There are no frames to write.")
     if form is Format.mcap:
         count = frame_messages.write_frames(
             buffer, path, foxglove=style.foxglove, force=force, progress=progress
         )
         return Exported((path,), form, count)
     if style.foxglove:
-        raise UsageError(f"foxglove.FrameTransforms go into an MCAP file, not into {form}.")
+        raise UsageError(
+            f"foxglove.FrameTransforms can only be written to an MCAP file, not into {form}."
+        )
     if style.with_moving and form is not Format.urdf:
-        raise UsageError(f"{form} publishes static transforms: moving links have none.")
+        raise UsageError(f"{form} publishes static transforms: moving links cannot be written.")
     links = static_files.fixed_links(
         buffer, with_moving=style.with_moving, time=style.time, root=style.root
     )
     if not links:
         below = "" if style.root is None else f" below '{style.root}'"
         moving = " --with-moving adds those that move." if form is Format.urdf else ""
-        raise UsageError(f"No link{below} holds at all times: there is nothing to write.{moving}")
+        raise UsageError(f"No link{below} is static: there is nothing to write.{moving}")
     name = path.name.partition(".")[0] or "robot"
     text = LINK_WRITERS[form](links, name)
     with whole_file(path, force=force) as file:
@@ -260,7 +260,7 @@ def refuse_input(frames: object, path: Path) -> None:
         return
     inside = os.path.isdir(name) and path.parent.exists() and os.path.samefile(name, path.parent)
     if inside or (path.exists() and os.path.samefile(name, path)):
-        raise UsageError(f"'{path}' is being read: write to another name.")
+        raise UsageError(f"'{path}' is the input: choose another name.")
 
 
 def _stamps(stamps: npt.ArrayLike) -> Stamps:

@@ -98,5 +98,5 @@ def format_of(path: Path) -> Format:
         if name.endswith(suffix):
             return form
     raise UsageError(
-        f"'{path}' does not say what to write: end it in {', '.join(SUFFIXES)}, or name the format."
+        f"'{path}' has no known suffix: end it in {', '.join(SUFFIXES)}, or name the format."
     )

@@ -91,7 +91,7 @@ def urdf(links: Sequence[FixedLink], name: str) -> str:
     if len(tops) != 1:
         shown = ", ".join(tops[:6]) + (" …" if len(tops) > 6 else "")
         raise UsageError(
-            f"A URDF is one tree, and these are {len(tops)}, with the roots {shown}: choose one "
+            f"A URDF is one tree, and there are {len(tops)}, with the roots {shown}: choose one "
             "with --root FRAME."
         )
     frames = dict.fromkeys([tops[0], *(one.child for one in links)])
@@ -188,7 +188,7 @@ def _whole_name(one: FixedLink) -> FixedLink:
     """Refuse a name that cannot be passed on a command line."""
     for name in (one.parent, one.child):
         if "\0" in name or _NOT_XML.search(name):
-            raise InputError(f"The frame {name!r} has characters that cannot be written there.")
+            raise InputError(f"The frame {name!r} has characters that this format cannot hold.")
     return one
 
 
@@ -217,7 +217,7 @@ def _node_names(links: Sequence[FixedLink]) -> list[str]:
 
 def _attribute(text: str) -> str:
     if _NOT_XML.search(text):
-        raise InputError(f"The frame {text!r} has characters that cannot be written there.")
+        raise InputError(f"The frame {text!r} has characters that this format cannot hold.")
     # A tab or a line end would be read back as a blank.
     return quoteattr(text, {"\t": "&#9;", "\n": "&#10;", "\r": "&#13;"})
 

@@ -240,11 +240,11 @@ def _ambiguous(count: int) -> UsageError:
     """Return why `count` numbers need a form, or fit no form."""
     if count == 4:
         return UsageError(
-            "Four bare numbers can be x y z w or w x y z: say which with --as xyzw or --as wxyz."
+            "Four bare numbers can be x y z w or w x y z: choose with --as xyzw or --as wxyz."
         )
     if count == 3:
         return UsageError(
-            "Three bare numbers can be angles or a rotation vector: say which with --as rpy, "
+            "Three bare numbers can be angles or a rotation vector: choose with --as rpy, "
             "--as ypr, --as rotvec, or an order of axes such as --as szyx."
         )
     given = "1 number is" if count == 1 else f"{count} numbers are"
@@ -317,7 +317,8 @@ def _matrix(numbers: Sequence[float]) -> Written:
     near, apart = nearest_rotation([row[:3] for row in rows[:3]])
     if not apart < SLACK:
         raise UsageError(
-            "The matrix is no rotation: its rows are not of length 1 and square, or it mirrors."
+            "The matrix is no rotation: its rows are not perpendicular vectors of length 1, "
+            "or it mirrors."
         )
     notes: tuple[str, ...] = ()
     if apart > 1e-6:

@@ -187,7 +187,7 @@ class EditedDatabase:
             for _, table in self._rows(base, self._touched):
                 digest_table(found, table, self.channels, self.container)
         if found != self._wanted:
-            raise InputError(f"'{self.path}' was not written as it should be: its rows differ.")
+            raise InputError(f"'{self.path}' was written wrongly: its rows differ.")
 
     def finish(self) -> None:
         """Close the database: nothing is left to write."""

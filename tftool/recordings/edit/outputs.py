@@ -153,8 +153,8 @@ class EditedFile:
         if self.container == "db3":
             if channel.encoding != "cdr":
                 raise InputError(
-                    f"its messages are written as '{channel.encoding}', for which rosbag2's "
-                    "sqlite files have no place"
+                    f"its messages are written as '{channel.encoding}', which rosbag2's "
+                    "sqlite files cannot hold"
                 )
             channel = replace(channel, type=full_name(channel.type))
         # An MCAP file stays as it is, with what it does not say; others have no place for it.

@@ -160,12 +160,12 @@ def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting |
         if new not in frames:
             raise UsageError(_no_such_frame(new, frames))
         if child in _above(new, parents):
-            raise UsageError(f"'{new}' hangs from '{child}': it cannot become its parent.")
+            raise UsageError(f"'{new}' is below '{child}' and cannot become its parent.")
         is_static = static.get(child) == parent
         if is_static and not _joined_by_statics(parent, new, static):
             raise UsageError(
-                f"'{child}' is static, and '{new}' moves against '{parent}': it cannot hang "
-                "there and stay where it is."
+                f"'{child}' is static, and '{new}' moves against '{parent}': it cannot "
+                "become its child and keep its place."
             )
     buffer = recording.buffer
 

@@ -124,9 +124,7 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
                 raise UsageError(f"'{output}' is the input: name another output.")
             part = output.with_name(output.name + PART)
             if part.exists() and path.exists() and part.samefile(path):
-                raise UsageError(
-                    f"'{path}' is where '{output}' would be written: rename it before."
-                )
+                raise UsageError(f"'{path}' is in the place of '{output}': rename it first.")
             if path.parent.resolve() == output.resolve() and output.exists():
                 raise UsageError(f"'{output}' holds the input: name another output.")
 
@@ -422,7 +420,7 @@ class _Job:
         if found is not None:
             return found
         if len(self._outputs) >= MOST_PARTS:
-            raise UsageError(f"That makes more than {MOST_PARTS} files: split less often.")
+            raise UsageError(f"That would make more than {MOST_PARTS} files: split less often.")
         path = self._path_in(part, len(self._outputs))
         tape = self._tapes[number if self._by_tape else 0]
         output = self._outputs[number] = EditedFile(
@@ -501,7 +499,7 @@ class _Job:
             wanted[channel.topic, channel.type] += count
         if tape.damage or counts != wanted or found != output.digests:
             what = tape.damage[0] if tape.damage else "its messages differ from the written ones"
-            raise InputError(f"'{self._path}' was not written as it should be: {what}.")
+            raise InputError(f"'{self._path}' was written wrongly: {what}.")
         self.report.messages += sum(counts.values())
         self.report.copied += len(output.copied)
 

@@ -200,9 +200,11 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
         first = position + 9
         position = first + length
         if not code:
-            raise InputError("a record has the code 0, which is none")
+            raise InputError("a record has the invalid code 0")
         if position > size:
-            raise InputError(f"a record announces {length} bytes and {size - first} are there")
+            raise InputError(
+                f"a record has the length {length} bytes, and there are {size - first}"
+            )
         yield code, first, position
 
 
@@ -300,7 +302,7 @@ def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length
     if end > (len(body) if last is None else last):
-        raise InputError(f"a text announces {length} bytes")
+        raise InputError(f"a text has the length {length} bytes")
     return body[place + 4 : end].decode("utf-8", "surrogateescape"), end
 
 

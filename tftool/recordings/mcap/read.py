@@ -354,7 +354,7 @@ class Mcap(ChunkedReader):
         low, high, size, crc = CHUNK_HEAD.unpack_from(head, 9)
         (length,) = U32.unpack_from(head, 37)
         if length > LONGEST_METHOD:
-            raise InputError(f"a compression's name announces {length} bytes")
+            raise InputError(f"a compression's name has the length {length} bytes")
         method = head[41 : 41 + length].decode("utf-8", "surrogateescape")
         (packed,) = U64.unpack_from(head, 41 + length)
         place = position + 49 + length
@@ -601,4 +601,4 @@ def check_length(length: int) -> None:
         InputError: If it is.
     """
     if length < MESSAGE_HEAD.size:
-        raise InputError(f"a message's record announces {length} bytes")
+        raise InputError(f"a message's record has the length {length} bytes")

@@ -112,7 +112,7 @@ class McapWriter:
         compression = compression or "zstd"
         if compression not in COMPRESSIONS:
             raise UsageError(
-                f"'{compression}' is no compression of MCAP: {', '.join(COMPRESSIONS)} are."
+                f"'{compression}' is no compression of MCAP: choose {', '.join(COMPRESSIONS)}."
             )
         self.method = "" if compression == "none" else compression
         self._pack: Callable[[bytes], bytes] = compressor(self.method)
@@ -249,7 +249,7 @@ class McapWriter:
         if channel not in self._defined:
             self._define(channel)
         if log_time < 0:
-            raise InputError(f"A log time of {log_time} ns is before 1970: MCAP has none.")
+            raise InputError(f"A log time of {log_time} ns is before 1970, which MCAP cannot hold.")
         length = len(payload)
         head = MESSAGE_RECORD.pack(
             MESSAGE,

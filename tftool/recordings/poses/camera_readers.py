@@ -111,7 +111,7 @@ def read_kitti_calibration(file: PoseFile) -> list[PoseLink]:
         counts = {"R": 9, "T": 3, "R0_rect": 9, "R_rect": 9}
         count = counts.get(key, 12)
         if len(numbers) != count:
-            file.fail(f"{count} numbers behind '{key}:'", f"{len(numbers)}")
+            file.fail(f"{count} numbers after '{key}:'", f"{len(numbers)}")
         found[key.strip()] = numbers
     links = []
     offsets = {key: _offset(numbers) for key, numbers in found.items() if key[0] == "P"}

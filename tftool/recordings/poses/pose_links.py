@@ -165,7 +165,8 @@ class PoseFile:
         if not 0 <= stamp < _LAST:
             self.fail(
                 expected,
-                f"the stamp '{word[:40]}', which is not in the seconds 0 to {_LAST // NANOSECONDS}",
+                f"the stamp '{word[:40]}', which is outside of the seconds 0 to "
+                f"{_LAST // NANOSECONDS}",
                 path,
             )
         return stamp
@@ -178,7 +179,7 @@ class PoseFile:
         """
         rate = self.options.pose_rate
         if rate is None:
-            raise InputError(f"'{self.path}' has no stamps: --pose-rate HZ gives it some.")
+            raise InputError(f"'{self.path}' has no stamps: give a rate with --pose-rate HZ.")
         count = len(link.numbers) // link.width
         # Stamp 0 asks for the latest in tf2, so no pose can have it.
         link.stamps = array("q", (round(place * 1e9 / rate) for place in range(1, count + 1)))
@@ -199,7 +200,7 @@ class PoseFile:
             InputError: If it is empty or too long.
         """
         if not 0 < len(word.encode()) <= 4096 or "\0" in word:
-            raise InputError(f"'{self.path}' has a name that no frame can have: '{word[:40]}'.")
+            raise InputError(f"'{self.path}' has an invalid frame name: '{word[:40]}'.")
         return word
 
 

@@ -68,7 +68,7 @@ def read_kitti(file: PoseFile) -> list[PoseLink]:
         more = "more" if len(link.stamps) > count else f"{len(link.stamps)}"
         raise InputError(
             f"'{path}' has {count} poses, and '{times}' has {more} stamps: they do not belong "
-            "together. --pose-rate HZ does without them."
+            "together. --pose-rate HZ ignores the stamps."
         )
     return [link]
 
@@ -207,7 +207,7 @@ def _link_of(
 ) -> PoseLink:
     names = (str(pair[0] or file.frames[0]), str(pair[1] or file.frames[1]))
     if len(stamps) and (int(stamps.min()) < 0 or int(stamps.max()) >= 2**31 * 10**9):
-        raise InputError(f"'{file.path}' has stamps that are not in the seconds 0 to {2**31}.")
+        raise InputError(f"'{file.path}' has stamps outside of the seconds 0 to {2**31}.")
     numbers, moments = array("d"), array("q")
     numbers.frombytes(poses.tobytes())
     moments.frombytes(stamps.astype("int64").tobytes())

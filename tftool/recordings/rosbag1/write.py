@@ -79,7 +79,8 @@ class Rosbag1Writer:
         """
         if compression not in COMPRESSIONS:
             raise UsageError(
-                f"'{compression}' is no compression of ROS 1 bags: {', '.join(COMPRESSIONS)} are."
+                f"'{compression}' is no compression of ROS 1 bags: choose "
+                f"{', '.join(COMPRESSIONS)}."
             )
         self.first_free = 0
         self.method = compression

@@ -253,10 +253,12 @@ def unpack_file(path: Path, target: Path) -> str:
                 return ""
             done += len(piece)
             if done > plausible:
-                raise InputError(f"'{path}' unpacks to more than {plausible} bytes: no recording.")
+                raise InputError(
+                    f"'{path}' unpacks to more than {plausible} bytes, which no recording does."
+                )
             if done > limit:
                 raise InputError(
-                    f"'{path}' unpacks to more than {limit} bytes, which is all there is room "
-                    "for: unpack it where there is more ('zstd -d')."
+                    f"'{path}' unpacks to more than {limit} bytes, more than fits here: "
+                    "unpack it on a larger disk ('zstd -d')."
                 )
             out.write(piece)

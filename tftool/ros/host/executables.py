@@ -131,7 +131,9 @@ def _static_turtle(asked: Asked) -> Node:
 def _static_publisher(asked: Asked) -> Node:
     said = static_arguments.parse(asked.arguments)
     if said is None:
-        raise UsageError("'tftool static --help' says what static_transform_publisher takes")
+        raise UsageError(
+            "see 'tftool static --help' for the arguments of static_transform_publisher"
+        )
     sample = TransformStamped(0, said.parent, said.child, said.transform)
     return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
 

@@ -284,7 +284,7 @@ class Fiber:
         """Record that the code ignored its interruption; its thread ends with the process."""
         self.ended = True
         self.error = StuckError(
-            f"'{self.name}' has not returned after the end of the run: "
+            f"'{self.name}' still runs after the end of the run: "
             f"{self.place() or 'no line of yours is running'}"
         )
 
@@ -334,8 +334,8 @@ class Fiber:
         self._rest.acquire(timeout=1.0)
         self.ended = True
         raise StuckError(
-            f"'{self.name}' did not come to rest for {self._give_up:g} s and simulated time "
-            f"waits for it: {place or 'no line of yours is running'}"
+            f"'{self.name}' has not waited for anything for {self._give_up:g} s, and "
+            f"simulated time waits for it: {place or 'no line of yours is running'}"
         )
 
     def _rests_within(self, limit: float) -> bool:

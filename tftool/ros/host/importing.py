@@ -265,7 +265,7 @@ def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
     found = real_ros()
     if found and not force:
         raise UsageError(
-            f"a real ROS 2 is sourced ({found}): run the file with it, or say --ros-free to "
+            f"a real ROS 2 is sourced ({found}): run the file with it, or add --ros-free to "
             "run it without ROS"
         )
     with own_arguments(), _distribution(), ros_modules() as finder:

@@ -256,7 +256,7 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
         raise UsageError(f"'{word}' is no option after --ros-args{hint}")
     value = next(iter(words), None)
     if value is None:
-        raise UsageError(f"'{word}' after --ros-args wants a value")
+        raise UsageError(f"'{word}' after --ros-args needs a value")
     if known == "--param":
         add_parameter(options, value)
     elif known == "--remap":
@@ -326,8 +326,7 @@ def strict_yaml_value(text: str) -> Any:
         return yaml_guard.load(text, _loader()) if text else ""
     except (yaml.YAMLError, ValueError):
         raise ValueError(
-            f"Unable to parse '{text}' as YAML; where a text is meant, say so by "
-            "ParameterValue(…, value_type=str)"
+            f"Unable to parse '{text}' as YAML; for a text, write ParameterValue(…, value_type=str)"
         ) from None
 
 
@@ -386,7 +385,7 @@ def read_parameters(
         raise InputError(f"{path}{where}: {problem}") from None
     if not found and tree is not None:
         raise InputError(
-            f"{path}: no parameters in it; the layout is 'node_name:', below it "
+            f"{path}: it has no parameters; the layout is 'node_name:', below it "
             "'ros__parameters:', below that 'name: value'"
         )
     return found

@@ -250,8 +250,7 @@ class Program(Node):
         if inspect.isawaitable(value):
             fibers.discard(value)
             raise TftoolError(
-                "on simulated time a thread of a pool cannot wait for anything in the world: "
-                "start it with threading.Thread"
+                "on simulated time a thread of a pool cannot wait: use threading.Thread"
             )
         return value
 
@@ -352,7 +351,7 @@ def current() -> Program:
     owner = running()
     if owner is None:
         raise TftoolError(
-            "this rclpy lives inside tftool: start the file by 'tftool run' or 'tftool launch', "
+            "this rclpy is part of tftool: start the file with 'tftool run' or 'tftool launch', "
             "or use the pytest fixture 'ros_runtime'"
         )
     return owner

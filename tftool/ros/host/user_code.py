@@ -32,7 +32,7 @@ def file_body(path: Path) -> Callable[[], None]:
             return
         main = module.__dict__.get("main")
         if not inspect.isfunction(main) or main.__module__ != "__main__" or _reads(code, "main"):
-            owner.warn(f"'{path.name}' has ended without rclpy.init(): it has made no node")
+            owner.warn(f"'{path.name}' has ended without rclpy.init(), and so without a node")
         else:
             _end_with(main())
 

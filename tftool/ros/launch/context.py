@@ -113,7 +113,7 @@ class LaunchContext:
 
     def _launched(self) -> Any:
         if self.launch is None:
-            raise UsageError("this context belongs to no launch that runs: there are no events")
+            raise UsageError("this context belongs to no running launch, and has no events")
         return self.launch
 
     def number_of(self, name: str) -> int:

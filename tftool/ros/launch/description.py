@@ -87,7 +87,7 @@ class LaunchDescriptionSource:
             return self.description, None
         path = Path(perform(context, self.location))
         if context.load is None:
-            raise UsageError(f"'{path}' is included where nothing is launched")
+            raise UsageError(f"'{path}' is included outside of a launch")
         return context.load(path), path
 
 

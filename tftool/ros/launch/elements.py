@@ -159,7 +159,7 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
         raise Element("", str(path)).too_deep() from None
     top = Element("launch", str(path))
     if not isinstance(root, yaml.MappingNode) or [key.value for key, _ in root.value] != ["launch"]:
-        raise InputError(f"{path}: a launch file has one key at its top, 'launch'")
+        raise InputError(f"{path}: a launch file has one top-level key, 'launch'")
     _Yaml(path).children(root.value[0][1], top, 1)
     return top.children
 
@@ -192,9 +192,7 @@ class _Yaml:
             self.children(node, element, depth + 1)
             return element
         if not isinstance(node, yaml.MappingNode):
-            raise InputError(
-                f"{element.where}: '{tag}' needs its attributes below it, 'name: value'"
-            )
+            raise InputError(f"{element.where}: '{tag}' needs attributes below it, 'name: value'")
         for key, value in node.value:
             name = self.word(key)
             nested = isinstance(value, yaml.SequenceNode) and any(

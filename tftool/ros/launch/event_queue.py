@@ -45,7 +45,7 @@ class EventQueue:
             while self._waiting:
                 told += 1
                 if told > MOST_EVENTS:
-                    raise UsageError("event handlers set each other off without end: name targets")
+                    raise UsageError("event handlers trigger each other without end: name targets")
                 self._tell(self._waiting.popleft())
         finally:
             self._is_held = False

@@ -126,8 +126,8 @@ def _require_target(handler: str, target: Any) -> None:
     """
     if not (target is None or callable(target) or hasattr(target, "visit")):
         raise TypeError(
-            f"the target_action of {handler} must be an action, or a function that says of one "
-            f"whether it is meant, not {target!r}"
+            f"the target_action of {handler} must be an action, or a function that selects "
+            f"actions, not {target!r}"
         )
 
 

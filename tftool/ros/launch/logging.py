@@ -122,7 +122,7 @@ def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
 
 def _formatter(text: str, style: str | None) -> logging.Formatter:
     if text in _FORMATS and style is not None:
-        raise ValueError(f"the format '{text}' has a style of its own")
+        raise ValueError(f"the format '{text}' mixes styles")
     return logging.Formatter(_FORMATS.get(text, text), style=style or "{")  # type: ignore[arg-type]
 
 

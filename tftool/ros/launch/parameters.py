@@ -38,7 +38,7 @@ class ParameterValue:
             self.value = value
         else:
             shown = getattr(value_type, "__name__", value_type)
-            raise TypeError(f"a parameter's value is to be {shown}, not {value!r}")
+            raise TypeError(f"a parameter's value must be {shown}, not {value!r}")
 
     def evaluate(self, context: LaunchContext) -> Any:
         """Return the value.
@@ -175,7 +175,7 @@ def _normalized(value: Any) -> Any:
     if _is_text(value):
         return tuple(_parts_of(value))
     if not isinstance(value, Sequence):
-        raise TypeError(f"a parameter has no value like {value!r}: a number, a text or a list")
+        raise TypeError(f"{value!r} is no value of a parameter: give a number, a text or a list")
     found: list[Any] = [one if isinstance(one, _SINGLE) else tuple(_parts_of(one)) for one in value]
     kinds = {type(one) for one in found}
     if kinds == {int, float}:
@@ -271,7 +271,7 @@ def _typed(text: str, kind: Any) -> Any:
         value = [_as_float(one) for one in value] if isinstance(value, list) else _as_float(value)
     if not _is_of(value, kind):
         shown = getattr(kind, "__name__", kind) if item is kind else kind
-        raise ValueError(f"a parameter's value is to be {shown}, not '{text}'")
+        raise ValueError(f"a parameter's value must be {shown}, not '{text}'")
     return value
 
 
@@ -301,7 +301,7 @@ def _parts_of(value: Any) -> list[Substitution]:
         return normalize_to_list_of_substitutions(value)
     if isinstance(value, Path):
         return normalize_to_list_of_substitutions(str(value))
-    raise TypeError(f"a text, a substitution or a list of both was wanted, not {value!r}")
+    raise TypeError(f"expected a text, a substitution or a list of both, not {value!r}")
 
 
 def _is_text(value: Any) -> bool:

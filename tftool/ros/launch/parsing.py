@@ -17,10 +17,10 @@ def parsed(text: Any, where: str) -> list[Any]:
         InputError: If a part is not closed or not known, or there are too many.
     """
     if str(text).count("$(") > DEEPEST:
-        raise InputError(f"{where}: more than {DEEPEST} '$(…)' in one text are too many")
+        raise InputError(f"{where}: one text can have at most {DEEPEST} '$(…)'")
     parts, rest = _parse(str(text), 0, where, closing=False)
     if rest != len(str(text)):
-        raise InputError(f"{where}: '{text}' has a ')' too many")
+        raise InputError(f"{where}: '{text}' has one ')' too many")
     return parts
 
 
@@ -94,7 +94,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     try:
         return make(*words[1:]), at + 1
     except TypeError:
-        raise InputError(f"{where}: '$({name} …)' is given the wrong number of words") from None
+        raise InputError(f"{where}: '$({name} …)' has the wrong number of words") from None
 
 
 SUBSTITUTIONS: dict[str, Callable[..., Any]] = {

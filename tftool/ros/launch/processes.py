@@ -211,7 +211,7 @@ class ExecuteProcess(Startable):
             return None
         if words[:1] == ["launch"] and len(words) > 1:
             raise UsageError(
-                "a launch file starts another one by IncludeLaunchDescription, not by 'ros2 launch'"
+                "use IncludeLaunchDescription to start another launch file, not 'ros2 launch'"
             )
         context.launch.start_ros2(self, words, self.respawn_after(context))
         return None

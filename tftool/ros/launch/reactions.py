@@ -35,8 +35,9 @@ class RegisterEventHandler(Action):
         handler = self.event_handler
         if isinstance(handler, OnExecutionComplete) and getattr(handler.target, "is_begun", False):
             context.launch.warn(
-                f"an OnExecutionComplete is never told, as in ROS 2: its {_kind(handler.target)} "
-                "was carried out before. Register it above its target_action"
+                "this OnExecutionComplete is never called, as in ROS 2: its "
+                f"{_kind(handler.target)} was executed before. Register it above its "
+                "target_action"
             )
 
 

@@ -116,8 +116,8 @@ def _kept(context: LaunchContext, name: str) -> Any:
     kept: Any = context.launch_configurations.get(name, [])
     if isinstance(kept, str):
         raise UsageError(
-            f"'{name}' is launch_ros's own name among the launch configurations, for what holds "
-            "for the nodes of a scope; give the launch argument another"
+            f"'{name}' is launch_ros's own name among the launch configurations, for "
+            "settings of a scope; rename the launch argument"
         )
     return kept
 

@@ -23,7 +23,7 @@ def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
     if isinstance(subs, Substitution):
         return [subs]
     if not isinstance(subs, Iterable):
-        raise TypeError(f"a text or substitutions were wanted, not {subs!r}")
+        raise TypeError(f"expected a text or substitutions, not {subs!r}")
     return [_one(sub) for sub in subs]
 
 
@@ -31,7 +31,7 @@ def _one(sub: Any) -> Substitution:
     if isinstance(sub, Substitution):
         return sub
     if not isinstance(sub, str):
-        raise TypeError(f"a text or a substitution was wanted, not {sub!r}")
+        raise TypeError(f"expected a text or a substitution, not {sub!r}")
     return TextSubstitution(text=sub)
 
 

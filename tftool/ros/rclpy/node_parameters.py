@@ -87,7 +87,7 @@ class NodeParameters:
         for one in parameters:
             if len(one) == 1:
                 warnings.warn(
-                    f"parameter '{prefix}{one[0]}' is declared by its name alone: give a default, "
+                    f"parameter '{prefix}{one[0]}' is declared without a value: give a default, "
                     "or a Parameter.Type",
                     stacklevel=2,
                 )

@@ -74,7 +74,7 @@ class NodeSeat:
             self.program.say(
                 "WARN",
                 name,
-                f"a node named '{wanted}' is here already; this one is shown as '{name}'. "
+                f"a node named '{wanted}' exists already; this one is shown as '{name}'. "
                 f"Give it a name of its own: --ros-args -r __node:=…",
             )
         elif name in self.world.far_nodes and not self.name.startswith("_"):

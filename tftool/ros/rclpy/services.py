@@ -144,7 +144,7 @@ class Service(_Introspected, WorkQueue):
         if self.is_full:
             raise TftoolError(
                 f"service '{self.full}' has {MOST_WAITING} requests waiting, which its node "
-                f"'{self.seat.authority}' does not take (does it spin?)"
+                f"'{self.seat.authority}' does not process (does it spin?)"
             )
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         message = values.unpack(request, self.srv_type.Request)

@@ -168,7 +168,7 @@ class TransformBroadcaster:
                 "WARN",
                 self._member.authority,
                 f"its {kind} has sent nothing for {as_seconds(SILENT):g} s: call sendTransform in "
-                "the callback of a timer or a subscription, and see that this callback is called",
+                "the callback of a timer or a subscription, and check that this callback is called",
             )
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802

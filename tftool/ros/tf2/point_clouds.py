@@ -46,7 +46,7 @@ def dtype_from_fields(
     for name, (field, element) in _named(fields):
         kind = _KINDS.get(field.datatype)
         if kind is None:
-            raise ValueError(f"field '{name}' has datatype {field.datatype}, and there is none")
+            raise ValueError(f"field '{name}' has the unknown datatype {field.datatype}")
         form = np.dtype(order + kind)
         names.append(name)
         formats.append(form)
@@ -83,7 +83,7 @@ def read_points(
     data = cloud.data.tobytes() if hasattr(cloud.data, "tobytes") else bytes(cloud.data)
     needed = (cloud.height - 1) * cloud.row_step + cloud.width * cloud.point_step
     if cloud.width and cloud.height and len(data) < needed:
-        raise AssertionError(f"the cloud's data has {len(data)} bytes, and {needed} are needed")
+        raise AssertionError(f"the cloud's data has {len(data)} bytes, but {needed} are needed")
     shape = (cloud.height, cloud.width)
     steps = (cloud.row_step, cloud.point_step)
     rows = np.ndarray(shape, form, data if data else bytes(1), 0, steps)

@@ -165,7 +165,7 @@ def parse(message: str | bytes) -> Said:
         InputError: If it is none of the nine messages; names the mistake.
     """
     if isinstance(message, bytes):
-        raise InputError("the page speaks text, not bytes")
+        raise InputError("the page sends text, not bytes")
     try:
         said = json.loads(message)
     except (ValueError, RecursionError) as error:
@@ -213,16 +213,16 @@ def parse(message: str | bytes) -> Said:
 def _series(said: dict[str, Any]) -> SeriesRequest:
     target, source = said.get("target"), said.get("source")
     if not isinstance(target, str) or not isinstance(source, str):
-        raise InputError("a series is of two names of frames")
+        raise InputError("a series needs the names of two frames")
     return SeriesRequest(target, source, *_span(said))
 
 
 def _trails(said: dict[str, Any]) -> TrailsRequest:
     fixed, frames = said.get("fixed"), said.get("frames")
     if not isinstance(fixed, str) or not isinstance(frames, list):
-        raise InputError("trails are of a fixed frame and a list of others")
+        raise InputError("trails need a fixed frame and a list of others")
     if len(frames) > MOST_TRAILS or not all(isinstance(frame, str) for frame in frames):
-        raise InputError(f"trails are of {MOST_TRAILS} names of frames at most")
+        raise InputError(f"trails can have at most {MOST_TRAILS} names of frames")
     return TrailsRequest(fixed, tuple(frames), *_span(said))
 
 

@@ -141,7 +141,7 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
         MalformedMessage: If its type cannot be written.
     """
     if not is_plain(topic.name.strip("/")):
-        raise InputError("its name is none that ROS 2 takes")
+        raise InputError("its name is not valid in ROS 2")
     if topic.encoding not in ("cdr", "ros1"):
         raise InputError(f"it is written as '{topic.encoding}'")
     full = full_name(topic.type)
@@ -157,7 +157,7 @@ def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None
         return full, convert
     if not INTERFACES.has(full):
         if not topic.definition.strip():
-            raise InputError(f"its type {topic.type} is not known, and not defined in it")
+            raise InputError(f"its type {topic.type} is unknown, and not defined in the recording")
         INTERFACES.define(full, topic.definition)
     INTERFACES.message(full)
     return full, None

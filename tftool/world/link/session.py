@@ -226,7 +226,9 @@ class Link(LinkContext):
                 try:
                     self._bridges[name] = TopicBridge(self, topic)
                 except MalformedMessage as error:
-                    self.say_once(f"type {name}", f"'{name}' stays inside this process: {error}.")
+                    self.say_once(
+                        f"type {name}", f"'{name}' is not shared with other processes: {error}."
+                    )
 
     def _match_servers(self) -> None:
         if self.options.read_only:
@@ -289,8 +291,9 @@ class Link(LinkContext):
             if process is None or process.since < self._since:
                 self.say_once(
                     "rival",
-                    f"{process or f'node {rival.node!r}'} serves '{name}' too: two hosts of the "
-                    "same turtles mix their transforms. Leave one of them, or give this one "
+                    f"{process or f'node {rival.node!r}'} serves '{name}' too: two hosts of "
+                    "the same turtles mix their transforms. Stop one of them, or give this "
+                    "one "
                     "a --domain of its own.",
                 )
 
@@ -334,7 +337,7 @@ class Link(LinkContext):
             return
         self._count_departure(process.session)
         hosted = ", which hosted," if process.role is Role.HOST else ""
-        self.world.log.warn(NAME, f"{process}{hosted} has left; what it sent stays as it was.")
+        self.world.log.warn(NAME, f"{process}{hosted} has left; its last transforms stay.")
 
     def _count_departure(self, session: str) -> None:
         """Count a departed process after the removal of its last entity, in any order.
@@ -349,8 +352,8 @@ class Link(LinkContext):
         for domain in self.graph.foreign_domains:
             self.say_once(
                 f"domain {domain}",
-                f"Another process talks in domain {domain}; this is domain {self.options.domain} "
-                f"and does not receive it. To join: --domain {domain}.",
+                f"Another process runs in domain {domain}; this one runs in domain "
+                f"{self.options.domain} and does not receive it. To join: --domain {domain}.",
             )
 
 

@@ -128,13 +128,13 @@ class Follower(Node):
         if stale and not self._stale:
             self._memory = pursuit.FRESH
             self.warn(
-                f"What is known of {self.leader} seen from {self.follower} is "
+                f"The newest transform of {self.leader} in {self.follower} is "
                 f"{as_seconds(age):.3f} s old, the limit is {as_seconds(self.stale_after):g} s: "
-                "stopping until there is something newer"
+                "stopping until there is a newer one"
             )
             self.publish(f"{self.follower}/cmd_vel", twist())
         elif self._stale and not stale:
-            self.info(f"There is newer data of {self.leader}: following again")
+            self.info(f"There are new transforms of {self.leader}: following again")
         self._stale = stale
         return stale
 
@@ -185,5 +185,5 @@ class Spawning:
         if answer.name:
             self._node.info(f"Successfully spawned {answer.name}")
         else:
-            self._node.warn(f"{self._request.name} is there already, and will do")
+            self._node.warn(f"{self._request.name} exists already, and is used")
         self._confirmed = True

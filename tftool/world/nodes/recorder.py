@@ -146,7 +146,7 @@ class Recorder:
                 if name not in self._names:
                     self._inner.add(name)
                     return
-                raise InputError("it is nothing that travels between processes")
+                raise InputError("values of this type cannot be sent to other processes")
             channel = self._channel(name, topic.kind.interface__, "")
             writer = codec(topic.kind)
         except InputError as error:

@@ -61,7 +61,7 @@ def test_peers_of_the_environment_are_named_where_they_are_not_gone_to():
 @pytest.mark.parametrize(
     ("places", "environment", "told"),
     [
-        (("192.0.2.7",), {"ROS_LOCALHOST_ONLY": "1"}, "ROS_LOCALHOST_ONLY=1 keeps ROS 2"),
+        (("192.0.2.7",), {"ROS_LOCALHOST_ONLY": "1"}, "ROS_LOCALHOST_ONLY=1 restricts ROS 2"),
         (("192.0.2.7",), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, "unset the variable"),
         ((), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}, "set it to LOCALHOST"),
         ((), {"ROS_AUTOMATIC_DISCOVERY_RANGE": "EVERYWHERE"}, "none of SUBNET, LOCALHOST"),

@@ -92,7 +92,7 @@ def test_python_opens_an_address(moving):
         (["demo", "ws://r:1"], "is read-only"),
         (["robot", "wss://r:1"], "is read-only"),
         (["echo", "map", "ws://r:1"], "is a FROM: give only one"),
-        (["echo", "a", "b", "ws://r:1", "--at", "3"], "without a past to ask about"),
+        (["echo", "a", "b", "ws://r:1", "--at", "3"], "which keeps no past"),
         (["doctor", "scenarios/turtles.yaml", "ws://r:1"], "two sources: name one at a time"),
         (["record", "-o", "x.mcap", "--in", "turtles", "ws://r:1"], "two sources"),
         (["tree", "ws://:1"], "is no address of a server: write ws://HOST:8765"),

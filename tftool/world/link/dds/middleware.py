@@ -199,7 +199,7 @@ class DdsMiddleware:
         """Publish a topic as a node of this process."""
         kind = self._kind(ros_type)
         if self._options.read_only:
-            raise LinkError("a process that only looks publishes nothing")
+            raise LinkError("a read-only process publishes nothing")
         beside = f"typehash={type_hash(INTERFACES, ros_type)};".encode()
         writer = self._participant.writer(names.TOPIC + name, kind, quality, beside)
         hide = self._discovery.show_endpoint(node_name(node), PUBLISHER, writer.gid)
@@ -277,8 +277,9 @@ class DdsMiddleware:
         def stranger(vendor: str) -> None:
             self.say_once(
                 f"asked {vendor}",
-                f"A node over {vendor} asks for the service '{name}': {vendor} numbers requests "
-                "where DDS's library for Python cannot read them, so it gets no answer.",
+                f"A node over {vendor} asks for the service '{name}': {vendor} numbers "
+                "requests in a field that DDS's library for Python cannot read, so it gets "
+                "no answer.",
             )
 
         try:
@@ -321,8 +322,8 @@ class DdsMiddleware:
         if all(one.gid != gone.gid for one in self.graph.entities(PUBLISHER, name="tf")):
             self.say_once(
                 f"left {gone.gid.hex()}",
-                f"'{gone.node}' publishes /tf no more: it has left, or was not heard of for the "
-                "ten seconds of its lease. What it sent stays as it was.",
+                f"'{gone.node}' no longer publishes /tf: it has left, or sent no sign of "
+                "life for the ten seconds of its lease. Its last transforms stay.",
             )
 
     def _compare(self, found: GraphEntity | Process) -> None:
@@ -337,7 +338,7 @@ class DdsMiddleware:
             self.say_once(
                 f"quality {found.name} {found.node}",
                 f"'{found.node}' publishes /{found.name} as {offers}, and tf2 asks for {wants}: "
-                f"neither tf2's listeners nor this one get anything of it ({policy}). Let it "
+                f"so neither tf2's listeners nor this one receive it ({policy}). Let it "
                 f"offer {wants}.",
             )
         if not found.type_hash or not INTERFACES.has(found.ros_type):
@@ -346,8 +347,9 @@ class DdsMiddleware:
             self.say_once(
                 f"hash {found.name} {found.ros_type}",
                 f"'{found.node}' publishes '{found.name}' with another definition of "
-                f"{found.ros_type} than ours: what does not fit ours is not read. Give tftool the "
-                "definition it was built with (a workspace's own package), or update one of both.",
+                f"{found.ros_type} than ours: messages that do not fit are not read. Give "
+                "tftool its definition (a workspace's own package), or update one of the "
+                "two.",
             )
 
 

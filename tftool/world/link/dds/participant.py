@@ -69,7 +69,7 @@ class Domains:
             made, known, count = self._held.get(number, (None, config, 0))
             if known != config:
                 raise LinkError(
-                    f"this process is in DDS domain {number} by another network already"
+                    f"this process already uses another network for DDS domain {number}"
                 )
             if made is None:
                 # A user's own configuration says itself where the library's words go.

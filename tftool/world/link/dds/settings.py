@@ -99,7 +99,7 @@ def network(places: Iterable[str], environment: Mapping[str, str] | None = None)
     outward = [one for one in (*interfaces, *peers) if not _is_loopback(one)]
     if confined and outward:
         raise LinkError(
-            f"{confined} keeps ROS 2 to this machine, and --dds-on {outward[0]} leaves it: "
+            f"{confined} restricts ROS 2 to this machine, which --dds-on {outward[0]} contradicts: "
             "unset the variable, or leave out --dds-on"
         )
     if config and not places and not confined:
@@ -131,7 +131,7 @@ def _confined(variables: Mapping[str, str]) -> str:
         )
     if reach == "OFF":
         raise LinkError(
-            "ROS_AUTOMATIC_DISCOVERY_RANGE=OFF lets a process find no other one: unset it, or "
+            "ROS_AUTOMATIC_DISCOVERY_RANGE=OFF turns discovery off: unset it, or "
             "set it to LOCALHOST"
         )
     # Where both are set ROS 2 follows the older one.
@@ -214,7 +214,7 @@ def _ways_to(peers: Iterable[str]) -> tuple[str, ...]:
             try:
                 trial.connect((peer, 7400))
             except OSError as error:
-                raise LinkError(f"there is no way from here to {peer}: {error.strerror}") from error
+                raise LinkError(f"{peer} cannot be reached: {error.strerror}") from error
             address = str(trial.getsockname()[0])
         # A machine's own addresses and the others' do not go together in one participant.
         if address not in found and not _is_loopback(address):

@@ -136,7 +136,7 @@ class FoxgloveClient:
         if self._failure or not self._first.is_set():
             reason = self._failure or "it does not answer"
             raise LinkError(
-                f"No Foxglove server can be read at {self._place}: {reason}. Is foxglove_bridge "
+                f"No Foxglove server answers at {self._place}: {reason}. Is foxglove_bridge "
                 "running there ('ros2 run foxglove_bridge foxglove_bridge'; port 8765 unless "
                 "another one was chosen)?"
             )

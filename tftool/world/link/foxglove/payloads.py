@@ -98,7 +98,7 @@ def conversion(channel: FoxgloveChannel) -> Callable[[bytes], bytes]:
     if channel.encoding == "cdr":
         full = ros_topic(channel).type
         if theirs is not None and not same_layout(full, INTERFACES, theirs):
-            raise InputError(f"the server defines {short(full)} otherwise than it is known here")
+            raise InputError(f"the server has another definition of {short(full)} than tftool")
         return bytes
     definition = channel.definition.encode("utf-8", "backslashreplace")
     stream = Channel(channel.topic, channel.type, "ros1", "ros1msg", definition)

@@ -119,7 +119,7 @@ class ZenohReach(Reach):
         listen, connect = tuple(given.get("listen") or ()), tuple(given.get("connect") or ())
         config: Path | None = given.get("zenoh_config")
         if config is not None and (listen or connect):
-            raise UsageError("--zenoh-config says all endpoints: leave out --listen and --connect.")
+            raise UsageError("--zenoh-config sets all endpoints: leave out --listen and --connect.")
         files = [given.get(name) for name in ("tls_cert", "tls_key", "tls_ca")]
         for file in (*files, config):
             if file is not None and not file.is_file():

@@ -68,8 +68,8 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
     if named:
         if not Path(named).is_absolute():
             raise UsageError(
-                f"{FOLDER_VARIABLE}={named!r:.80} is another folder wherever a command is run: "
-                "set it to an absolute path, or unset it."
+                f"{FOLDER_VARIABLE}={named!r:.80} is relative, so each command would use "
+                "another folder: set it to an absolute path, or unset it."
             )
         return Path(named)
     # In memory, of mode 700, and emptied at logout: the best place where there is one.
@@ -143,7 +143,7 @@ class Rendezvous:
         """
         if HAS_UNIX_SOCKETS and not _holds_sockets(self.folder):
             raise LinkError(
-                f"no session can meet in {self.folder}: the path of a socket there would be longer "
+                f"no session can use {self.folder}: the path of a socket there would be longer "
                 f"than {_LONGEST_SOCKET_PATH} bytes or hold one of '?#;='; name another folder in "
                 f"{FOLDER_VARIABLE}"
             )
@@ -248,12 +248,12 @@ def _make_private(path: Path) -> None:
         return
     if not stat.S_ISDIR(facts.st_mode) or facts.st_uid != os.getuid():
         raise LinkError(
-            f"{path} is not a folder of yours, so no session can meet there; "
-            f"name another one in {FOLDER_VARIABLE}"
+            f"{path} does not belong to you, so no session can use it; name another folder "
+            f"in {FOLDER_VARIABLE}"
         )
     if facts.st_mode & 0o077:
         raise LinkError(
-            f"other users may enter {path} (mode {facts.st_mode & 0o777:03o}), so no session can "
+            f"other users can enter {path} (mode {facts.st_mode & 0o777:03o}), so no session can "
             f"meet there; chmod 700 it, or name another folder in {FOLDER_VARIABLE}"
         )
 
