@@ -86,6 +86,46 @@ def test_a_process_writes_to_a_terminal_where_one_is_emulated(tftool, tmp_path, 
     assert "[without-2] pipe\n" in run.err
 
 
+@pytest.mark.parametrize(
+    ("words", "shell"),
+    [
+        (["python3", "node.py", "a"], False),
+        ([sys.executable, "-u", "-B", "by_module.py", "a"], False),
+        (["python3", "-m", "by_module", "a"], False),
+        (["python3 node.py", "a"], True),
+        (["bash", "-c", "python3 node.py a"], False),
+    ],
+)
+def test_a_python_command_of_a_node_finds_rclpy(tftool, tmp_path, words, shell):
+    (tmp_path / "node.py").write_text(
+        "import sys\nimport rclpy\ndef main():\n    rclpy.init()\n"
+        "    rclpy.create_node('given').get_logger().info(' '.join(sys.argv[1:]))\n"
+        "if __name__ == '__main__':\n    main()\n"
+    )
+    (tmp_path / "by_module.py").write_text("from node import main\nmain()\n")
+    file = tmp_path / "commands.launch.py"
+    file.write_text(
+        "import os\nfrom launch import LaunchDescription\n"
+        "from launch.actions import ExecuteProcess\n"
+        "def generate_launch_description():\n    here = os.path.dirname(__file__)\n"
+        f"    one = ExecuteProcess(cmd={words!r}, cwd=here, shell={shell})\n"
+        "    return LaunchDescription([one])\n"
+    )
+
+    run = tftool("launch", "--simulated", "--for", "1", str(file))
+    assert run.status == 0, run.err
+    assert "[given]: a\n" in run.err
+
+
+def test_a_process_of_its_own_without_rclpy_is_told_how_to_have_it(tftool, tmp_path):
+    file = tmp_path / "commands.launch.xml"
+    file.write_text(f"""<launch><executable cmd="{sys.executable} -c 'import rclpy'"/></launch>""")
+
+    run = tftool("launch", "--simulated", "--for", "1", str(file))
+    assert run.status == 1
+    assert "which has no rclpy here: start the node's file by python3 FILE" in run.err
+
+
 @pytest.mark.parametrize(("word", "expected"), [("yes", "new:old"), ("off", "old:new")])
 def test_a_flag_of_xml_may_be_any_word_that_yaml_takes_for_one(tftool, tmp_path, word, expected):
     file = tmp_path / "env.launch.xml"

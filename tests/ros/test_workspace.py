@@ -221,6 +221,20 @@ def test_a_packages_own_interfaces_can_be_imported(tmp_path):
         INTERFACES.add("my_shapes", {})
 
 
+def test_python_packages_that_cmake_installs_are_found_under_their_own_names(tmp_path):
+    folder = package(
+        tmp_path / "src" / "robot",
+        package__xml="<package><name>robot</name></package>",
+        CMakeLists__txt="project(robot)\nament_python_install_package(robot_lib)\n"
+        'ament_python_install_package(\n  deep PACKAGE_DIR "python/deep")\n'
+        "ament_python_install_package(${PROJECT_NAME})\n",
+    )
+    for module in ("robot_lib", "python/deep"):
+        (package(folder / module) / "__init__.py").touch()
+
+    assert Workspace(tmp_path).module_folders() == [str(folder), str(folder / "python")]
+
+
 def test_two_programs_of_one_module_share_no_globals(tmp_path):
     from tftool.ros.host import user_code
 

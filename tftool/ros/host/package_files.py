@@ -27,7 +27,8 @@ class Package:
         scripts: Its console scripts: name to "module:function".
         installed: Files that its setup.py installs into its share directory at another place
             than the one where they lie: that place to the file.
-        modules: Python packages that its CMakeLists.txt installs (`ament_python_install_package`).
+        modules: Folders of Python packages that its CMakeLists.txt installs
+            (`ament_python_install_package`), from its own.
         data_files: Files that its setup.py installs; None if only running it would tell.
     """
 
@@ -110,10 +111,16 @@ def _listed_files(data_files: Any) -> frozenset[str] | None:
 
 
 def _modules_of_cmake(path: Path) -> list[str]:
-    """Return the Python packages that a CMakeLists.txt installs; none without that file."""
+    """Return the folders of Python packages that a CMakeLists.txt installs; none without it."""
     if not path.is_file():
         return []
-    return re.findall(r"ament_python_install_package\(\s*(\w+)", read_text(path))
+    calls = re.findall(r"ament_python_install_package\(\s*([^)]*)\)", read_text(path))
+    words = [call.replace('"', "").split() for call in calls]
+    return [
+        one[one.index("PACKAGE_DIR") + 1] if "PACKAGE_DIR" in one[:-1] else one[0]
+        for one in words
+        if one
+    ]
 
 
 def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:

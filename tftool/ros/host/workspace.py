@@ -74,14 +74,17 @@ class Workspace:
 
         A package named like one of Python's own modules, or of ours, is left out: it would hide it.
         """
-        return [
-            str(package.path)
+        modules = (
+            package.path / name
             for package in self.packages.values()
-            if any(
-                name not in _TAKEN and (package.path / name / "__init__.py").is_file()
-                for name in (package.name, *package.modules)
-            )
-        ]
+            for name in (package.name, *package.modules)
+        )
+        folders = (
+            str(module.parent)
+            for module in modules
+            if module.name not in _TAKEN and (module / "__init__.py").is_file()
+        )
+        return list(dict.fromkeys(folders))
 
     def folder_without_mark(self, name: str) -> Path | None:
         """Return a folder of that name with Python files that only lacks a package.xml."""

@@ -217,6 +217,11 @@ class Launch(Node):
 
     def _line(self, label: str, line: str, is_stdout: bool = True) -> None:
         self._say("", label, line)
+        if line.endswith("No module named 'rclpy'"):
+            self.warn(
+                f"{label} is a process of its own, which has no rclpy here: "
+                "start the node's file by python3 FILE, or by Node(executable=FILE)"
+            )
         self._wrote(label, line, to_stdout=is_stdout)
 
     def _printed(self, label: str, text: str, is_stdout: bool) -> None:

@@ -29,7 +29,7 @@ def load_file(path: Path) -> LaunchDescription:
 def _from_python(path: Path) -> LaunchDescription:
     code = user_code.compile_file(path)
     module = ModuleType("launch_file")
-    module.__file__ = str(path)
+    module.__file__ = str(path.absolute())  # ROS 2's loader makes it so too
     try:
         exec(code, module.__dict__)
         make = module.__dict__.get(MAKES)

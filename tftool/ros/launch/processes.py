@@ -1,8 +1,9 @@
 """launch's actions that start processes."""
 
+import itertools
 import re
 import shlex
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -15,6 +16,15 @@ from tftool.ros.launch.commands import SystemCommand
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.events import OnProcessExit
 from tftool.ros.launch.substitutions import ROS2, is_true, perform
+
+SHELLS = ("sh", "bash", "dash", "zsh")
+
+_PYTHON_FLAG = re.compile(r"-[bBdEiIOPqsSuv]+")
+"""Flags of Python that take no value."""
+
+_IMPORT = re.compile(
+    r"^\s*(?:from|import)\s+(?P<module>[\w.]+)(?:\s+import\s+(?P<name>\w+))?", re.M
+)
 
 LONGEST = 1e9
 """How many seconds something may wait: about thirty years."""
@@ -184,11 +194,11 @@ class ExecuteProcess(Startable):
             # What only tftool can run: to a process of its own rclpy would be missing.
             if not shell and (found := package.executable_at(Path(words[0]))) is not None:
                 return self._execute_ros2(context, ["run", package.name, found, *words[1:]])
-        if not shell and (program := _rclpy_program(words, cwd)) is not None:
+        if (node := _rclpy_program(words, shell, cwd, context)) is not None:
             # A Python of its own would find no rclpy.
-            options, arguments = names.parse(words[2:])
-            label = program.name
-            started = Executable(None, str(program), arguments, options, label, words[1:])
+            file, argv = node
+            options, arguments = names.parse(argv[1:])
+            started = Executable(None, str(file), arguments, options, file.name, argv)
             context.launch.start_node(self, started, self.respawn_after(context))
             return None
         if shell:
@@ -217,20 +227,26 @@ class ExecuteProcess(Startable):
         return None
 
 
-def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
-    """Return the words after `ros2` in a command; None for others and for shell scripts."""
+def _plain_words(words: Sequence[str], shell: bool) -> list[str]:
+    """Return the words of one command, even as a shell splits them; none of a shell's script."""
+    if not shell and len(words) == 3 and words[1] == "-c" and Path(words[0]).name in SHELLS:
+        words, shell = words[2:], True
     if shell:
         try:
             lexer = shlex.shlex(" ".join(words), posix=True, punctuation_chars=True)
             lexer.whitespace_split = True
             words = list(lexer)
         except ValueError:
-            return None
+            return []
         if any(word and not word.strip("();<>|&") for word in words):
-            return None
-    if not words or Path(words[0]).name != ROS2:
-        return None
-    return list(words[1:])
+            return []
+    return list(words)
+
+
+def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
+    """Return the words after `ros2` in a command; None for others and for shell scripts."""
+    words = _plain_words(words, shell)
+    return words[1:] if words and Path(words[0]).name == ROS2 else None
 
 
 def is_python(word: str) -> bool:
@@ -238,13 +254,53 @@ def is_python(word: str) -> bool:
     return re.fullmatch(r"python(3(\.\d+)?)?", Path(word).name) is not None
 
 
-def _rclpy_program(words: Sequence[str], cwd: str | None) -> Path | None:
-    """Return the file of `python3 FILE …` if it imports rclpy; None for other commands."""
-    if len(words) < 2 or not is_python(words[0]):
+def _rclpy_program(
+    words: Sequence[str], shell: bool, cwd: str | None, context: LaunchContext
+) -> tuple[Path, list[str]] | None:
+    """Return the file of a Python command that uses rclpy, with its argv; None for others.
+
+    That is `python3 FILE …` or `python3 -m MODULE …`, after flags of Python's.
+    """
+    words = _plain_words(words, shell)
+    if not words or not is_python(words[0]):
         return None
-    file = Path(cwd or "", words[1])
-    is_program = file.suffix == ".py" and file.is_file() and b"rclpy" in file.read_bytes()
-    return file if is_program else None
+    words = list(itertools.dropwhile(_PYTHON_FLAG.fullmatch, words[1:]))
+    folder = Path(cwd or "")
+    roots = [folder, *map(Path, context.workspace.module_folders())]
+    if len(words) > 1 and words[0] == "-m":
+        file = next(_module_files(words[1], roots), None)
+        words = words[1:]
+    else:
+        file = folder / words[0] if words and (folder / words[0]).is_file() else None
+    if file is None or not _uses_rclpy(file, [file.parent, *roots], set()):
+        return None
+    return file, list(words)
+
+
+def _module_files(module: str, roots: Iterable[Path]) -> Iterator[Path]:
+    """Yield the files that a module may be."""
+    for root in roots:
+        place = root.joinpath(*module.split("."))
+        for file in (place.with_name(f"{place.name}.py"), place / "__init__.py"):
+            if file.is_file():
+                yield file
+
+
+def _uses_rclpy(file: Path, roots: Sequence[Path], seen: set[Path]) -> bool:
+    """Whether a file imports rclpy, itself or by another file below `roots`."""
+    if file in seen:
+        return False
+    seen.add(file)
+    text = file.read_text(encoding="utf-8", errors="replace")
+    if "rclpy" in text:
+        return True
+    modules = {found["module"] for found in _IMPORT.finditer(text)}
+    modules |= {f"{found['module']}.{found['name']}" for found in _IMPORT.finditer(text)}
+    return any(
+        _uses_rclpy(other, roots, seen)
+        for module in modules
+        for other in _module_files(module, roots)
+    )
 
 
 def _texts(context: LaunchContext, given: Any) -> dict[str, str]:
