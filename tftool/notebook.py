@@ -1,7 +1,7 @@
 """Display of values in notebooks: trees as pictures, poses and recordings as tables, a 3-D view.
 
-`import tftool` registers these where IPython runs. The classes are named, not imported: what a
-notebook does not show costs it nothing.
+`import tftool` registers these formatters if IPython runs. Classes are given by name and not
+imported: an unused class costs nothing.
 """
 
 import sys

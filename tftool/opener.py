@@ -1,8 +1,8 @@
 """The door to frames: FROM becomes `Frames`, for Python and for the command line.
 
-FROM is a word that names a scenario, a recording, a robot description, a file of static
-transforms, the address of a robot (`ws://robot:8765`), or nothing: the session that runs on this
-machine. A file is read; a scenario is played on simulated time; a session is listened to.
+FROM names a scenario, a recording, a robot description, a file of static transforms, or the address
+of a robot (`ws://robot:8765`); without it, the running session of this machine is used. A file is
+read; a scenario is played on simulated time; a session is heard.
 """
 
 import math
@@ -68,7 +68,7 @@ def open_frames(
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))
 
-    Several recordings are joined in the order of time. It works inside a running event loop.
+    Several recordings are joined in order of time. It also works inside a running event loop.
 
     Args:
         place: Source of the frames, ws://robot:8765 too; None for the session that runs.

@@ -1,8 +1,8 @@
 """Words the shell offers when Tab is pressed: commands, options, frames, scenarios, packages.
 
-The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; the
-lines it prints are offered. Nothing is hosted or joined for it: the frames of the session that
-runs are read from lists that its processes keep.
+The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; each
+printed line is a proposal. Completion neither hosts nor joins a session: the frames of a running
+one are read from files that its processes write.
 """
 
 import contextlib

@@ -26,7 +26,7 @@ _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
 class Shown:
     """Base of commands whose help is coloured on a terminal and paged if longer than the screen.
 
-    A command and the list of commands share it.
+    Used for a command and for the list of commands.
     """
 
     def get_help(self, ctx: Any) -> str:
@@ -84,8 +84,7 @@ def painted(text: str) -> str:
 class Commands(Shown, TyperGroup):
     """The `tftool` command, whose help lists its commands by group.
 
-    Only a command that is asked for is made: for all of them that takes longer than to start
-    Python twice.
+    Commands are made on demand: making all of them takes longer than starting Python twice.
     """
 
     def list_commands(self, ctx: Any) -> list[str]:

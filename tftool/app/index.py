@@ -60,7 +60,7 @@ COMMANDS = {name: summary for group in GROUPS.values() for name, summary in grou
 def load(name: str) -> "Declaration":
     """Import the declaration of a command.
 
-    Help and completion name every command, and import none that they do not describe.
+    Help and completion list every command, but import only those that they describe.
     """
     # Only `help` asks for other commands.
     home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}"

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def build() -> "Commands":
     """Return the app; each command is built on first use, and imports only what it needs.
 
-    The `obj` of its context says where clocks and links come from; the real ones when None.
+    The `obj` of its context holds the providers of clocks and links; None for the real ones.
     """
     from typing import Annotated, cast
 
@@ -157,13 +157,13 @@ def _complete(argv: list[str]) -> int:
 def _leave_on_signals() -> None:
     """End the process at once on SIGINT and SIGTERM while no event loop runs.
 
-    There is nothing to clean up then, and a KeyboardInterrupt that strikes inside an
-    import may be swallowed there, or shown as a traceback. A loop brings its own
-    handlers (`runtime.clock.run`), and gives these back. On Windows it has none, and
-    Python's own do.
+    Before a command runs there is nothing to clean up, and a KeyboardInterrupt inside an import may
+    be swallowed there, or shown as a traceback. An event loop installs its own handlers
+    (`world.clock.run`), and restores these afterwards. Windows has no signals in the loop; Python's
+    own handlers work there.
 
-    Once nothing is left but the interpreter's own end, signals are ignored: it takes
-    Python's handlers away first, and a second Ctrl-C would change a status that is known.
+    When only the interpreter's own shutdown is left, signals are ignored: Python removes its
+    handlers first, and a second Ctrl-C would change an exit status that is already known.
     """
     import atexit
     import signal

@@ -1,8 +1,7 @@
 """Every exception of tftool, as one tree.
 
-tf2's names for what tf2 refuses; three more for what the tools refuse. Each
-carries its facts as fields. `cli.app` turns them into exit statuses and is the
-only place that does.
+tf2's names for tf2's refusals, and three more for refusals of the tools. Each error has its facts
+as fields. Only `app` turns errors into exit statuses.
 """
 
 import os
@@ -19,8 +18,8 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 class TftoolError(Exception):
     """Base of all exceptions here; the text names the fault and what to do about it.
 
-    Its text, and its remedy where it has one, are settled when it is made. It can be pickled
-    and copied with all its facts, whatever arguments its class takes.
+    Text and remedy are fixed when the error is made. It can be pickled and copied with all its
+    facts, whatever arguments its class takes.
     """
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -152,8 +151,8 @@ class DescriptionError(DocumentError):
 def failure_text(error: BaseException) -> str:
     """Format an exception in one line: its type, text, and the file and line that raised it.
 
-    That is the innermost line of a user's code. Where there is none, the innermost line of
-    all: but not for an exception of ours, whose text is complete.
+    The line is the innermost one of a user's code, or else the innermost of all; none for tftool's
+    own errors, whose text is complete.
     """
     kind, text = type(error).__name__, str(error)
     line = line_of(error, users_only=isinstance(error, TftoolError))
@@ -163,7 +162,7 @@ def failure_text(error: BaseException) -> str:
 def line_of(error: BaseException, *, users_only: bool = False) -> str:
     """Return the innermost line of a user's code in a traceback, as "busy.py:10".
 
-    Where there is none the innermost line of all, or "" for `users_only`.
+    Without one, the innermost line of all, or "" with `users_only`.
     """
     users = innermost = ""
     trace = error.__traceback__
@@ -202,7 +201,7 @@ class NodeFailed(TftoolError):
 class TransformException(TftoolError):
     """Error for a transform that cannot be given (exit status 4); tf2's base class.
 
-    Its text is tf2's own, to the letter; what to do about it is said apart, in `remedy`.
+    The text is exactly tf2's own; a remedy is in `remedy`.
 
     Attributes:
         target: The frame asked for, where it is known.

@@ -1,8 +1,8 @@
 """Escape control characters in names from outside, and keep the names recognisable.
 
-Every drawing first passes a name through `visible`, which leaves nothing that acts on
-its own (no control, no change of writing direction, nothing XML forbids), and then
-escapes what its own format reserves.
+Before drawing, a name passes through `visible`, which removes everything active (control
+characters, changes of writing direction, characters that XML forbids); then the characters that the
+format reserves are escaped.
 """
 
 import unicodedata
@@ -15,8 +15,8 @@ _JOINERS = frozenset("\u200c\u200d")
 def visible(name: str) -> str:
     """Escape a name so that every character is visible.
 
-    Control characters become their Unicode pictures (ESC is ␛), and what else has no
-    shape of its own, or turns the writing direction, becomes its number, as in ⟨U+202E⟩.
+    Control characters become their Unicode pictures (ESC becomes ␛); other characters without a
+    shape, or that change the writing direction, become their number, as in ⟨U+202E⟩.
     """
     if name.isascii() and name.isprintable():
         return name
@@ -26,7 +26,7 @@ def visible(name: str) -> str:
 def visible_lines(text: str) -> str:
     """Escape a text so that every character is visible; line breaks are kept.
 
-    Beyond 400 lines the middle is counted: tf2's sentence about a loop names every frame.
+    After 400 lines the middle is only counted: tf2's sentence about a loop names every frame.
     """
     lines = text.split("\n")
     if len(lines) > MOST_LINES:

@@ -39,7 +39,7 @@ def fitted(text: str, width: int, *, more: str = "…") -> str:
 def middle_cut(text: str, width: int, *, more: str = "…") -> str:
     """Fit `plain(text)` into at most `width` cells by cutting the middle.
 
-    The beginning and the end stay; the omitted middle shows as `more`.
+    The beginning and the end stay; `more` replaces the middle.
     """
     shown = plain(text)
     if cell_len(shown) <= width:
@@ -66,7 +66,7 @@ def _within(signs: Iterable[str], room: int) -> list[str]:
 def wrap_words(sentence: str, width: int) -> list[str]:
     """Wrap a sentence at spaces only, into lines of at most `width` cells.
 
-    A word that is longer than a line stands alone in one, and sticks out.
+    A word longer than a line gets a line of its own, uncut.
     """
     lines = [""]
     for word in sentence.split(" "):

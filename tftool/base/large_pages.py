@@ -1,6 +1,6 @@
 """Memory in large pages, for data that is read at random.
 
-Only whole large pages can be such; what Python and numpy ask for begins and ends anywhere.
+Memory from Python and numpy begins and ends anywhere, and can only partly be on large pages.
 """
 
 import mmap

@@ -1,8 +1,8 @@
 """Registered callbacks, called one after the other.
 
-One rule for the buffer, topics, the log and the world: each registration stands alone, and a
-listener that raises is reported under the name of its owner. It keeps no other listener from
-being called, and the code that publishes goes on.
+The buffer, topics, the log and the world share one rule: each registration is separate, and a
+listener's exception is reported under the name of its owner. The other listeners and the publishing
+code go on.
 """
 
 from collections.abc import Callable
@@ -19,8 +19,8 @@ Report = Callable[[str, Exception], object]
 class Listeners(Generic[*Values]):
     """Registered callbacks, in the order of their registration.
 
-    The same callback may be registered more than once: it is called once for each
-    registration, and each is withdrawn on its own.
+    A callback can be registered more than once: it is called once per registration, and each
+    registration is removed separately.
 
     Attributes:
         registered: Each callback with its owner. Where samples come by the ten thousand, whether

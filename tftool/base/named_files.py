@@ -1,6 +1,6 @@
 """Opening files that users name, without blocking on pipes or devices.
 
-Opening a pipe waits for a process that writes into it, for ever where none does.
+Opening a pipe would wait for a writing process, and without one for ever.
 """
 
 import errno

@@ -1,7 +1,7 @@
 """Import of the native modules, if built and not switched off.
 
-Each is built with the package where there is a C compiler. Without it everything runs in plain
-Python and means the same; `TFTOOL_PURE=1` has it so even where the kernel is there.
+Native modules are built with the package if there is a C compiler. Without them everything runs in
+plain Python with equal results; `TFTOOL_PURE=1` does this even where they exist.
 """
 
 import os

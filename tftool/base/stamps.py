@@ -1,6 +1,6 @@
 """Moments and durations: whole nanoseconds, as tf2 keeps them.
 
-A stamp is an `int`. In every question 0 is not a moment but means "latest".
+A stamp is an `int`. In a query 0 is not a moment but means "latest".
 """
 
 import math

@@ -1,8 +1,7 @@
 """Safe YAML: plain values only, and limits on size, depth and expansion.
 
-A few lines of YAML can stand for billions of values, by aliases of aliases and by merge
-keys. Whatever reads YAML reads it through here, where every alias counts as often as it
-is written.
+A few lines of YAML can mean billions of values, by aliases of aliases and by merge keys. All YAML
+is read through this module, which counts every alias as often as it is used.
 """
 
 from collections.abc import Iterator

@@ -93,15 +93,14 @@ def _share(sizes: list[int], room: int) -> int:
 class Buffer(Door):
     """Transforms of named frames over time, with tf2's semantics.
 
-    It knows no clock and waits for nothing: time comes in with the samples and with
-    the questions, in nanoseconds, and 0 in a question means the latest.
+    A buffer has no clock and never waits: all times are arguments, in nanoseconds, and 0 in a query
+    means the latest.
 
-    Threads: a buffer belongs to one thread, as a rule the event loop's, and that one alone
-    sets, clears, listens, requests and asks for single transforms or snapshots. Meanwhile any
-    other thread may ask for many: `lookup_transforms`, `lookup_transforms_full` and `samples`
-    copy what they need of each link in one piece, and then compute on their copy. They see
-    each link as it was at some moment during the call. `clear`, and a child that changes
-    between static and moving, are no different from other changes.
+    Threads: a buffer belongs to one thread, usually the event loop's. Only this thread sets,
+    clears, listens, requests, and queries single transforms or snapshots. Other threads may call
+    `lookup_transforms`, `lookup_transforms_full` and `samples` at any time: these copy the data of
+    each link in one piece and compute on the copy. Each link is seen in its state at some moment
+    during the call, also across `clear` or a change between static and moving.
     """
 
     def __init__(
@@ -326,8 +325,8 @@ class Buffer(Door):
     ) -> "Insertion | None":
         """Insert samples that are already in the buffer's own memory layout.
 
-        Where nothing speaks against it they are not copied: the buffer reads them where they
-        are, and copies them before it inserts or prunes.
+        If possible the rows are not copied: the buffer reads them in place, and copies them before
+        it inserts or prunes.
 
         Args:
             parent: The frame the poses are given in.
@@ -354,8 +353,8 @@ class Buffer(Door):
     def shorten(self, limit: int) -> "list[Shortened]":
         """Drop the oldest samples of the longest links until all fit into `limit`.
 
-        The newest two of a link always stay. Where something must go, a quarter more does, so
-        that it need not be done again at once.
+        The newest two samples of a link always stay. If samples must be dropped, a quarter more is
+        dropped, so that the next call has nothing to do.
 
         Args:
             limit: Bytes, for the samples alone.
@@ -390,8 +389,8 @@ class Buffer(Door):
     def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
         """Register `callback` for each accepted sample; return a function that removes it.
 
-        What it raises is reported under the name of its `owner`; the sample stays, and the
-        code that set it goes on.
+        Its exceptions are reported under the name of its `owner`; the sample stays stored, and the
+        inserting code goes on.
         """
         withdraw = self._listeners.add(callback, owner)
         self._listening = self._listeners.registered
@@ -457,7 +456,7 @@ class Buffer(Door):
     ) -> TransformStamped:
         """Return source's pose at its time in target at target's time, through a fixed frame.
 
-        Both are looked up against `fixed_frame`, which is taken not to move in between.
+        Both are looked up relative to `fixed_frame`, which is assumed not to move in between.
 
         Raises:
             TransformException: As `lookup_transform`; frames are always checked, even equal ones.
@@ -530,7 +529,7 @@ class Buffer(Door):
     ) -> "TransformArray":
         """Return `lookup_transform_full` for many times at once, in numpy.
 
-        One of the two kinds of times may be a single moment; see `lookup_transforms`.
+        Either of the two times may be a single moment; see `lookup_transforms`.
 
         Raises:
             TransformException: As `lookup_transform_full`, for the first row that is refused.
@@ -583,7 +582,7 @@ class Buffer(Door):
     ) -> velocity.Velocity:
         """Return the velocity of `tracking_frame` in `observation_frame`, by tf2's formula.
 
-        See `velocity.full` for what tf2's numbers mean, and `lookup_twist` for plain ones.
+        `velocity.full` explains tf2's numbers; `lookup_twist` gives plain velocities.
         """
         return velocity.full(
             self,
@@ -609,7 +608,7 @@ class Buffer(Door):
         """Return `tracking_frame`'s velocity in `observation_frame`, expressed in
         `reference_frame`.
 
-        tf2's formula to the letter; see `velocity.full`.
+        Exactly tf2's formula; see `velocity.full`.
         """
         return velocity.full(
             self,
@@ -776,7 +775,7 @@ class Buffer(Door):
     def rivals(self, frame: str) -> tuple[str, ...]:
         """Return the publishers that alternate in a frame's samples; empty if there is only one.
 
-        One who took over from another once is no rival.
+        A publisher that replaced another one once is no rival.
         """
         frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)

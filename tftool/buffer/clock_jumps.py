@@ -29,8 +29,8 @@ def must_clear(
 class Watch:
     """Watcher of a clock's readings that clears a buffer when they jump back.
 
-    A buffer knows no clock, so code that feeds it from a recording or a simulation that may
-    start over shows each new reading here first.
+    A buffer has no clock, so code that fills it from a recording or a simulation that may restart
+    passes each new time to this class first.
     """
 
     def __init__(

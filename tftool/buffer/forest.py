@@ -1,10 +1,10 @@
 """Frames by name and number, each with its link to a parent, which may change over time.
 
-Here questions are answered by parents alone: which links lead from one frame to another at
-one moment, and which moment is the latest that all of them have. `path` works out poses.
+This module uses parents only: it finds the links between two frames at a moment, and the latest
+moment that all of them have. `path` computes poses.
 
-Setting takes one leading slash off a name, asking takes off none and refuses it: tf2's rule,
-which accepts old publishers and points the mistake out to the program that asks.
+An insertion removes one leading slash of a name, a query refuses it: tf2's rule, which accepts old
+publishers and shows the mistake to the querying program.
 """
 
 from collections.abc import Iterable
@@ -46,8 +46,8 @@ def stripped(name: str) -> str:
 def plain(name: str) -> str:
     """Return a name as exactly a `str`.
 
-    A subclass may compare and hash by code of its own: as a key it would run that code in the
-    middle of a lookup, which may then change data that is being read.
+    A subclass of `str` may have its own comparison and hash: as a key it would run that code during
+    a lookup, and could change the data being read.
 
     Raises:
         TypeError: If it is not a string.
@@ -204,7 +204,7 @@ class FrameTree:
     def hang(self, child: str, parent: str, static: bool) -> tuple[Frame, Link, bool]:
         """Register both names, and give the child a link of this kind.
 
-        A link of the other kind is replaced by an empty one, and all it held is gone.
+        A link of the other kind is replaced by an empty one, and its samples are dropped.
 
         Returns:
             The child, its link, and whether the link is a new one.
@@ -249,10 +249,9 @@ class FrameTree:
     def walk(self, target: int, source: int, time: Stamp) -> Walk:
         """Find the path from source to target at one time (0: by each newest sample).
 
-        As tf2 does it: up from the source, to the root unless it meets the target or a
-        link that has nothing for the moment; then up from the target until it meets
-        where the source's side ended, or the source itself. Missing data above the
-        meeting point does not matter.
+        As in tf2: from the source up to the target, to the root, or to a link without data for the
+        moment; then from the target up to the end of the first part, or to the source. Missing data
+        above the common frame does not matter.
         """
         walk = Walk(source, target)
         frames, up, down = self.frames, walk.up, walk.down
@@ -313,8 +312,8 @@ class FrameTree:
     def is_steady(self, walk: Walk) -> bool:
         """Whether the path by newest parents is the same at every time it has data for.
 
-        Above the meeting point links may lead elsewhere at times, as long as no way up from
-        there can run in a circle, or be too long.
+        Links above the common frame may change, as long as no path up from there can become a loop,
+        or too long.
         """
         frames = self.frames
         for number in (*walk.up, *walk.down):
@@ -360,7 +359,7 @@ class FrameTree:
     def latest_common(self, target: int, source: int) -> tuple[int, Stamp]:
         """Return the newest time for which every link between two frames has data.
 
-        Stamps of 0 do not count: that is how links that hold at all times drop out.
+        Stamps of 0 are ignored, and with them the links that are always valid.
 
         Returns:
             The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 if no link

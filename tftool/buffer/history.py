@@ -1,6 +1,6 @@
 """Links of a child to its parent over time: static or moving.
 
-How a moving link's samples lie in memory, which the batch path and `Buffer.samples` read too:
+Memory layout of a moving link's samples, which batch lookups and `Buffer.samples` read too:
 
 - `records` is one flat array of 64-bit words, oldest sample first, WORDS words for each: its
   stamp in nanoseconds, then x, y, z and the quaternion's x, y, z, w, doubles bit by bit. One
@@ -177,8 +177,8 @@ class StaticLink(Fields):
 class History(Fields):
     """A moving link: its samples of the last `limit` nanoseconds, as in tf2.
 
-    Pruning is lazy: only an insert prunes, and before it adds. Among equal stamps the last
-    one inserted is the newest.
+    Pruning is lazy: only an insertion prunes, before it adds. Among equal stamps the last inserted
+    one is the newest.
 
     Attributes:
         is_static: False, of any of them.
@@ -243,7 +243,7 @@ class History(Fields):
     def at(self, time: Stamp) -> Sample:
         """Return the pose at that time (0: the newest), interpolated; NO_POSE if there is none.
 
-        Between two samples with different parents it is the older one, as it is.
+        Between two samples with different parents, return the older one unchanged.
         """
         newest = self.newest_stamp
         if not self.oldest_stamp < time < newest:
@@ -275,7 +275,7 @@ class History(Fields):
         """Return the parent's number at that time, from the older neighbour; NO_PARENT if there is
         none.
 
-        At 0 it is the newest sample's.
+        For time 0, the newest sample's.
         """
         if time == self.newest_stamp or time == 0:
             return self.parent
@@ -309,9 +309,9 @@ class History(Fields):
     def columns(self) -> "Columns":
         """Return records and origins, oldest first; see `Columns`.
 
-        The records are not copied, and do not change while that view of them is held: what
-        would have the array grow is done to a copy. They are of one moment, even if another
-        thread inserts or prunes meanwhile: the read values are compared again once they are held.
+        The records are not copied, and do not change while the view exists: the array grows only as
+        a copy. They belong to one moment, even if another thread inserts or prunes meanwhile: after
+        taking the view, the read values are compared again.
         """
         while True:
             records, start, count = self.records, self.start, self.count
@@ -596,8 +596,8 @@ class History(Fields):
     def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
         """Append records with increasing stamps, and prune those before a stamp.
 
-        They have the one origin that all samples have; one there is already, and they reach
-        beyond the pruned ones.
+        All records have the origin of the existing samples; there is at least one sample, and the
+        records reach past the pruned ones.
         """
         if self.newest_stamp < oldest_kept:
             self.replace(records, array("q", [self.origin]) * (len(records) // WORDS))
@@ -626,8 +626,8 @@ class History(Fields):
     def borrow(self, records: "Words", origin: int) -> None:
         """Replace all samples by borrowed ones with increasing stamps and one origin.
 
-        They are copied only when something is inserted or pruned: until then they may lie in
-        memory of others, and `records` is a view that cannot be written to.
+        They are copied only at an insertion or pruning: until then they may be in foreign memory,
+        and `records` is a read-only view.
         """
         self.replace(memoryview(records).toreadonly(), array("q", [origin]))
 
@@ -676,9 +676,8 @@ class History(Fields):
     def use_large_pages(self) -> None:
         """Move many samples into large pages, if the system has them.
 
-        Lookups all over five links of 100 000 samples take a quarter less. A sample
-        without room makes the array grow again; the next move to large pages waits until the
-        history is twice as long.
+        Random lookups over five links of 100 000 samples take a quarter less time. A sample without
+        room makes the array grow again; it moves to large pages again only at twice the length.
         """
         self.large_from = 2 * self.count
         records = self.records

@@ -55,7 +55,7 @@ class _NativeFirst:
 def native_first(plain: _Method) -> _Method:
     """Decorate a method that the kernel implements for ordinary arguments.
 
-    The kernel calls the decorated method, as `_plain_` and its name, for everything else: a new
-    frame, a refusal, a long chain. Without the kernel it is the method itself.
+    For all other cases (a new frame, a refusal, a long chain) the kernel calls the decorated
+    method, as `_plain_` and its name. Without the kernel, the name is the method itself.
     """
     return cast(_Method, _NativeFirst(plain)) if IS_NATIVE else plain

@@ -1,7 +1,7 @@
 """Path between two frames: found once, evaluated at many times.
 
-A path holds while no link changes whom it leads to. Where a link has nothing for a moment, a
-path answers nothing: the tree's walk then says why, or finds a way that a path cannot know.
+A path is valid while none of its links changes its parent. If a link has no data for a moment, a
+path gives no answer: following the tree then finds the reason, or another way.
 """
 
 from collections.abc import Iterable

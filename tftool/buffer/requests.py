@@ -44,7 +44,7 @@ class Request:
 class Requests:
     """Pending requests, indexed by the frames they wait for.
 
-    However many wait, a change costs nothing to those that wait for other frames.
+    A change costs nothing for requests that wait for other frames, however many there are.
 
     Attributes:
         pending: Waiting requests by handle.

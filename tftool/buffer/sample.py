@@ -11,8 +11,8 @@ from tftool.geometry.rigid import Transform, refuses_arithmetic
 class TransformStamped(NamedTuple):
     """Pose of `child_frame_id` in `frame_id` at one time.
 
-    The answer of `lookup_transform(target, source)` is one of these too: the pose of
-    the source (`child_frame_id`) in the target (`frame_id`).
+    The result of `lookup_transform(target, source)` is one too: the pose of the source
+    (`child_frame_id`) in the target (`frame_id`).
 
     Attributes:
         stamp: Nanoseconds.

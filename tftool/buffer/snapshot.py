@@ -192,7 +192,7 @@ def as_string(frames: Iterable[FrameInfo]) -> str:
 def as_dot(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
     """Format the frames as tf2's core does for Graphviz (`view_frames` prints another form).
 
-    Names are written as they are: escape them first if they come from strangers.
+    Names are written unchanged: escape untrusted ones first.
     """
     frames = list(frames)
     if not frames:

@@ -49,7 +49,7 @@ class Solver:
     def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
         """Return the effective time and the path at that time, by walking the trees.
 
-        Keeps the path for the next time where that is possible; whether it did is told last.
+        The path is kept for the next lookup if possible; the last value tells whether it was.
 
         Raises:
             TransformException: As in `Buffer.lookup_transform`.
@@ -71,7 +71,7 @@ class Solver:
         return time, path, self._remember(target_number, source_number, walk, path)
 
     def latest_common(self, target: int, source: int) -> Stamp:
-        """The newest moment for which every link between two frames has data.
+        """Return the newest moment for which every link between two frames has data.
 
         Raises:
             TransformException: If nothing joins them, or a chain does not end.

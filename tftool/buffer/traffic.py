@@ -1,9 +1,9 @@
 """Rate and delay of arriving transforms: the figures of `tf2_monitor`.
 
-Two sets of numbers. The plain properties are what they say. Those that begin
-with `tf2_` are computed as `tf2_monitor` does, so that they can be compared
-with its output: its rates are too high by one message, its net delay starts at
-zero and climbs for minutes, and a static transform counts as very late.
+There are two sets of numbers. The plain properties are exact. Those that begin with `tf2_` are
+computed like `tf2_monitor`'s, for comparison with its output: its rates are too high by one
+message, its net delay starts at zero and rises for minutes, and a static transform counts as very
+late.
 """
 
 from collections import deque

@@ -44,9 +44,9 @@ def full(
 ) -> Velocity:
     """Return tf2's `lookup_velocity_full`, including its known errors.
 
-    What it gives is a spatial twist where the reference does not turn against the tracked
-    frame; where it does, tf2 turns the vectors by the wrong rotation, and it shifts to
-    another point element by element instead of by a cross product. `twist` is right.
+    The result is a spatial twist if the reference does not rotate relative to the tracked frame;
+    otherwise tf2 rotates the vectors by the wrong rotation, and moves to another point element by
+    element instead of by a cross product. `twist` is right.
 
     Raises:
         TransformException: If a lookup it is computed from is refused.
@@ -76,7 +76,7 @@ def twist(
 ) -> Velocity:
     """Return linear and angular velocity of `tracking`'s origin, expressed in `observation`.
 
-    The mean over `interval` around `time`, or over what part of it the buffer holds.
+    The mean over `interval` around `time`, or over the part of it that the buffer holds.
 
     Raises:
         TransformException: If a lookup of its two ends is refused.

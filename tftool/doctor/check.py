@@ -1,7 +1,7 @@
 """A check of the doctor: id, severity, thresholds, texts and links, declared with its function.
 
-An id never changes its meaning, and one that is retired is not used again. Texts are
-filled with a finding's facts; see `wording` for how numbers are written.
+An id never changes its meaning, and a retired one is never reused. Texts are filled with a
+finding's facts; `wording` defines the format of numbers.
 """
 
 from collections.abc import Callable, Iterator, Mapping

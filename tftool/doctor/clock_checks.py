@@ -97,7 +97,7 @@ def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:
 def _placed(model: Model) -> list[Heard]:
     """Return messages with a position, and joint states, which become transforms.
 
-    Messages without one, as diagnostics and logs, are looked up nowhere.
+    Messages without one, such as diagnostics and logs, are never looked up.
     """
     return [one for one in model.heard if one.is_spatial or one.type == JOINT_STATES]
 

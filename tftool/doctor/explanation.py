@@ -1,9 +1,8 @@
 """Exact trace of one lookup: which link fails, by how much, and what would help.
 
-The listener is imagined: at the moment it asks it holds the samples that had arrived, pruned as
-tf2 prunes. What it would be told is asked of a buffer that holds the same; why, and what
-helps, comes from the links and never from that text, which may quote a link that the answer
-does not need.
+The listener is imaginary: at the moment of the query it holds the samples that had arrived, pruned
+as in tf2. Its answer is looked up in a buffer with the same samples; reasons and remedies come from
+the links, never from the text of the error, which may name a link that the answer does not need.
 """
 
 import math

@@ -1,7 +1,7 @@
 """Marks of frames with findings, for screens.
 
-Of a buffer in which nothing can be wrong this is told without numpy and the checks, whose import
-takes as long as all else that shows a tree.
+For a buffer without possible faults this needs neither numpy nor the checks, whose import takes as
+long as the rest of showing a tree.
 """
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW
@@ -39,8 +39,8 @@ def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
 def marked(buffer: Buffer) -> dict[str, tuple[str, ...]]:
     """Return the marks of a buffer that may contain faults.
 
-    A frame is marked `edge-stopped` where its newest sample is further behind the newest of
-    all, on the same clock, than ten of its periods and a second.
+    A frame is marked `edge-stopped` if its newest sample is older than the newest of all, on the
+    same clock, by more than ten of its periods and a second.
     """
     from tftool.doctor.clock_checks import clock_mixture
     from tftool.doctor.coverage_checks import edge_stopped

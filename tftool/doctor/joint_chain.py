@@ -1,7 +1,7 @@
 """Joints between two links of a robot description, and what a lookup between them lacks.
 
-A description publishes nothing and holds at all times; what a lookup in it lacks is a name, or the
-position of a joint that nothing but a publisher can tell.
+A description publishes nothing and is valid at all times; a lookup can lack only a name, or the
+position of a joint, which only a publisher knows.
 """
 
 import shlex

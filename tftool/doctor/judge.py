@@ -321,7 +321,7 @@ def diagnose(
 ) -> list[Finding]:
     """Return a report about the mistake that kept the frames from being read.
 
-    A buffer keeps neither log times nor messages: what needs them is not looked for.
+    A buffer keeps neither log times nor messages: checks that need them are skipped.
 
     Args:
         recording: A recording, a buffer, or opened frames.

@@ -126,7 +126,7 @@ def _steps(track: Track) -> list[LocalisationStep]:
 def _unexplained(changes: Floats, gaps: Floats) -> Floats:
     """Return the length of each change, minus the motion predicted from its neighbours.
 
-    The median of the four is taken, so that a step among them does not count.
+    The median of the four is used, so that a step among them has no effect.
 
     Args:
         changes: From sample to sample, shape (n, 3).

@@ -20,8 +20,8 @@ RADIAN = 0.5
 def motion_errors(track: Track, places: Places) -> Floats:
     """Return each sample's distance from its prediction by the two before it.
 
-    The turn between two samples may be longer by a whole turn either way, as that of a fast
-    wheel is: of the three the best one counts.
+    The rotation between two samples may be a whole turn more or less, as for a fast wheel: the best
+    of the three values is used.
 
     Args:
         track: The samples.

@@ -587,7 +587,7 @@ def _could_move(model: Model, track: Track) -> bool:
 def _joints_by_statics(model: Model) -> list[Track]:
     """Return the dynamic edges among mounts that one message of all fixed joints carries.
 
-    robot_state_publisher sends all fixed joints in one message, and on /tf what can move.
+    robot_state_publisher sends all fixed joints in one message, and movable ones on /tf.
     """
     counts = Counter(number for one in model.statics for number in one.messages.tolist())
     carriers = {

@@ -1,9 +1,8 @@
 """Picture of frames as coloured text lines, at any size.
 
-Trails, axes and the lines to the parents are drawn in braille (eight dots to a
-cell), turtles in blocks or as arrows, so that a metre is as long across as it is
-up on cells twice as high as wide. The drawing is a frozen `PlanePicture`;
-nothing here knows a buffer or a simulator.
+Trails, axes and lines to parents are drawn in braille (eight dots to a cell), turtles in blocks or
+as arrows. Scales account for cells that are twice as high as wide. The drawing is a frozen
+`PlanePicture`, independent of buffers and simulators.
 """
 
 import math

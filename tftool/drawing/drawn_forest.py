@@ -1,7 +1,7 @@
 """Frames of a drawing as rows: children below parents, with guides and facts; loops too.
 
-A buffer holds a forest, but data from a link may be anything: a frame whose
-parent hangs from itself must not send a drawing round in circles.
+A buffer holds a forest, but foreign data may be anything: a frame below itself must not make a
+drawing loop.
 """
 
 from collections.abc import Iterator

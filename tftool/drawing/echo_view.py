@@ -32,8 +32,8 @@ def block(
 ) -> str:
     """Format a transform as tf2_echo does, line by line.
 
-    The nanoseconds are not padded with zeros, as tf2_echo's are not: 5 s and 12 ns
-    is `5.12`. `as_object` has the exact stamp.
+    As in tf2_echo, nanoseconds are not padded with zeros: 5 s and 12 ns is `5.12`. `as_object` has
+    the exact stamp.
 
     Args:
         found: Result of a lookup.
@@ -70,8 +70,8 @@ _NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w
 def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
     """Colour x, y and z of `block` like the axes, for a terminal.
 
-    So are roll, pitch and yaw, which turn about them, and of the matrix the columns, which
-    are the source's axes as the target sees them.
+    Roll, pitch and yaw have the colours of their axes, and so have the matrix's columns, which are
+    the source's axes in the target.
     """
     from rich.text import Text
 

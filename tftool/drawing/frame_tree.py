@@ -1,7 +1,7 @@
 """Trees of frames: as full text, fitted to a terminal, or as data for programs.
 
-In a terminal, what does not fit goes one by one: first the columns that say least, of the
-broadcasters' names their middle, then wide guides, then the middle of the frames' names.
+In a narrow terminal, parts are dropped one by one: first the least useful columns, then the middle
+of the broadcasters' names, wide guides, and the middle of the frames' names.
 """
 
 import re
@@ -55,7 +55,7 @@ def render(
 ) -> Text:
     """Draw every tree with all facts of each link, without a limit on width.
 
-    `compact` draws it in a terminal's width. Args as `pieces`.
+    `compact` draws it in a terminal's width. The arguments are those of `pieces`.
 
     Returns:
         Lines; nothing in a name acts on the terminal.
@@ -136,8 +136,8 @@ def as_object(
 
 
 def as_yaml(snapshot: Snapshot) -> str:
-    """Return tf2's shape `all_frames_as_yaml`, with every name quoted where YAML
-    would take it for something else, and `static` beside tf2's own facts.
+    """Return the YAML of tf2's `all_frames_as_yaml`, with names quoted where YAML would read
+    something else, and with `static` added.
     """
     links = [info for info in snapshot.frames if info.parent is not None]
     return "".join(map(_yaml_entry, links)) or "{}\n"

@@ -1,10 +1,10 @@
 """PDF of a tree picture: one page of the drawing's size, in Helvetica, without a library.
 
-Every PDF reader brings Helvetica along, for the letters of Western Europe only. Any
-other letter is written as its number, <U+4E16>, so that nothing vanishes in silence.
+Every PDF reader includes Helvetica, but only for Western European letters. Any other letter is
+written as its number, <U+4E16>, so that none disappears.
 
-The font's published widths, in thousandths of its size, make the boxes fit their text
-into them; browsers draw the same sheets with a font of their own that is about as wide.
+Boxes are sized by the font's published widths, in thousandths of its size; browsers draw the same
+sheets with a font of similar width.
 """
 
 import zlib

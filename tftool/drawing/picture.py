@@ -1,8 +1,8 @@
 """Layout of a snapshot on paper: cards, links and a legend, as plain shapes.
 
-One card per frame with rqt_tf_tree's five facts about the link above it; trees side by
-side; many leaves of one parent folded into a group, so that three hundred frames stay
-readable. What the shapes look like is the business of `svg` and `pdf`.
+One card per frame with rqt_tf_tree's five facts about the link above it; trees side by side; many
+leaves of one parent folded into a group, so that three hundred frames stay readable. `svg` and
+`pdf` draw the shapes.
 """
 
 import math

@@ -1,6 +1,6 @@
 """Values for a picture of frames, seen along the z axis of one fixed frame.
 
-Metres and radians in that frame. The drawing is `drawing/canvas.py`.
+Units are metres and radians in that frame. `drawing/canvas.py` draws the picture.
 """
 
 import math

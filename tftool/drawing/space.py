@@ -105,7 +105,7 @@ class Viewpoint(NamedTuple):
 class OrbitCamera:
     """Camera that orbits a scene, and fits it until the user zooms or pans.
 
-    Fitted, it grows at once with the scene, and shrinks only when most of it is empty.
+    In fitted mode the view grows at once with the scene, and shrinks only when most of it is empty.
 
     Attributes:
         name: The name of the view; "orbit" once it was turned.

@@ -1,7 +1,7 @@
 """3-D picture of frames: depth buffer in numpy, shaded half blocks, braille lines.
 
-The depth buffer has a point for each dot of braille. Four of them make half a cell of a solid.
-Lines are dots: those of the ground are hidden by solids, axes are drawn through them.
+The depth buffer has a point for each braille dot. Four points make half a cell of a solid. Lines
+are dots: solids hide those of the ground, and axes are drawn through solids.
 """
 
 from collections.abc import Sequence

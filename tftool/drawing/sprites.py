@@ -114,7 +114,7 @@ def badge(
 ) -> Iterator[tuple[int, int, Cell]]:
     """Draw a turtle as an arrow, on a badge if a metre is large enough.
 
-    Args and yields as `body`; without `blocks` in ASCII.
+    Arguments and results are those of `body`; without `blocks` in ASCII.
     """
     column, row = math.floor(x), math.floor(y)
     if not blocks:

@@ -1,7 +1,7 @@
 """SVG of the tree, and an HTML page with it and a table.
 
-Each is one self-contained file, light or dark as its viewer is, and fetches nothing. The page has
-a script that fits, moves and searches the picture; without it everything is still there.
+Each is one self-contained file in the viewer's light or dark scheme, and loads nothing. The page
+has a script that fits, moves and searches the picture; without scripts, everything is still shown.
 """
 
 import math

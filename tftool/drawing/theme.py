@@ -1,6 +1,6 @@
 """Colours: turtlesim's own, a stable one per name, and those of screens and grounds.
 
-Fading as rviz does is the page's: `screens/browser/page/model.js`.
+Fading as in rviz is in the page's `screens/browser/page/model.js`.
 """
 
 import zlib
@@ -47,8 +47,8 @@ def blend(start: Color, end: Color, share: float) -> Color:
 def of_name(name: str) -> Color:
     """Return a name's colour, the same in every run on every machine.
 
-    Names that end in a number step through the palette, so that `turtle1` and
-    `turtle2` never look alike.
+    Names that end in a number use successive colours, so that `turtle1` and `turtle2` never look
+    alike.
     """
     stem = name.rstrip("0123456789")
     number = name[len(stem) :][-9:]

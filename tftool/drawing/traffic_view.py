@@ -98,8 +98,8 @@ def table(
 ) -> Text:
     """Return a table of frames, in the chain's order if there is one, and of publishers.
 
-    Late links, by the doctor's limits, are amber: dated long before it arrives, or not heard
-    of for many periods; those silent for longer still are red.
+    Late links, by the doctor's limits, are amber: stamped long before they arrive, or silent for
+    many periods; red after a longer silence.
 
     Args:
         now: The clock's time.

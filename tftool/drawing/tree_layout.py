@@ -1,13 +1,12 @@
 """Tidy layout of a forest, in numbers only.
 
-A parent stands over the middle of its first and last child, siblings keep a gap, and
-subtrees slide together as far as their outlines allow (the idea of Reingold and
-Tilford). Pushing everything one way leaves small subtrees leaning on one neighbour, so
-the forest is packed from both sides and the two answers are averaged: each obeys every
-distance, hence so does their mean, and it is symmetric.
+A parent is above the middle of its first and last child, siblings keep a gap, and subtrees are as
+close as their outlines allow (the idea of Reingold and Tilford). Packing from one side makes small
+subtrees lean on one neighbour. So the forest is packed from both sides and the results are
+averaged: both keep every distance, therefore the mean does, and it is symmetric.
 
-Time and memory are linear in the number of items; nothing here recurses, so a chain of
-thousands is no deeper for it than a fan.
+Time and memory are linear in the number of items. Nothing recurses, so that a chain of thousands is
+no problem.
 """
 
 from collections.abc import Sequence
@@ -125,9 +124,9 @@ def _row(
 class _Outline:
     """Extent of a subtree on either side, level by level.
 
-    The lists run from the deepest level up, so that a new top is appended and the common
-    levels of two outlines are the ends of both; each list keeps a shift of its own, so
-    that moving a subtree costs nothing.
+    The lists begin at the deepest level, so that a new top is appended and the common levels of two
+    outlines are at the ends of both. Each list has an offset, so that moving a subtree costs
+    nothing.
     """
 
     __slots__ = ("left", "left_shift", "right", "right_shift")

@@ -1,7 +1,7 @@
 """Pictures of the tree: dot, mermaid, SVG, HTML, PDF and PNG, without Graphviz.
 
-dot is view_frames' own text, so that whatever reads frames.gv reads this too. The
-others are ours. A name is a name in all of them, whatever it is made of.
+dot is the text of view_frames, so that programs for frames.gv can read it. The other formats are
+tftool's own. All of them show names unchanged.
 """
 
 import re
@@ -49,8 +49,8 @@ def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
 def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Format view_frames' dot, byte for byte as long as no link is static.
 
-    Static links are dashed. Where view_frames ties its legend to one of several trees, or
-    fails on a loop, every root gets its line, and a loop none. All frames are in it.
+    Static links are dashed. view_frames attaches its legend to one of several trees, and fails on a
+    loop; here every root has a legend line, and a loop has none. All frames are in the drawing.
     """
     named = distinct(frame.frame for frame in snapshot.frames)
     known = frozenset(named)
@@ -108,8 +108,8 @@ _MERMAID_NAME = 60
 def mermaid(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Format a Mermaid flowchart, as GitHub and many wikis draw it.
 
-    Mermaid refuses large charts. Links then carry their rate alone, and if that is not
-    enough, the frames farthest from their root are left out; either is said in the chart.
+    Mermaid refuses large charts. Then links show only their rate, and if that is not enough, the
+    frames farthest from their root are left out; the chart says so.
     """
     forest = grow(snapshot, most=_MERMAID_LINKS)
     text = _flowchart(snapshot, forest, full=True)
@@ -178,7 +178,7 @@ def page(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
 def pdf(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Draw the trees as a PDF page; at most `MOST_DRAWN` frames.
 
-    Letters Helvetica has not are written as their numbers.
+    Letters that Helvetica lacks are written as their numbers.
     """
     picture = lay_out(snapshot, stale=_stale(marks))
     notes = [_picture_note(picture.left_out), _letters_note(pdf_writer.missing_letters(picture))]

@@ -196,10 +196,9 @@ def compare(
 ) -> Differences:
     """Compare two sets of frames, link by link.
 
-    Statics are compared as they are. What moves in both is compared at the stamps they share;
-    where they share none, at those of A, between samples of B. Two clocks are never mixed: if
-    one side counts from 1970 and the other from the start of a simulation, both count from
-    their own start.
+    Statics are compared directly. Links that move in both are compared at common stamps, or else at
+    those of A, between samples of B. Two clocks are never mixed: if one side counts from 1970 and
+    the other from the start of a simulation, both count from their own start.
 
     Args:
         first: A.

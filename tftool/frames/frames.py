@@ -21,8 +21,8 @@ FramesKind: TypeAlias = Literal[
 class Frames:
     """The frames of a recording, a robot description, a statics file, a scenario or a session.
 
-    `tftool.open` makes one. Nothing is pruned: a lookup may ask for any moment. Works in a
-    `with`, at whose end the files are closed; data already read stays.
+    `tftool.open` makes one. Nothing is pruned: every moment can be looked up. It works in a `with`,
+    whose end closes the files; data already read stays.
 
         with tftool.open("run.mcap") as frames:
             frames.buffer.lookup_transform("map", "laser", frames.at(12.5))

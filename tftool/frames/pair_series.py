@@ -1,6 +1,6 @@
 """Curves of a trajectory over time, grouped in panels, with gaps where data is missing.
 
-Times are seconds since one start, so that a plot's axis counts as `--from` and `--at` do.
+Times are seconds since one start, so that a plot's axis agrees with `--from` and `--at`.
 """
 
 import math

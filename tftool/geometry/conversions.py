@@ -1,9 +1,9 @@
 """Conversions of rotations: roll pitch yaw, matrix, axis and angle, Euler, w first.
 
-Roll, pitch, yaw are turns about fixed axes: x, then y, then z. They, and axis and angle of a
-quaternion, are plain floats: commands print them, and transforms3d costs 120 ms of a start. All
-other Euler angles, and quaternions from matrices and from axis and angle, are transforms3d's; it
-is loaded when one of them is called, and its order, w first, is met here and nowhere else.
+Roll, pitch, yaw are rotations about fixed axes: x, then y, then z. These, and axis and angle of a
+quaternion, are computed here with plain floats: commands print them, and importing transforms3d
+takes 120 ms. transforms3d computes all other Euler angles, and quaternions from matrices and from
+axis and angle; it is imported at the first call, and only this module handles its order, w first.
 """
 
 import math
@@ -35,9 +35,8 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
     """Return roll, pitch, yaw in radians, pitch within a quarter turn.
 
-    At the poles (pitch of a quarter turn) yaw is 0 and roll holds the whole of the turn the
-    two share, so that the angles always mean the same rotation as the quaternion. NaN
-    for a zero quaternion.
+    At the poles (pitch of a quarter turn) yaw is 0 and roll holds the sum of both, so that the
+    angles always mean the same rotation as the quaternion. NaN for a zero quaternion.
     """
     return quaternions.rpy(_quad(quaternion))
 
@@ -45,8 +44,8 @@ def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, floa
 def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
     """Return roll, pitch, yaw that reproduce the rotation to 1e-12, also at the poles.
 
-    `rpy_from_quaternion` has tf2's formulas, whose arc sine loses half the digits there. What
-    is written to a file that others read back is by this one.
+    `rpy_from_quaternion` has tf2's formulas, whose arc sine loses half of the digits at the poles.
+    Files for other programs are written with this function.
 
     Source:
         Bernardes and Viollet, "Quaternion to Euler angles conversion: a direct, general and
@@ -224,7 +223,7 @@ def euler_from_matrix(
 ) -> tuple[float, float, float]:
     """Return Euler angles of a 3×3 rotation matrix (of a 4×4 one, its upper left).
 
-    Where they are not unique, the last is 0.
+    If they are not unique, the last angle is 0.
 
     Raises:
         ValueError: If `axes` is no such order.

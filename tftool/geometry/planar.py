@@ -15,7 +15,7 @@ def transform_from_pose(x: float, y: float, heading: float) -> Transform:
 def heading(transform: Transform) -> float:
     """Return the yaw of a transform, radians from −π to π.
 
-    It is the yaw of roll, pitch, yaw: for a pose in the plane, the direction of its x axis.
+    It is the yaw of roll, pitch, yaw. For a pose in the plane, it is the direction of its x axis.
     """
     x, y, z, w = transform.rotation
     return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)

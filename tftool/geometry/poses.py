@@ -1,8 +1,8 @@
 """Arithmetic of poses as seven plain floats: x, y, z and a unit quaternion x, y, z, w.
 
-The lookups of a buffer spend their time here. Each formula is written out in one function and
-makes one tuple: calls to `quaternions.rotate`, `multiply` and a slerp of its own cost 15 to 35 %
-of a lookup.
+Lookups of a buffer spend their time here. Each formula is written out in one function and makes one
+tuple: calls of `quaternions.rotate`, `multiply` and a separate slerp would take 15 to 35 % of a
+lookup.
 """
 
 from math import acos, sin
@@ -21,8 +21,8 @@ Pair: TypeAlias = tuple[
 def interpolate(pair: Pair, time: float) -> Pose:
     """Interpolate between two poses.
 
-    The translation goes straight, the rotation along the shorter arc at constant speed. At the
-    first stamp it is the first pose, to the last bit.
+    The translation is linear, the rotation follows the shorter arc at constant speed. At the first
+    stamp the result is exactly the first pose.
 
     Args:
         pair: The two poses, each after its stamp: 16 numbers.
@@ -91,8 +91,8 @@ def compose(outer: Pose, inner: Pose) -> Pose:
 def between(first: Pose, second: Pose) -> Pose:
     """Return the second pose relative to the first: `b_from_c` from `a_from_b` and `a_from_c`.
 
-    The difference of the two places is turned, not each of them: where they are equal, the
-    answer is zero to the last bit.
+    The difference of the two positions is rotated, not each of them, so that equal positions give
+    exactly zero.
     """
     ox, oy, oz, ax, ay, az, aw = first
     x, y, z, bx, by, bz, bw = second

@@ -1,8 +1,7 @@
 """Application of transforms to points, vectors, poses, covariances and wrenches.
 
-Everything goes in as plain numbers given in the transform's child and comes out given in
-its parent; nothing that goes in is changed. A rotation of all zeros stands for none, as it
-does in tf2's own conversions.
+Arguments are plain numbers in the transform's child frame, results are in its parent; arguments are
+never changed. A rotation of zeros means the identity, as in tf2's own conversions.
 """
 
 from collections.abc import Iterable, Sequence

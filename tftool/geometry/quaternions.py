@@ -1,7 +1,7 @@
 """Arithmetic of quaternions in plain floats, xyzw order.
 
-Every function takes and gives plain tuples of floats, so that the scalar path
-makes no object it does not hand out. Products apply the right factor first.
+Functions take and return plain tuples of floats, so that the scalar path makes no extra objects.
+Products apply the right factor first.
 """
 
 import math
@@ -64,8 +64,7 @@ def rotate(quaternion: Quad, vector: Triple) -> Triple:
 def unit(quaternion: Quad) -> Quad:
     """Normalise a quaternion; NaN throughout if its length is zero.
 
-    Zero, not finite, or so small that its square leaves the range of floats:
-    no rotation can be told from it.
+    None if it is zero, not finite, or so small that its square underflows.
     """
     x, y, z, w = quaternion
     square = x * x + y * y + z * z + w * w
@@ -87,9 +86,8 @@ def unit(quaternion: Quad) -> Quad:
 def canonical(quaternion: Quad) -> Quad:
     """Return a unit quaternion with the sign that tf2 would give it.
 
-    It is the sign that comes out of a rotation matrix: w positive for turns below
-    120°, and beyond that the largest imaginary part positive, so that w may be
-    negative.
+    The sign is that of a conversion from a rotation matrix: w positive for turns below 120°;
+    otherwise the largest imaginary part is positive, so that w may be negative.
     """
     x, y, z, w = quaternion
     return (-x, -y, -z, -w) if leading(x, y, z, w) < 0.0 else quaternion

@@ -35,7 +35,7 @@ def refuses_arithmetic(kind: type[T]) -> type[T]:
 class Vector3(NamedTuple):
     """A point or vector, in metres unless stated otherwise.
 
-    It adds, subtracts and scales as a vector does: `2.0 * (a + b)`.
+    Addition, subtraction and scaling work as for vectors:
     """
 
     x: float
@@ -131,8 +131,8 @@ class _Parts(NamedTuple):
 class Transform(_Parts):
     """A rotation followed by a translation; immutable, hashable, compared by value.
 
-    The quaternion is kept as it is given. Wherever it is used, any finite one but zero stands
-    for the rotation in its direction. (A message may bring a zero one: it makes results NaN.)
+    The quaternion is kept unchanged. In use, every finite one except zero means the rotation of its
+    direction. (A message may have a zero one, which makes results NaN.)
 
     Attributes:
         translation: `Vector3`, metres.

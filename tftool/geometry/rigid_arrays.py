@@ -1,7 +1,7 @@
 """The functions of `rigid` and `quaternions` for arrays: shapes (..., 3) and (..., 4).
 
-Quaternions are in xyzw order and leading axes broadcast. Each function gives row by row
-what its namesake for plain floats gives.
+Quaternions are in xyzw order and leading axes broadcast. Each row of a result is that of the
+function of the same name for plain floats.
 """
 
 from typing import TypeAlias

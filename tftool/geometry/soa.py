@@ -1,8 +1,8 @@
 """Rotation and composition of many poses: components in rows, a pose per column.
 
-The fast half of `batch`, for arrays that are used again and again: nothing is allocated.
-Vectors lie as rows x, y, z, x, y, so that a cross product is three operations on three
-rows each; a quaternion has its w before them. A single column serves all rows.
+The fast half of `batch`, for reused arrays: nothing is allocated. Vectors are rows x, y, z, x, y,
+so that a cross product is three operations on three rows each; a quaternion's w precedes them. A
+single column serves all rows.
 """
 
 from typing import NamedTuple
@@ -31,8 +31,8 @@ _NEGLIGIBLE = 2e-17
 class Arcs(NamedTuple):
     """Shorter arcs from quaternions A to others, at constant angular speed.
 
-    At the share f of the way the rotation is that of the quaternion A + s·C, with
-    s = f·tan(fθ)/(fθ), which is √(1 + s²θ²) long: `tan_ratio` gives tan(fθ)/(fθ).
+    At the fraction f, the rotation is that of the quaternion A + s·C with s = f·tan(fθ)/(fθ) and
+    length √(1 + s²θ²): `tan_ratio` gives tan(fθ)/(fθ).
 
     Attributes:
         directions: C, at right angles to A and θ long, shape (n, 4).

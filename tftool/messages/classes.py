@@ -1,8 +1,8 @@
 """Message, service and action classes, made from their definitions.
 
-They behave as those that ROS 2 generates: every field has its default, the
-constructor takes keywords, an assignment is checked for type and range, messages
-compare by value and show themselves with all fields.
+They behave as the classes that ROS 2 generates: every field has a default, the constructor takes
+keywords, an assignment is checked for type and range, messages compare by value and print all their
+fields.
 """
 
 import array
@@ -282,8 +282,7 @@ class Interfaces(Schema):
     def recorded(self, name: str, text: str = "") -> type[Message]:
         """Return the class of a message in a recording.
 
-        Where the recording holds two definitions of one type, each message is read by the
-        one that came with it.
+        If the recording has two definitions of one type, each message is read by its own.
 
         Args:
             name: Its type, "geometry_msgs/PoseStamped" or "geometry_msgs/msg/PoseStamped".
@@ -301,7 +300,7 @@ class Interfaces(Schema):
     def earlier(self, full: str) -> list[type[Message]]:
         """Return the classes that earlier distributions had for a message; often none.
 
-        Each differs in fields from the present class, by itself or by a message in it.
+        The fields of each, or of a message in it, differ from the present class.
         """
         found: list[type[Message]] = []
         for texts in definitions.EARLIER:

@@ -1,8 +1,8 @@
 """Serialisation of messages by their definitions.
 
-A type is planned once for each layout, as a row of steps: a run of numbers, a text, an
-array, a list of messages. Each step writes itself from a message, and reads the values of
-its fields. Arrays of numbers are copied once on their way out and once on their way in.
+A type is compiled once for each layout into a list of steps: a run of numbers, a text, an array, a
+list of messages. Each step writes its part of a message, and reads the values of its fields. Arrays
+of numbers are copied once when writing and once when reading.
 """
 
 import array
@@ -37,8 +37,7 @@ _SMALLEST_TEXT: Final = 4
 class Codec:
     """Serialiser of one message type in one layout.
 
-    Any object that has the fields as attributes can be written; reading gives a message
-    of the class.
+    Any object with the fields as attributes can be written; reading returns a message of the class.
     """
 
     def __init__(self, kind: type[Message], layout: Layout = CDR) -> None:

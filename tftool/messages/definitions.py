@@ -1,8 +1,8 @@
 """Definitions of the ROS 2 interfaces supported here.
 
-One block an interface: its full name, then its fields as a .msg, .srv or .action
-file lists them, `;` for a line break. The parts of a service or an action are set
-apart by `---`. Classes are made from these in `classes`.
+Each block is an interface: its full name, then its fields as in a .msg, .srv or .action file, with
+`;` for a line break. `---` separates the parts of a service or an action. `classes` makes classes
+from these.
 """
 
 from functools import cache

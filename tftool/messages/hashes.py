@@ -1,8 +1,7 @@
 """ROS 2's hash of a type's version (REP 2016, RIHS01).
 
-The SHA-256 of a type's description, and of all types it is made of, as JSON in a form
-that is fixed to the letter. Names and types of fields count; defaults, constants and
-comments do not.
+The hash is the SHA-256 of a fixed JSON form of a type's description and those of all its parts.
+Names and types of fields are included; defaults, constants and comments are not.
 """
 
 import hashlib

@@ -1,11 +1,11 @@
 """Byte layouts of messages: ROS 2's plain CDR, and ROS 1's.
 
-CDR has a header of four bytes that tells the byte order; from behind it every number is
-aligned to its size, and a text ends with a zero byte that its length counts. We write
-little endian and read both. ROS 1 has no header, aligns nothing and ends no text.
+CDR has a header of four bytes with the byte order; after it every number is aligned to its size,
+and a text ends with a zero byte, which its length includes. We write little endian and read both.
+ROS 1 has no header, no alignment and no end of texts.
 
-Bytes come from strangers: a length is compared with the bytes there are before anything is
-made from it, and what does not fit is refused with a sentence.
+Bytes are untrusted: a length is compared with the available bytes before anything is allocated, and
+bytes that do not fit are refused with a sentence.
 """
 
 import struct
@@ -166,8 +166,8 @@ def _decoded(raw: bytes) -> str:
 class Writer(bytearray):
     """Writer of one message's bytes after its header.
 
-    Its bytearray holds the bytes written since the last large array; those are
-    copied once, when all is joined.
+    The bytearray holds the bytes since the last large array; large arrays are copied only once,
+    when everything is joined.
 
     Attributes:
         before: Bytes in front of those it holds.

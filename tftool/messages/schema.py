@@ -1,11 +1,11 @@
 """Parsed definitions: fields of each interface, and structures derived from it.
 
-A service travels as a request and a response, an action as three services' worth of
-messages; ROS 2 derives those, and an event for every service, from the definition.
-Each is a `Structure` by a name of its own: "std_srvs/srv/SetBool_Request".
+A service consists of a request and a response, an action of the messages of three services. ROS 2
+derives these, and an event for every service, from the definition. Each is a `Structure` with its
+own name: "std_srvs/srv/SetBool_Request".
 
-Definitions are those of ROS 2 that come with tftool, those of a workspace, and those that
-a recording brings along, of ROS 1 or ROS 2.
+Definitions are those of ROS 2, included in tftool, those of a workspace, and those in a recording,
+of ROS 1 or ROS 2.
 """
 
 import re

@@ -63,7 +63,7 @@ class TransformRows:
     def rewritten(self, rows: Sequence[TransformRow]) -> bytes:
         """Return the message with other transforms.
 
-        Where only stamps and numbers differ, everything else is kept bit by bit.
+        If only stamps and numbers differ, everything else is kept bit by bit.
 
         Raises:
             MalformedMessage: If a stamp does not fit into ROS's seconds.

@@ -1,8 +1,8 @@
 """Bulk decoding of recorded tf2_msgs/TFMessages: equal layouts as table rows in numpy.
 
-A publisher sends the same frames again and again: its messages differ in stamps and numbers
-alone, all of them at the same places. One message is walked in Python; of others of its
-length it is only checked, word by word, that everything else is the same.
+A publisher sends the same frames again and again: its messages differ only in stamps and numbers,
+at fixed places. One message is parsed in Python; for others of the same length, only equality of
+the remaining words is checked.
 """
 
 import struct

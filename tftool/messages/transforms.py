@@ -1,7 +1,7 @@
 """Fast serialiser of tf2_msgs/TFMessage, which makes up most of a session's traffic.
 
-The same bytes as the definition gives, at a fraction of the cost; large messages can be
-read as arrays, without an object for each transform.
+Results equal those of the general codec, at a fraction of the cost; large messages can be read as
+arrays, without an object for each transform.
 """
 
 import struct

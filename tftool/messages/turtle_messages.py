@@ -1,8 +1,8 @@
 """ROS classes that turtle nodes publish, serve and call, and functions to make them.
 
-Nodes of ours take and give the messages that users' nodes and other processes know. Poses come
-62 times a second from each turtle, so messages are made by `build`, which checks nothing:
-whoever reads or encodes a message judges it.
+tftool's nodes exchange the same messages as users' nodes and other processes. Each turtle sends
+poses 62 times a second, so messages are made by `build`, which checks nothing: the reader or
+encoder of a message checks it.
 """
 
 from typing import Any, Final

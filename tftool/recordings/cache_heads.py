@@ -1,6 +1,6 @@
 """Paths, keys and headers of cached columns, without their arrays.
 
-Which frames a recording has is known from here in milliseconds, without numpy.
+The frames of a recording can be read from here in milliseconds, without numpy.
 """
 
 import hashlib
@@ -31,7 +31,7 @@ _MOST_HEAD: Final = 64 << 20
 def default_folder() -> Path | None:
     """Return the cache folder: in `XDG_CACHE_HOME`, else this system's usual place.
 
-    None where there is no such place: HOME is not set, and the system knows of no user's home.
+    None if HOME is not set, and the system knows no home of the user.
     """
     given = os.environ.get("XDG_CACHE_HOME", "")
     if os.path.isabs(given):

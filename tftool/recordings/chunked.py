@@ -157,7 +157,7 @@ class Chunk:
     def sound(self) -> bool:
         """Whether its content is as written, as far as a checksum can show.
 
-        Found out once, by whatever thread asks first; others may ask when it has answered.
+        The first calling thread finds it out; others must wait for its answer.
         """
         if self._found is None and not self._is_examined:
             if self.is_packed:

@@ -1,8 +1,8 @@
 """Cache of decoded columns in the user's cache folder.
 
-An entry is known by its recording's files: where they are, how long and how old they are, and
-the bytes at both ends of each. An entry that is not whole, or not as written, counts as if it were
-not there: it may be cut, be another program's, or be written by another process at the time.
+The key of an entry is made of its recording's files: paths, sizes, times, and the bytes at both
+ends. An incomplete or altered entry counts as missing: it may be cut, belong to another program, or
+be in the middle of being written.
 """
 
 import contextlib

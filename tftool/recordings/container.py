@@ -229,7 +229,7 @@ class Container(Protocol):
     ) -> Iterator[Batch]:
         """Yield the messages of some streams in the recording's order.
 
-        A batch's buffer holds until the next one is asked for: its memory is used again.
+        A batch's buffer is valid until the next batch, which reuses its memory.
 
         Args:
             wanted: Numbers of streams.

@@ -1,9 +1,8 @@
 """Interface of sources of recorded frames: their values and columns.
 
-A source is read, not waited for: it ends, and all of it is there. Moments are whole
-nanoseconds; *stamps* are what the publisher wrote into a header, *log times* when the
-recorder received the message. Columns hold values as recorded, unjudged: not-a-number,
-zero quaternions, stamps of 0 and leading slashes included.
+A source is finite and complete. Moments are whole nanoseconds; *stamps* are those in headers, *log
+times* are the times of reception by the recorder. Columns hold values exactly as recorded,
+including not-a-number, zero quaternions, stamps of 0 and leading slashes.
 """
 
 from collections.abc import Collection, Iterator
@@ -216,8 +215,8 @@ class Progress(Protocol):
 class Source(Protocol):
     """An open recording: its contents are known, and its messages are read on demand.
 
-    Whatever reads raises `InputError` if nothing can be read; damage behind which
-    something was read is told in `damage`, and never raises.
+    Reading raises `InputError` if nothing can be read; other damage is listed in `damage`, and
+    never raises.
     """
 
     @property
@@ -261,7 +260,7 @@ class Source(Protocol):
     ) -> Transforms:
         """Return all transforms: of named topics, else of all whose type contains them.
 
-        Odometry and PoseStamped are read as transforms where their topics are named.
+        Odometry and PoseStamped are read as transforms if their topics are named.
         """
 
     def headers(

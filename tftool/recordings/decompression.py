@@ -124,9 +124,9 @@ class _Coming:
 class Ahead:
     """Threads that read and decompress pieces ahead of the reader; a context manager.
 
-    Both release Python's lock: on two processors it costs no time of its own. Nothing else is
-    done in a thread. Who asks for a piece that is not there yet unpacks one behind it meanwhile:
-    so every processor has work, and none has two threads to share it.
+    Reading and unpacking release Python's lock, so that on two processors unpacking ahead costs no
+    time. Nothing else runs in a thread. A caller that needs a piece before it is ready unpacks a
+    later one meanwhile: so every processor is busy, and none runs two threads.
     """
 
     def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:

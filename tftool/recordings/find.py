@@ -1,6 +1,6 @@
 """Kind of a source named on the command line: decided by content, never by suffix.
 
-Only names, sizes and the first bytes are looked at; what reads the source finds out more.
+Only names, sizes and the first bytes are examined here.
 """
 
 import contextlib

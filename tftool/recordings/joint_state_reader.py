@@ -58,8 +58,7 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
 def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
     """Read the JointState messages of some topics.
 
-    As in robot_state_publisher a message whose names and positions differ in number is
-    ignored.
+    As in robot_state_publisher, a message with different numbers of names and positions is ignored.
 
     Args:
         source: The recording.

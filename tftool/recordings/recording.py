@@ -90,7 +90,7 @@ class Samples:
 class Recording:
     """An open recording, made by `open_recording`; a context manager.
 
-    What it holds is known at once; transforms are read when they are first asked for.
+    Its contents are known at once; transforms are read at the first use.
     """
 
     def __init__(
@@ -214,7 +214,7 @@ class Recording:
     def span(self) -> tuple[Stamp, Stamp]:
         """First and last stamp of moving links, nanoseconds; log times if nothing moves.
 
-        Of a recording with two clocks, those of the clock that most transforms have.
+        In a recording with two clocks, those of the clock of most transforms.
         """
         spans: dict[bool, tuple[int, int, int]] = {}
         for edge in self.edges:
@@ -250,9 +250,9 @@ class Recording:
     def buffer(self) -> Buffer:
         """Buffer of all transforms without a limit: lookups work at any stamp.
 
-        A static's last value holds at all times. Transforms that tf2 would refuse, or with
-        stamp 0 though they move, are left out; see `oddities`. Frames that tf lacks come from
-        the robot's description and its joint states, where there are; see `described`.
+        A static's last value is valid at all times. Transforms that tf2 would refuse, and moving
+        ones with stamp 0, are left out; see `oddities`. Frames that tf lacks are computed from the
+        robot's description and joint states, if recorded; see `described`.
         """
         oddities = self._oddities
         buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)
@@ -511,8 +511,8 @@ def open_recording(
 ) -> Recording:
     """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of several.
 
-    What it is is decided by its content. Damaged files are read up to the damage, and
-    `Recording.damage` says so.
+    The content decides the format. Damaged files are read up to the damage, which is listed in
+    `Recording.damage`.
 
     Args:
         path: File, folder or glob.

@@ -21,8 +21,8 @@ from tftool.recordings.target import Target, failed
 class RecordingWriter:
     """A recording being written, made by `write_recording`; a context manager.
 
-    At the end of the `with` it comes to its name, whole; an exception that leaves the `with`
-    removes the written data, and the name keeps its old file.
+    At the end of the `with` the complete file gets its name; an exception that leaves the `with`
+    removes the written data, and keeps an old file of that name.
     """
 
     def __init__(self, target: Target, container: ContainerWriter) -> None:
@@ -160,7 +160,7 @@ def write_recording(
             recording.static_transforms([laser_in_base])
             recording.transforms([base_in_odom])
 
-    It is written beside its place and comes to its name when it is whole.
+    It is written under a temporary name and renamed when it is complete.
 
     Args:
         path: A name that ends in ".mcap", ".db3" or ".bag"; without a suffix it is a folder as

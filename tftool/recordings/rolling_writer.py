@@ -1,7 +1,7 @@
 """A recording that grows while a session runs; if the process is killed, at most a second is lost.
 
-Until a file is closed it has `.active` behind its name, as ROS 1's recorder has it; what is in it
-then can be read, and `tftool edit` repairs it.
+An open file has the suffix `.active`, as with ROS 1's recorder; its contents can be read, and
+`tftool edit` repairs it.
 """
 
 import os

@@ -1,7 +1,7 @@
 """Target of a recording: written beside its final place, and renamed when complete.
 
-A file or folder comes to its final name by one rename, when all of it is on the disk. Until
-then the name is what it was before: nothing, or the recording that stood there.
+A file or folder gets its final name by one rename, when all of it is on the disk. Until then the
+name is unchanged: free, or that of the old recording.
 """
 
 import errno
@@ -138,9 +138,9 @@ class Target:
 def commit_together(targets: Sequence[Target]) -> None:
     """Give related files their names together, or none of them.
 
-    The last is the one by which the others are found. It comes to its name last, and what it
-    replaces goes first: whenever a process ends, it is never beside files that are not its own.
-    The replaced file waits under a hidden name until all is done.
+    The others are found by the last file. It is renamed last, and its predecessor is removed first:
+    whenever a process ends, it is never beside files of another version. Until all is done, the
+    predecessor has a hidden name.
 
     Raises:
         InputError: If that fails; all names are as before.

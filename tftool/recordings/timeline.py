@@ -24,7 +24,7 @@ _NOTHING: Final = np.zeros(0, dtype=np.int64)
 def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
     """Convert log times to the time of `/clock` at reception, interpolated.
 
-    Before its first and after its last message it is taken to run at rate 1.
+    Before its first and after its last message it is assumed to run at rate 1.
     """
     base_log, base = int(received[0]), int(read[0])
     order = np.argsort(received, kind="stable")
@@ -39,9 +39,9 @@ def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
 class PlayClock:
     """Conversion of log times to the stamps' clock, published on `/clock` during playback.
 
-    What the recording's own `/clock` read counts, where it has one. Where stamps are a
-    simulation's and log times are not, the median of their differences does; else log times
-    are on the clock of the stamps already.
+    The recording's own `/clock` decides, if there is one. If stamps are a simulation's and log
+    times are not, the median of their differences decides; otherwise log times are on the clock of
+    the stamps already.
     """
 
     def __init__(self, transforms: Transforms, read: Stamps, received: Stamps) -> None:
@@ -161,7 +161,7 @@ class Timeline:
         """Return a mask of messages whose frames have one publisher and one parent and are not
         static.
 
-        The order among such frames changes nothing. Shape (n,).
+        The order of such frames is irrelevant. Shape (n,).
         """
         transforms = self._transforms
         edges_of = Counter(edge.child for edge in transforms.edges)
@@ -187,7 +187,7 @@ class Timeline:
     def senders(self, places: npt.NDArray[np.int64]) -> tuple[Indexes, tuple[str, ...]]:
         """Return each message's publisher as a number, and the publishers' names.
 
-        The topic names the sender where no node is recorded.
+        If no node is recorded, the topic names the sender.
         """
         publishers = [one.node or one.topic for one in self._transforms.publishers]
         names = tuple(dict.fromkeys(publishers))

@@ -1,8 +1,8 @@
 """Mesh files of a robot: resolution of their names, limited to known folders.
 
-What a description names is a stranger's text. Only files inside the folders that were given
-or found are ever served: no absolute path, no `file://`, nothing reached by `..` or a
-symbolic link that leads out of them, and only kinds of files that meshes are made of.
+File names in a description are untrusted. Only files inside given or found folders are ever served:
+no absolute path, no `file://`, nothing reached by `..` or by a symbolic link out of them, and only
+the file types of meshes.
 """
 
 import os

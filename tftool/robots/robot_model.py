@@ -47,10 +47,10 @@ class JointColumns:
 class Robot:
     """A robot description that computes the poses of its links.
 
-    A joint that was given no position is at zero where its limits allow that, else in the
-    middle of them, as joint_state_publisher has it. A joint that mimics another follows
-    it, however long the chain, unless a position of its own is given. A planar joint
-    stays at its origin; a floating joint gives no frame, as robot_state_publisher skips it.
+    A joint without a position is at zero if its limits allow that, else in their middle, as in
+    joint_state_publisher. A mimic joint follows its joint through any chain, unless it has a
+    position of its own. A planar joint stays at its origin; a floating joint has no frame, as
+    robot_state_publisher skips it.
     """
 
     def __init__(self, description: RobotDescription) -> None:
@@ -144,9 +144,9 @@ class Robot:
     def moved(self, given: Mapping[str, float], stamp: Stamp = 0) -> tuple[TransformStamped, ...]:
         """Return the poses of the links that one joint state moves.
 
-        As in robot_state_publisher, names that are no moving joint here are passed over, and
-        so is a position that is not finite; a joint that mimics another follows it unless it
-        has a position of its own.
+        As in robot_state_publisher, names that are no movable joint are ignored, and so are
+        positions that are not finite; a mimic joint follows its joint unless it has a position of
+        its own.
 
         Args:
             given: Positions by joint.
@@ -170,7 +170,7 @@ class Robot:
     def batch(self, names: Sequence[str], positions: npt.ArrayLike) -> tuple[JointColumns, ...]:
         """Return the poses of the moved joints, for many joint states.
 
-        Joints that follow a given one by `mimic` are included; others are not, as in
+        Mimic joints of given joints are included, other joints are not, as in
         robot_state_publisher.
 
         Args:
@@ -199,9 +199,9 @@ class Robot:
     ) -> Iterator[tuple[RobotJoint, Records]]:
         """Return the poses of moved joints in a buffer's sample layout.
 
-        As in robot_state_publisher, names that are no moving joint here are passed over, and
-        a joint that mimics another follows it unless it has a position of its own. A position
-        that is not finite gives no sample: a gap.
+        As in robot_state_publisher, names that are no movable joint are ignored, and a mimic joint
+        follows its joint unless it has a position of its own. A position that is not finite gives
+        no sample, but a gap.
 
         Args:
             states: Positions over time.

@@ -1,9 +1,9 @@
 """Parser of robot descriptions: URDF to links and joints, or every mistake with its place.
 
-Read as `urdfdom`, ROS's own reader, reads it: namespaces and unknown elements are
-ignored; a missing origin is zero, a missing axis is x; rpy turns about fixed axes.
-Refused beyond that: a document type (it could expand without bound), numbers that are
-not finite, an axis of no length on a joint that moves.
+Rules are those of `urdfdom`, ROS's own reader: namespaces and unknown elements are ignored; a
+missing origin is zero, a missing axis is x; rpy rotates about fixed axes. Also refused are a
+document type (it could expand without bound), numbers that are not finite, and an axis of length
+zero on a movable joint.
 """
 
 import contextlib
@@ -122,7 +122,7 @@ def is_xacro(text: str) -> bool:
 def _without_declaration(text: str) -> str:
     """Return a text with its XML declaration blanked out, as its encoding no longer applies.
 
-    One behind an empty line or with a misspelt word in it is read by everybody else.
+    Other readers accept one after an empty line, or with a misspelt word.
     """
     found = _DECLARATION.match(text)
     if found is None:
@@ -272,8 +272,8 @@ class _Reader:
     def _left_out(self) -> Iterator[None]:
         """Convert mistakes that leave every frame in place to notes.
 
-        urdfdom reads on behind mistakes in a link's looks or weight, so that robots run
-        with such files.
+        urdfdom continues after mistakes in a link's appearance or mass, so robots run with such
+        files.
         """
         before, self.mistakes = self.mistakes, []
         try:

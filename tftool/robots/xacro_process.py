@@ -1,6 +1,6 @@
 """xacro in a separate process: a description may run Python code that never ends.
 
-The process is given the path and the arguments on its command line, and says one JSON object.
+The process gets the path and the arguments on its command line, and prints one JSON object.
 """
 
 import atexit
@@ -118,7 +118,7 @@ def _as_installed(package: Path) -> Path:
     """Return a package's share folder: the sources, with nested folders that CMake installs.
 
     `install(DIRECTORY description/urdf DESTINATION share/…)` puts urdf/ beside package.xml. A
-    temporary folder of links shows that; without such lines it is the sources themselves.
+    temporary folder of links reproduces that; without such lines the source folder is used.
     """
     try:
         text = (package / "CMakeLists.txt").read_text(encoding="utf-8", errors="replace")

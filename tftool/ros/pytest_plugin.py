@@ -1,9 +1,8 @@
 """pytest plugin: test ROS nodes without ROS.
 
-The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`. With `pytest --ros-free`
-every test has one, and test files may say `import rclpy` at their top. A fixture for
-a class, a module or the session that uses rclpy has one that lasts as long as itself,
-and the tests it is for share it.
+The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`. With `pytest --ros-free` every test
+has one, and test files may `import rclpy` at their top. A fixture of a class, a module or the
+session that uses rclpy has one for its whole lifetime, which its tests share.
 """
 
 import sys

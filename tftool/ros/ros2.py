@@ -1,7 +1,7 @@
 """The programs `ros2 topic`, `service`, `param`, `node`, `action`, `interface` and `pkg`.
 
-It is a program of the world like any node: `tftool ros2 …` starts it, and launch files that
-execute `ros2` get it without a process of its own.
+It is a program of the world like any node: `tftool ros2 …` starts it, and launch files that execute
+`ros2` run it without a separate process.
 """
 
 import argparse

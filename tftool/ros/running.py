@@ -158,7 +158,7 @@ def executable_file(workspace: Workspace, target: str, rest: Sequence[str]) -> P
 def driven_turtle(words: Sequence[str]) -> str:
     """Return the turtle that a turtle_teleop_key with these arguments drives.
 
-    It publishes on `turtle1/cmd_vel`, which a rule of `--ros-args` may lead elsewhere.
+    It publishes on `turtle1/cmd_vel`, or on the topic to which `--ros-args` remaps that.
 
     Raises:
         UsageError: If the words are malformed, or the rule leads to no turtle's `cmd_vel`.

@@ -1,7 +1,7 @@
 """Unit tests of ROS nodes without ROS, on simulated time.
 
-The test is a program itself: between its calls time stands still, and
-`rclpy.spin_once(node, timeout_sec=10.0)` takes no time at all.
+The test is a program itself: no time passes between its calls, and `rclpy.spin_once(node,
+timeout_sec=10.0)` takes no real time.
 """
 
 import threading

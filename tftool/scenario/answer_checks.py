@@ -1,7 +1,7 @@
 """Checks of an answer: range, pose, refusal, names.
 
-A `Form` reads the keys that stand beside a question and makes a check of them;
-the check judges answers and says in words what it expects and what it found.
+A `Form` reads the keys beside a question and makes a check from them; the check judges answers, and
+describes the expected and the found answer in words.
 """
 
 import math

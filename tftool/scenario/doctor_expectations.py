@@ -1,6 +1,6 @@
 """Expectations about the doctor's findings, in a scenario or beside a recording.
 
-The doctor itself, and the numpy it needs, is imported where one is asked: most scenarios ask none.
+The doctor, and with it numpy, is imported only if an expectation needs it, which is rare.
 """
 
 from collections.abc import Callable, Mapping

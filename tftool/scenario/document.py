@@ -1,8 +1,7 @@
 """YAML text as a small tree whose values know their positions.
 
-Only YAML's syntax is used: its event stream. What a plain word means is
-decided later by what reads it, so `no` can be a frame and `1e-3` a number,
-and no tag can construct anything.
+Only YAML's syntax is used: its event stream. The reader of a value decides later what a plain word
+means, so that `no` can be a frame and `1e-3` a number, and no tag can construct anything.
 """
 
 from collections.abc import Iterator

@@ -1,8 +1,7 @@
 """User programs in a scenario, judged by its expectations.
 
-A scenario itself never names code to run: the one who calls does. A program takes the
-place and the name of one of the scenario's nodes, or lives beside them all; a launch
-file takes the place of all of them.
+A scenario itself never names code to run; only the caller does. A program replaces one of the
+scenario's nodes, under its name, or is added to them; a launch file replaces all of them.
 """
 
 import sys

@@ -1,7 +1,7 @@
 """Loading a scenario from YAML, or every mistake in it with its position.
 
-The kinds of nodes, actions and subjects come from `kinds.KINDS`, `actions.ACTIONS` and
-`questions.SUBJECTS`; nothing here knows any of them.
+The kinds of nodes, actions and subjects are in `kinds.KINDS`, `actions.ACTIONS` and
+`questions.SUBJECTS`; this module names none of them.
 """
 
 import re

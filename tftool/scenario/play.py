@@ -190,7 +190,7 @@ def _not_reached(expected: Expectation) -> Outcome:
 def left_to_a_person(scenario: Scenario) -> Scenario:
     """Return the scenario without keys and drives, which a person at the keyboard replaces.
 
-    What happens to the world still does. With a person in it, it promises nothing.
+    Events of the world still happen. With a person in it, nothing is expected.
     """
     script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
     return replace(scenario, script=script, expect=())

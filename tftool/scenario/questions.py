@@ -1,8 +1,8 @@
 """Questions about a scenario: the subjects of expectations, with their answers.
 
-A subject is a dataclass: each field names the reader of its value, `key` is what a
-scenario calls it, `form` says what its answer may be held to, and `answer` finds the
-answer. To add one: write it, and name it in `SUBJECTS`.
+A subject is a dataclass: each field names the reader of its value, `key` is its name in a scenario,
+`form` is the form of its expected answer, and `answer` finds the answer. A new subject must be
+listed in `SUBJECTS`.
 """
 
 import math

@@ -1,7 +1,6 @@
 """Readers of single values: numbers with units, names, choices, times.
 
-Every number has a documented unit and may carry another of the same kind:
-`period: 1`, `period: 1 s` and `period: 1000 ms` are the same.
+Every number has a documented unit and may be given in another of the same kind:
 """
 
 import math

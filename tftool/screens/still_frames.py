@@ -56,7 +56,7 @@ def first_look(frames: Frames) -> Stamp | None:
 def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
     """Time to show first; None if nothing moves.
 
-    That is when all has come that comes within `SETTLING` of the beginning.
+    It is the moment at which everything of the first `SETTLING` nanoseconds has arrived.
 
     Args:
         buffer: The frames.

@@ -69,7 +69,7 @@ def _time(stamp: Stamp) -> Any:
 class ActionParts:
     """Server of an action's hidden services, and publisher of its hidden topics.
 
-    It tracks every goal sent to the action's server in this world, from any client.
+    It tracks every goal, of any client, that is sent to the action's server in this world.
     """
 
     def __init__(

@@ -1,13 +1,12 @@
 """Simulated and real clocks with one interface.
 
-No other module touches `time` or `asyncio.sleep`. A waiter names the moment it wants
-and its place within that moment: (stamp, phase, rank, order of asking). Both
-clocks wake waiters in exactly that order, because asyncio itself breaks ties
-between timers of one instant unpredictably.
+No other module uses `time` or `asyncio.sleep`. A waiter states its moment and its place within that
+moment: (stamp, phase, rank, order of requests). Both clocks wake waiters in exactly that order,
+because asyncio itself breaks ties between timers of one instant unpredictably.
 
-On the simulated clock the event loop lives in virtual time too: when every task
-sleeps, time jumps to whatever is due next, so asyncio's own timeouts mean
-simulated time and ten minutes pass in a second.
+On the simulated clock the event loop runs in virtual time too: when every task sleeps, time jumps
+to the next due moment, so that asyncio's own timeouts mean simulated time and ten minutes pass in a
+second.
 """
 
 import asyncio
@@ -152,8 +151,8 @@ class Clock(ABC):
 class SimClock(Clock):
     """Simulated time: stands still while anything runs, jumps when everything waits.
 
-    Two runs are the same run. One waiter is woken at a time, and everything it
-    sets off comes to rest before the next one of the same instant is woken.
+    Two runs are exactly equal. One waiter is woken at a time, and all its effects are complete
+    before the next one of the same instant is woken.
 
     Attributes:
         alarms: How many timers of real time are set.
@@ -275,8 +274,7 @@ def paced(clock: Clock) -> Iterator[None]:
 class WallClock(Clock):
     """Real time since the Unix epoch, optionally running faster or slower.
 
-    Steps of the system's clock do not reach it: it is read once, then a
-    monotonic clock counts on.
+    Steps of the system's clock have no effect: it is read once, then a monotonic clock counts.
     """
 
     def __init__(
@@ -395,9 +393,9 @@ class WallClock(Clock):
 class FollowedClock(WallClock):
     """Real time until it is set; then it stands still until it is set again.
 
-    What a world that shares a session lives by: while another process publishes `/clock`, as one
-    that plays a recording does, now is what that says. A wait keeps its remaining duration when
-    time falls back, or when its source changes.
+    Clock of a world that shares a session: while another process publishes `/clock`, for example to
+    play a recording, that time is used. A wait keeps its remaining duration when time falls back,
+    or when its source changes.
 
     Attributes:
         fell_back: Called with the nanoseconds by which a new time is before the present one.
@@ -490,7 +488,7 @@ class FollowedClock(WallClock):
 def pace_of(clock: Clock) -> Clock:
     """Return the clock for waits that a person watches, while the world runs on `clock`.
 
-    Real time where the world's is told from outside: that may stand still, or run at any rate.
+    Real time if the world's time comes from outside, as that may pause, or run at any rate.
     """
     if not isinstance(clock, FollowedClock):
         return clock
@@ -512,9 +510,9 @@ def _others_wait_their_turn() -> bool:
 def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
     """Run a coroutine to its end on the loop that belongs to `clock`.
 
-    The first SIGINT or SIGTERM cancels it, so that every `finally` runs; what does not return
-    within two seconds is named on stderr, and a second signal ends the process with status
-    130, whatever runs in it.
+    The first SIGINT or SIGTERM cancels it, so that every `finally` runs; code that does not return
+    within two seconds is named on stderr, and a second signal ends the process with status 130,
+    whatever it is doing.
 
     Returns:
         The result of the coroutine.

@@ -1,7 +1,7 @@
 """Publishers and subscriptions of topics with their quality of service.
 
-Nodes are entered here by what they publish and subscribe, those of other processes too. What
-stays inside the process, such as keys that are pressed, has no ROS type and is not entered.
+Publishers and subscriptions of all nodes, also those of other processes, are entered here. Topics
+inside one process, such as pressed keys, have no ROS type and are not entered.
 """
 
 from collections import deque

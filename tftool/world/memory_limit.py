@@ -1,8 +1,8 @@
 """Memory limit for a live world's transforms; beyond it the oldest are dropped.
 
-A buffer prunes by time alone, as tf2's does: a publisher at a very high rate, or with stamps a
-nanosecond apart, fills the memory of each process that subscribes. The size of a recording is not
-bounded here: it ends.
+Like tf2's, a buffer prunes only by time: a publisher at a very high rate, or with stamps a
+nanosecond apart, could fill the memory of every subscriber. Recordings are not limited here: they
+end.
 """
 
 import os

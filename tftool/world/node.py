@@ -80,8 +80,8 @@ class Node(Resident):
     def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
         """Run something concurrently with `run`, as part of this node.
 
-        It may outlast `run`, and is cancelled when the node leaves or the world ends. What it
-        raises is the failure of this node.
+        It may outlast `run`, and is cancelled when the node leaves or the world ends. Its exception
+        is the failure of this node.
 
         Returns:
             The task; its result is None where the work has failed.
@@ -94,8 +94,8 @@ class Node(Resident):
     async def every(self, period: Duration, *, immediately: bool = False) -> AsyncIterator[Stamp]:
         """Yield the times of a timer, at exact multiples of the period from now on.
 
-        The first is one period from now, as a ROS timer's. On the wall clock a late
-        node gets a few missed ticks made up for, then the grid slips; a second is said, once.
+        The first tick is one period from now, as for a ROS timer. On the wall clock, a late node
+        makes up a few missed ticks, then the schedule shifts; a delay of a second is logged, once.
 
         Args:
             period: Nanoseconds between two moments.

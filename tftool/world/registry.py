@@ -1,7 +1,7 @@
 """Registry of a world's nodes and supervisor, and of its services and actions.
 
-Nodes know their world; the world knows them only as residents, so that neither module has to
-know the other.
+Nodes know their world; the world knows them only as residents, so that the two modules do not
+depend on each other.
 """
 
 import asyncio

@@ -1,9 +1,9 @@
 """Stopping a run, whatever its nodes do.
 
-A thread of its own takes the signals and watches the loop, because a node that never awaits
-keeps the loop from doing either. The first signal cancels the run; code that has not returned after
+A separate thread receives the signals and watches the loop, because a node that never awaits
+prevents the loop from doing so. The first signal cancels the run; code that has not returned after
 two seconds is named; the second signal ends the process. A run with an end by its own clock is
-ended in the same way when a node holds up the loop beyond it.
+ended in the same way if a node blocks the loop beyond it.
 """
 
 import asyncio
@@ -41,7 +41,7 @@ _LEAVE_SCREEN = (
 class Overdue(BaseException):
     """Raised inside a node that blocks the loop beyond the end of the run.
 
-    Not an `Exception`, so that a node that catches those and goes on is ended, too.
+    Not an `Exception`, so that it also ends a node that catches those and goes on.
     """
 
 
@@ -242,8 +242,8 @@ class Stopper:
 def leave_screen() -> None:
     """Restore the terminal of a full-screen app, for `Clock.when_killed`.
 
-    The alternate screen, the hidden cursor, and the reports of the mouse, of the focus and of
-    pasted text are undone.
+    This ends the alternate screen, the hidden cursor, and the reports of the mouse, of the focus
+    and of pasted text.
     """
     for number in (2, 1):
         if os.isatty(number):

@@ -19,9 +19,9 @@ T = TypeVar("T")
 async def live(world: "World", *, until: Stamp | None = None) -> None:
     """Run a world's nodes until an end is reached.
 
-    The end is `until` (everything due in that instant still happens), `world.stop()`,
-    or, without `until`, the return of the last node. Whatever still runs then is
-    cancelled, and its `finally` waited for.
+    The run ends at `until` (everything due in that instant still happens), at `world.stop()`, or,
+    without `until`, with the last node. Nodes that still run are then cancelled, and their
+    `finally` blocks awaited.
 
     Args:
         world: World whose nodes run, including those that join later.

@@ -1,7 +1,7 @@
 """Typed topics within one process, and goals of actions.
 
-Delivery is a direct call: `publish` has called every subscriber, in the order they
-subscribed, when it returns.
+Delivery is a direct call: `publish` calls every subscriber, in the order of subscription, before it
+returns.
 """
 
 import asyncio
@@ -88,8 +88,7 @@ class Topic(Generic[T]):
     def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
         """Call `callback` with every further value until the returned function is called.
 
-        What it raises is reported under the name of its `owner`, and does not reach the
-        publisher.
+        Its exceptions are reported under the name of its `owner`, and do not reach the publisher.
         """
         withdraw = self._subscribers.add(callback, owner)
         is_there = True

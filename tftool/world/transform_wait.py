@@ -1,7 +1,7 @@
 """Waiting for a transform, with a deadline on the clock's time.
 
-Nothing is polled: the buffer's own requests wake a waiter from inside the set that
-makes its transform possible.
+Nothing is polled: the buffer's requests wake a waiter from inside the insertion that makes its
+transform possible.
 """
 
 import asyncio

@@ -421,8 +421,8 @@ class World:
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Call `callback` when a topic, service, action or node is added or removed.
 
-        It is called before the first value on a new topic. Call the returned function to stop.
-        What it raises is reported under the name of its `owner`.
+        It is called before the first value on a new topic. Call the returned function to stop. Its
+        exceptions are reported under the name of its `owner`.
         """
         return self._watchers.add(callback, owner)
 
@@ -436,9 +436,9 @@ class World:
     ) -> bool:
         """Insert transforms into the buffer and publish them on `tf` or `tf_static`.
 
-        What the buffer refuses (and says why) goes no further. A static message always
-        holds all statics of its sender, the newest of each child, as a late listener
-        sees nothing but a sender's last message.
+        Transforms that the buffer refuses (with a log message) are not sent on. A static message
+        always holds all statics of its sender, the newest of each child, as a late listener gets
+        only a sender's last message.
 
         Returns:
             Whether the buffer took them all.

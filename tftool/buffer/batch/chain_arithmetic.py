@@ -1,7 +1,7 @@
 """Arithmetic of a batch lookup: one chain of links at many times.
 
-Everything happens in blocks of a few thousand moments, in arrays made once that stay in
-the processor's cache.
+Work is done in blocks of a few thousand moments, in arrays that are allocated once and stay in the
+processor's cache.
 """
 
 from collections.abc import Iterator, Sequence
@@ -45,9 +45,9 @@ _WXYZ = [6, 3, 4, 5]
 class Intervals:
     """Intervals between neighbouring samples of one link, with what interpolation needs.
 
-    Worked out once for all moments that fall there: at the share f of the way the position is
-    P + f·D, and the rotation as `soa.Arcs` has it. Quaternions are in wxyz order here. Four
-    numbers lie together in a row because fetching 32 bytes costs what fetching 8 does.
+    Computed once for all moments of the interval: at the fraction f the position is P + f·D, and
+    the rotation is as in `soa.Arcs`. Quaternions are in wxyz order. Four numbers share a row
+    because loading 32 bytes costs as much as loading 8.
 
     Attributes:
         stamps: Start of each interval, int64, shape (k,).
@@ -208,8 +208,8 @@ def blocks(count: int, most: int) -> Iterator[slice]:
 def room(count: int) -> Floats:
     """Allocate working memory for blocks of at most `count` times.
 
-    In one piece, because the system maps a large one by large pages: it is made and
-    reached more quickly than many small ones.
+    One piece, because the system maps a large piece by large pages: it is allocated and accessed
+    faster than many small ones.
     """
     numbers = np.empty(ROWS * (count + _LINE) + _LINE)
     address: int = numbers.__array_interface__["data"][0]
@@ -246,7 +246,7 @@ class BlockArrays:
         translations: Floats,
         rotations: Floats,
     ) -> None:
-        """Write the pose of source in target at each time.
+        """Write the pose of source in target for each time.
 
         Args:
             up: Links from the source to where both sides meet.

@@ -23,7 +23,7 @@ _MOST_STEPS = 3
 class Column:
     """Samples of a moving link at the time of the question, oldest first.
 
-    As long as it lives, the records it was made of stay as they are; see `History.columns`.
+    While it exists, its records do not change; see `History.columns`.
 
     Attributes:
         records: Samples in memory order, shape (k, 8); see `history`.
@@ -181,9 +181,9 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
 class Buckets:
     """Index that divides a history's time into short, equal spans to find samples quickly.
 
-    For moments in no order: two fetches and a comparison instead of a binary search.
-    Spans are a power of two of nanoseconds long, and at most half as long as the samples
-    are apart, so that nearly always one comparison decides.
+    For moments in random order: two loads and a comparison replace a binary search. Buckets last a
+    power of two of nanoseconds, and at most half the distance of the samples, so that one
+    comparison nearly always decides.
     """
 
     __slots__ = ("_before", "_next", "_oldest", "_shift", "_stamps", "_steps")
@@ -223,7 +223,7 @@ class Buckets:
 def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
     """Write into `index` the last sample at or before each time; the times are sorted.
 
-    Where samples are fewer than moments, it is the samples that are searched for.
+    If there are fewer samples than moments, the samples are searched among the moments.
     """
     first, last = (stamps.searchsorted(times[[0, -1]], "right") - 1).tolist()
     if last - first > len(times):

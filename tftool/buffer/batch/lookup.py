@@ -362,8 +362,8 @@ def _paths_by_moment(
 ) -> Iterator[tuple[Path, Indices]]:
     """Yield each path that some times need, with their rows.
 
-    Between two stamps at which a link begins, ends or changes its parent, all moments
-    share one walk. Indices that no path is given for are refused.
+    All moments between two changes (a link begins, ends, or changes its parent) share one path.
+    Indices without a path are refused.
     """
     # Between two marks no link changes, so one walk answers for all moments there.
     marks = _marks(tree, columns, (target, source))

@@ -33,7 +33,7 @@ class Velocities(NamedTuple):
 class SampleColumns:
     """Samples of one link, oldest first: the result of `Buffer.samples`.
 
-    The arrays are read-only copies. Of equal stamps the one that was set last comes last.
+    The arrays are read-only copies. Equal stamps are in the order of insertion.
 
     Attributes:
         frame: The child.
@@ -72,9 +72,9 @@ class SampleColumns:
 class TransformArray:
     """Poses of one frame in another at many times.
 
-    Row i holds the pose of `child_frame_id` in `frame_id` at `stamps[i]`: it moves points
-    given in the child into the other. An index gives a `TransformStamped`; a slice, a mask
-    or an array of indices gives a `TransformArray`.
+    Row i is the pose of `child_frame_id` in `frame_id` at `stamps[i]`: it maps points from the
+    child to the parent frame. An index gives a `TransformStamped`; a slice, a mask or an array of
+    indices gives a `TransformArray`.
 
     Attributes:
         frame_id: The target of the lookup.
@@ -170,9 +170,9 @@ class TransformArray:
     def __matmul__(self, other: "TransformArray | Transform") -> "TransformArray":
         """Chain row by row: `a_from_b @ b_from_c` is `a_from_c`.
 
-        With a `Transform`, each row is chained with that one; names and stamps stay.
+        With a `Transform`, each row is chained with it; names and stamps stay.
 
-        A row is valid if both it was made of are; one with a rotation of all zeros is not.
+        A row is valid if both of its factors are valid; a rotation of zeros is not.
 
         Raises:
             ValueError: If the number of rows differs, or the inner frames do.
@@ -207,8 +207,8 @@ class TransformArray:
         """Return the velocity of the child's origin and its angular velocity, expressed in
         `frame_id`.
 
-        The mean from the row before to the row after; at either end, to the one neighbour.
-        NaN where one of the two is not valid, or both have the same stamp.
+        The mean velocity from the previous to the next row; at the ends, to the only neighbour. NaN
+        if one of the two is not valid, or both have the same stamp.
         """
         n = len(self)
         here = np.arange(n)

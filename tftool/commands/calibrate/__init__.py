@@ -79,11 +79,11 @@ def calibrate(
 ) -> None:
     """Find a sensor's mount and clock offset from motion.
 
-    Two motions of one rigid body are recorded, in frames and on clocks of their own: odometry
-    and a camera's SLAM, an arm and the tag it carries. Their comparison gives the mount of one
-    moving frame on the other, the pose of one fixed frame in the other, and the clock offset,
-    each with a 95 % interval; or a refusal, with the motion to record next. The exit status is
-    0 where the mount is solved or partly solved, and 1 where it is refused.
+    Two motions of one rigid body are recorded, in separate frames and on separate clocks: odometry
+    and a camera's SLAM, an arm and a tag on it. Their comparison gives the mount of one moving
+    frame on the other, the pose of one fixed frame in the other, and the clock offset, each with a
+    95 % interval; or a refusal, with the motion to record next. The exit status is 0 if the mount
+    is solved or partly solved, and 1 if it is refused.
 
     tftool calibrate run.mcap --moving odom:base_link --moving world:camera
     tftool calibrate arm.bag --moving base:tool0 --moving camera:tag

@@ -48,7 +48,7 @@ def write_mount(
 ) -> list[str]:
     """Write a mount, and return sentences about it.
 
-    Known transforms on both sides of the joint that changes are taken out.
+    Known transforms on both sides of the changed joint are taken into account.
 
     Raises:
         UsageError: If the description is made by xacro.
@@ -91,7 +91,7 @@ def _publish(output: Path, buffer: Buffer) -> None:
 def joint_to_change(output: Path, published: PublishedMount, name: str | None) -> RobotJoint | None:
     """Return the named joint, else the first fixed one on the way from moving_a.
 
-    None if there is none, where the output is no description.
+    None if there is none, and the output is no description.
 
     Raises:
         UsageError: If it has no such joint, or that is not on the way.

@@ -70,11 +70,11 @@ def check(
 ) -> None:
     """Play scenarios on simulated time and judge what they expect.
 
-    One line for each, and below it whatever did not hold, behind "why:" what the doctor
-    finds in the frames that were played. The exit status is 0 when
-    everything held, 1 when something did not, 3 when a file could not be read.
-    With --run and --launch, nodes written for ROS 2 are judged in the scenario, without ROS.
-    With --as-ros, a package is judged instead: entry points, launch files, dependencies.
+    One line is printed for each, below it the failed expectations, and after "why:" the doctor's
+    findings in the played frames. The exit status is 0 if everything held, 1 if something did not,
+    3 if a file could not be read. With --run and --launch, nodes written for ROS 2 are tested in
+    the scenario, without ROS. With --as-ros, packages are tested instead: entry points, launch
+    files, dependencies.
 
     tftool check turtles
     tftool check scenarios/*.yaml --junit report.xml

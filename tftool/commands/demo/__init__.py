@@ -58,12 +58,11 @@ def demo(
 ) -> None:
     """Show turtle2 following turtle1 (ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py).
 
-    On a terminal: a picture of the frames, their tree, and a pair of them over time; the
-    arrow keys drive turtle1, [ and ] go back in time, F looks from another frame, o shows
-    another scenario, q quits. Left alone for 5 s, turtle1 draws by itself until a key is
-    pressed or another terminal joins. Without a terminal: plays the scenario on
-    simulated time, its own script at the keys, prints what came of it, and exits with 1
-    if it did not turn out as the scenario expects.
+    On a terminal: a picture of the frames, their tree, and a pair of them over time; the arrow keys
+    drive turtle1, [ and ] go back in time, F changes the fixed frame, o shows another scenario, q
+    quits. After 5 s without a key, turtle1 drives by itself until a key is pressed or another
+    terminal joins. Without a terminal: plays the scenario on simulated time with its own script,
+    prints the outcome, and exits with 1 if an expectation failed.
 
     tftool demo
     tftool demo carrot --source-frame carrot1

@@ -114,13 +114,13 @@ def diff(
 ) -> None:
     """Say what differs between two sets of frames, link by link.
 
-    Links that came, went, hang from another frame, or are static in one and move in the
-    other; statics in millimetres and degrees; what moves at the stamps both have: root mean
-    square, worst, and when. Exit status 1 when anything differs by more than 1 mm or 0.1°,
-    or by --mm, --deg, --rate-percent.
+    Reports added and missing links, other parents, and links that are static in one and move in the
+    other; differences of statics in millimetres and degrees; of moving links at their common
+    stamps: root mean square, maximum, and its time. Exit status 1 if anything differs by more than
+    1 mm or 0.1°, or by --mm, --deg, --rate-percent.
 
-    With --ape or --rpe, two trajectories are compared instead, A as the reference: the only
-    chain of each, or --pair TARGET:SOURCE, given twice where A and B name it differently.
+    With --ape or --rpe, two trajectories are compared instead, A as the reference: the only chain
+    of each, or --pair TARGET:SOURCE, given twice if A and B use different names.
 
     tftool diff monday.mcap robot.urdf
     tftool diff calibrated.launch.py session --mm 0.5

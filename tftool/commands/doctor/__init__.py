@@ -115,9 +115,9 @@ def doctor(
 ) -> None:
     """Say what is wrong with the frames, and what mends it: cause, evidence, consequence, fix.
 
-    A recording is read whole, a scenario played on simulated time, a session that runs
-    listened to for 5 s, or --for. The exit status is 0 when nothing is found from a
-    warning on (--fail-on), 1 when something is, 3 when a source cannot be read.
+    A recording is read completely, a scenario is played on simulated time, a running session is
+    heard for 5 s, or --for. The exit status is 0 without findings from a warning on (--fail-on),
+    else 1, and 3 if a source cannot be read.
 
     tftool doctor run.mcap
     tftool doctor bags/*.mcap --junit report.xml

@@ -88,10 +88,10 @@ def echo(
 ) -> None:
     """Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).
 
-    Waits until the transform is there and says why it waits. Then, once a second:
-    translation, quaternion (x y z w), roll pitch yaw in radians and degrees, matrix; on a
-    terminal in place of the last, with x red, y green and z blue, and with its age.
-    Of a recording the whole span is printed, or one moment with --at or --once.
+    Waits for the transform and prints the reason of the wait. Then, once a second: translation,
+    quaternion (x y z w), roll pitch yaw in radians and degrees, matrix; a terminal shows only the
+    newest, with x red, y green and z blue, and with its age. A recording is printed over its whole
+    span, or at one moment with --at or --once.
 
     tftool echo turtle2 turtle1            turtle1 as turtle2 sees it
     tftool echo map laser_link robot --at 12.5

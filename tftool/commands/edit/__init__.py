@@ -152,10 +152,9 @@ def edit(
 ) -> None:
     """Change the frames of a recording; repair, join, cut, convert.
 
-    Everything else stays as it is, byte for byte. Without any change a damaged
-    recording becomes a whole one with an index, several become one, and the suffix of FILE
-    turns one container into another. IN is never written to; FILE has its name only once
-    it is whole, and was read again and compared.
+    Everything else stays unchanged, byte for byte. Without changes, a damaged recording gets an
+    index, several recordings are joined, and the suffix of FILE chooses the container. IN is never
+    written to; FILE gets its name only after it was completely written, read again and compared.
 
     tftool edit run.mcap -o fixed.mcap --set base_link:laser=0.2,0,0.15,0,0,90deg
     tftool edit cut_off.mcap -o whole.mcap

@@ -60,8 +60,8 @@ def explain(
 ) -> None:
     """Say why a lookup refuses: which link, by how much, and what would let it through.
 
-    It asks as a listener would that holds the samples arrived by then. The exit status is 0
-    when the lookup answers, 4 when it does not.
+    The lookup uses the samples that a listener had received at that moment. The exit status is 0 if
+    the lookup answers, 4 if it does not.
 
     tftool explain odom base_scan run.mcap --message /scan@4.25
     tftool explain map base_link run.mcap --at 12.5 --cache-time 5

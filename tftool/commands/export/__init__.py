@@ -95,9 +95,9 @@ def export(
     """Write a pair over time, or links, to files of other tools.
 
     The pose of SOURCE in TARGET is written at the stamps of the fastest link between the two;
-    what a lookup refuses is left out and counted. Of a scenario all of it is played. With FROM
-    alone, static transforms are written so that it can be published again, and to .mcap
-    all transforms.
+    refused lookups are left out and counted. A scenario is played to its end. With FROM alone,
+    static transforms are written in a form that can be published again, and to .mcap all
+    transforms.
 
     tftool export map base_link run.mcap -o run.tum
     tftool export map base_link run.mcap -o run.csv --rate 10 --rpy

@@ -17,7 +17,7 @@ ANSWERS_WITHIN = "20s"
 def connected(address: str) -> Iterator[Executor]:
     """Connect to the scheduler of a cluster.
 
-    A worker that ends is no trouble: its work is given to another one.
+    If a worker ends, another one gets its work.
 
     Args:
         address: "tcp://HOST:8786".

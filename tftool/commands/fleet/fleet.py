@@ -1,8 +1,7 @@
 """Work on many recordings in one process, several, or a cluster; the results are rows.
 
-There is one path for all three: an executor of `concurrent.futures`. A recording that
-cannot be read is a row as well, and one that ends the process it is read by is tried again
-alone.
+All three use one executor of `concurrent.futures`. A recording that cannot be read gives a row too,
+and one that kills its process is tried again alone.
 """
 
 import glob
@@ -166,8 +165,7 @@ def _alone(source: str, task: FleetTask) -> list[Row]:
 def expanded(words: Sequence[str]) -> list[str]:
     """Return each recording named by files, folders, globs and URLs once.
 
-    Of a glob, files with the ending of a recording are meant as recordings, even if they
-    cannot be read.
+    Files of a glob with the suffix of a recording count as recordings, even if they cannot be read.
 
     Raises:
         InputError: If a glob or a folder of the web names nothing, or cannot be listed.

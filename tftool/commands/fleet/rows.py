@@ -36,8 +36,8 @@ SUFFIXES = (".jsonl", ".csv", ".parquet")
 class RowFile:
     """File of rows; the rows of one recording are written together.
 
-    Parquet cannot be added to: rows are collected as JSON lines in a file beside it,
-    `NAME.part`, which becomes the table when it is closed, and is gone on with after a crash.
+    Parquet files cannot grow: rows are collected as JSON lines in a file beside it, `NAME.part`,
+    which is converted when it is closed, and continued after a crash.
 
     Attributes:
         path: The file.

@@ -94,8 +94,8 @@ def follow(
 ) -> None:
     """Let FOLLOWER follow LEADER (the tutorial's turtle_following).
 
-    Spawns FOLLOWER. Once a period it looks up where the leader is, as the follower sees
-    it, and drives there. The defaults are the tutorial's.
+    Spawns FOLLOWER. Once a period it looks up the leader in the follower's frame, and drives there.
+    The defaults are the tutorial's.
 
     tftool follow
     tftool follow turtle1 turtle3

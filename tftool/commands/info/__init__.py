@@ -28,14 +28,13 @@ def info(
 ) -> None:
     """Show what a recording or robot description holds (ros2 bag info).
 
-    Topics with their types, counts and publishers; frames and trees; every edge with its
-    rate, who publishes it (by node in ROS 1 bags, by topic else), and its delay: how much
-    later than its stamp it was received; damage, oddities, and what the doctor
-    finds. On a terminal columns that have no room are left out.
-    Of a robot description: joints with limits and mimics, the root, masses where given.
-    Of several descriptions and launch files, how many transforms each gives, and every mistake.
-    Of several recordings, a line each; with -o, a row each in a file. Where the terminal is
-    narrow, columns are left out: 'tftool info run.mcap | cat' has them all.
+    Topics with their types, counts and publishers; frames and trees; every edge with its rate, its
+    publisher (the node in ROS 1 bags, else the topic), and its delay from stamp to reception;
+    damage, oddities, and the doctor's findings. For a robot description: joints with limits and
+    mimics, the root, masses if given. For several descriptions and launch files: the number of
+    transforms of each, and every mistake. For several recordings: a line each; with -o, a row each
+    in a file. On a narrow terminal columns are left out: 'tftool info run.mcap | cat' prints them
+    all.
 
     tftool info run.mcap
     tftool info robot.urdf

@@ -29,8 +29,8 @@ def launch(
 ) -> None:
     """Launch what a ROS 2 launch file says, without ROS (ros2 launch).
 
-    The file may be Python, XML or YAML. Packages are looked for below this folder, or in
-    the src it belongs to; nothing is built. turtlesim and turtle_tf2_py are tftool's own.
+    The file may be Python, XML or YAML. Packages are searched below this folder, or in the src that
+    contains it; nothing is built. turtlesim and turtle_tf2_py are built in.
 
     tftool launch pkg_tf turtle_following.launch.py source_frame:=carrot1
     tftool launch turtle_tf2_py turtle_tf2_demo.launch.py --for 10

@@ -16,10 +16,10 @@ def mcp(
 ) -> None:
     """Answer questions of an agent about recordings (MCP).
 
-    It speaks over stdin and stdout. Tools: info, tree, echo, explain, doctor, plot, each about
-    a file below ROOT. Nothing is written, no session is joined, no scenario played, no xacro
-    expanded, no link followed that leads out of ROOT. Answers are the JSON of the command, cut
-    to 4,000 characters.
+    Communicates over stdin and stdout. Tools: info, tree, echo, explain, doctor, plot, each for a
+    file below ROOT. Nothing is written, no session is joined, no scenario is played, no xacro is
+    expanded, and no link out of ROOT is followed. Answers are the JSON of the command, cut to 4,000
+    characters.
 
     tftool mcp ~/bags
     """

@@ -161,7 +161,7 @@ class Questions:
     ) -> str:
         """Give position, rotation, distance and speed of source_frame in target_frame over time.
 
-        Each curve has its least, greatest and last value, and some of its points.
+        Each curve has its minimum, maximum and last value, and some of its points.
 
         Args:
             target_frame: The frame in which the motion is given.
@@ -300,7 +300,7 @@ def _version() -> str:
 def fitted(answer: Any, most: int = MOST_CHARACTERS) -> str:
     """Convert an answer to JSON of at most `most` characters, with a count of what is left out.
 
-    Lists deep in the answer are cut first: an agent wants all findings before all their evidence.
+    Lists deep in the answer are cut first: all findings are more useful than all evidence of one.
     """
     sizes = [(outer, inner) for outer in (200, 20) for inner in (20, 8, 3, 1)]
     sizes += [(outer, inner) for outer in (12, 8, 5, 3, 2, 1) for inner in (3, 1, 0)]

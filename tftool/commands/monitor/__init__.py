@@ -37,8 +37,8 @@ def monitor(
 ) -> None:
     """Show how often and how late transforms arrive (tf2_monitor).
 
-    And from whom. Without frames, all of them; with two, the chain between them and how old its
-    latest transform is.
+    Also shows the publishers. Without frames, all links; with two frames, the chain between them
+    and the age of its latest transform.
 
     tftool monitor
     tftool monitor turtle2 turtle1

@@ -131,7 +131,7 @@ async def watch_session(
 ) -> None:
     """Listen to a world and report, once a period.
 
-    The last report is at the end of that time, which begins once the frames are connected.
+    The time begins once the frames are connected; the last report is at its end.
 
     Args:
         world: World to listen to.

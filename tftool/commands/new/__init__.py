@@ -43,9 +43,9 @@ def new(
 ) -> None:
     """Make a package of nodes to begin with (ros2 pkg create).
 
-    It holds a finished step of the tutorial: ROS 2 nodes, a launch file, a test and a
-    scenario that judges them. The same files run here and under ROS 2; without it,
-    'pytest --ros-free' runs the test.
+    It contains a finished step of the tutorial: ROS 2 nodes, a launch file, a test and a scenario
+    that tests them. The same files run here and under ROS 2; without it, 'pytest --ros-free' runs
+    the test.
 
     tftool new my_frames
     tftool new my_frames --example carrot --exercise

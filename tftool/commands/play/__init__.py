@@ -56,13 +56,13 @@ def play(
 ) -> None:
     """Play a recording as a live session (ros2 bag play).
 
-    Its transforms are broadcast as they were received, by the nodes that did if they are
-    recorded, statics first, and /clock with them: other tftools take now from it, and nodes of
-    ROS 2 do with use_sim_time. 'tftool view', 'tftool echo' and your own nodes see them live.
+    Its transforms are broadcast as they were received, statics first, under the names of their
+    nodes if these are recorded. /clock is published too: other tftools use it, and nodes of ROS 2
+    with use_sim_time. 'tftool view', 'tftool echo' and your own nodes receive everything live.
 
-    On a terminal space pauses, the right arrow sends the next message, [ and ] seek by a second,
-    { and } by ten, up and down change the rate, n goes to the doctor's next finding, 0 to the
-    start, q quits. Findings are marked on the line, and told as they are passed.
+    On a terminal, space pauses, the right arrow sends the next message, [ and ] seek by a second, {
+    and } by ten, up and down change the rate, n goes to the doctor's next finding, 0 to the start,
+    q quits. Findings are marked on the line, and printed when they are passed.
 
     tftool play run.mcap
     tftool play run.mcap --from 12.5 --to 20 --rate 0.5 --loop

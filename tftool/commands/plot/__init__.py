@@ -70,10 +70,10 @@ def plot(
 ) -> None:
     """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.
 
-    Position, roll pitch yaw, distance, speed and turn rate; where a lookup refuses, the span
-    is shaded and the reason is told. A session that runs is drawn live, until q: + and - zoom,
-    left and right go through time, a digit hides a curve. A recording or a scenario is drawn as
-    a whole. Times are seconds since the start of FROM.
+    Shows position, roll pitch yaw, distance, speed and turn rate; spans of refused lookups are
+    shaded, with the reason. A running session is drawn live, until q: + and - zoom, left and right
+    move through time, a digit hides a curve. A recording or a scenario is drawn as a whole. Times
+    are seconds since the start of FROM.
 
     tftool plot turtle2 turtle1
     tftool plot map base_link run.mcap --only x,y,yaw --from 5 --to 20

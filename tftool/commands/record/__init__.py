@@ -63,8 +63,8 @@ def record(
 ) -> None:
     """Record a session (ros2 bag record).
 
-    Every file begins with all statics. Ctrl-C ends it; what a recorder that was killed leaves,
-    a second is missing from at most, and 'tftool edit' repairs it.
+    Every file begins with all statics. Ctrl-C ends recording. The file of a killed recorder lacks
+    at most the last second; 'tftool edit' repairs it.
 
     tftool record -o run.mcap
     tftool record -o long --max-duration 600 --all

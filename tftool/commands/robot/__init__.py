@@ -62,10 +62,10 @@ def robot(
 ) -> None:
     """Bring a robot description alive (robot_state_publisher).
 
-    Fixed joints go to /tf_static, the others to /tf, the description to /robot_description.
-    Arrow keys slide a joint between its limits; digits type a position; z, c and r put all at
-    zero, in the middle, anywhere. Beside the sliders the robot is drawn in space: Shift+arrows
-    turn it. Another terminal sees it: tftool tree, tftool view.
+    Fixed joints are published on /tf_static, the others on /tf, the description on
+    /robot_description. Arrow keys move a joint between its limits; digits type a position; z, c and
+    r move all joints to zero, to the middle, to random positions. Beside the sliders the robot is
+    drawn in 3-D: Shift+arrows turn it. Other terminals can watch it: tftool tree, tftool view.
 
     tftool robot arm.urdf
     tftool robot arm.urdf.xacro size:=large --joint elbow=30deg

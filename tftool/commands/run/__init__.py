@@ -39,10 +39,9 @@ def run(
 ) -> None:
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
 
-    The file's own imports of rclpy, tf2_ros, geometry_msgs and so on are answered by tftool.
-    A package is looked for below this folder, or in the src it belongs to; nothing is built.
-    Options of this command go before FILE. Whether the node does what it should a scenario
-    judges: tftool check SCENARIO --run FILE.
+    The file's imports of rclpy, tf2_ros, geometry_msgs and so on are provided by tftool. A package
+    is searched below this folder, or in the src that contains it; nothing is built. Options of this
+    command precede FILE. To test a node with a scenario: tftool check SCENARIO --run FILE.
 
     tftool run turtle_tf_broadcaster.py --ros-args -p turtlename:=turtle1
     tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1

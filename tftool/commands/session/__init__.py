@@ -36,10 +36,9 @@ def session(
 ) -> None:
     """Show who shares the session that runs here (ros2 node list, ros2 topic list and hz).
 
-    Every process of tftool, its command and since when it is there; every node; every
-    topic and how often something comes in on it; every service. Services that each node has
-    for its parameters, and those that make up actions, are counted, and listed by --verbose;
-    --json has all of them.
+    Every process of tftool with its command and start; every node; every topic with its rate; every
+    service. Parameter services of nodes and the services of actions are only counted; --verbose and
+    --json list them.
 
     tftool session
     tftool session --connect tcp/localhost:7447

@@ -1,7 +1,7 @@
 """A command's connection: whether it joins or hosts, and which machines it reaches.
 
-Every command that may share a session takes a `Connection` as its first parameter;
-its declaration gives it one (`declaration.py`), and closes what it opened.
+Every command that may share a session has a `Connection` as its first parameter; its declaration
+makes it (`declaration.py`), and closes everything it opened.
 """
 
 import math
@@ -40,7 +40,7 @@ class Mode(Enum):
 class Providers:
     """Sources of a command's clock and of its links to other processes; tests replace them.
 
-    A test derives from it, and hands its own to `app.main`.
+    Tests derive from it, and pass their own to `app.main`.
     """
 
     def wall_clock(self, rate: float = 1.0, *, head_start: "Duration" = 0) -> "Clock":
@@ -92,7 +92,7 @@ class FileOptions(TypedDict):
 class Connection:
     """A command's part in a session, according to its options.
 
-    Use it in a `with`: at its end every link and file it opened is closed.
+    Use it in a `with`, whose end closes every link and file that it opened.
 
     Attributes:
         command: The command's name.

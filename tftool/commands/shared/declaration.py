@@ -1,8 +1,8 @@
 """Declaration of a command: its options, and its kind.
 
-The kind decides which further options it takes: of sessions, of recordings, of robot
-descriptions. `tftool/commands/NAME/__init__.py` declares, and `run` in `command.py` beside it is
-imported when the command is called: help and completion need the options alone.
+The kind decides its further options: of sessions, of recordings, of robot descriptions.
+`tftool/commands/NAME/__init__.py` declares the command, and `run` in `command.py` beside it is
+imported when it is called: help and completion need only the options.
 """
 
 import functools

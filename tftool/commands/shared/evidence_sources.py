@@ -34,7 +34,7 @@ def evidence_from(
 ) -> Evidence:
     """Return the evidence about the frames of FROM.
 
-    A recording is read whole, a scenario played to its end, a session listened to.
+    A recording is read completely, a scenario is played to its end, a session is heard for a while.
 
     Args:
         connection: The command's options.

@@ -1,11 +1,11 @@
 """The choice to join or to host, made in one place for all commands.
 
-A scenario that was named is always hosted. Without a word, the session that runs on this
-machine is joined; if none runs, the command hosts one, and others join it. Processes that only
-look are no session: they wait, and share the next hosted world. While one world is hosted another
-keeps to itself, so that the two never mix.
+A named scenario is always hosted. Without a name, the command joins the running session of this
+machine, or hosts one that others can join. Processes that only watch do not form a session: they
+wait for the next host. While another session is hosted, a named scenario is not shared, so that the
+two never mix.
 
-A command that works in a world while it lives (``echo``, ``monitor``, ``view``) opens a session::
+A command that works in a running world (``echo``, ``monitor``, ``view``) opens a session::
 
         session = open_session(connection, place)
         session.run(work(session.world))
@@ -218,7 +218,7 @@ def join_session(
 ) -> Session | None:
     """Return the world of the running session; None if there is none.
 
-    For commands that host on simulated time: nothing is opened for others to join.
+    For commands that host on simulated time; others cannot join.
 
     Raises:
         LinkError: If a session was asked for and there is none.

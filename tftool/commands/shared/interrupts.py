@@ -12,7 +12,7 @@ from types import FrameType
 def interruptible() -> Iterator[None]:
     """Let SIGINT and SIGTERM raise `KeyboardInterrupt` within this block.
 
-    Only for where no event loop runs: a loop has handlers of its own.
+    Only outside of an event loop, which has handlers of its own.
     """
     if sys.platform == "win32" or threading.current_thread() is not threading.main_thread():
         yield

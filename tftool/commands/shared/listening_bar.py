@@ -25,7 +25,7 @@ _SHARE = 4
 class ListeningBar:
     """Progress bar of a session, with lines below it; erased at the end.
 
-    Called in another thread than the one that waits for its end.
+    It is called in another thread than the one that waits for its end.
     """
 
     def __init__(self, lasting: float, look: "Look | None") -> None:

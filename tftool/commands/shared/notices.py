@@ -69,7 +69,7 @@ def _write(text: str) -> None:
 def fitting(sentence: str) -> str:
     """Return a text as stderr shows it; on a terminal it is wrapped between words.
 
-    Lines that begin with a blank stay as they are: excerpts of files, and tracebacks.
+    Lines that begin with a blank stay unchanged: excerpts of files, and tracebacks.
     """
     try:
         width = os.get_terminal_size(sys.stderr.fileno()).columns

@@ -47,8 +47,8 @@ def open_from(
 ) -> Frames:
     """Open the frames of FROM; they are closed together with the connection.
 
-    Without FROM the session is listened to; if none runs, turtles are played. A session that
-    runs has no past: with a moment it is refused.
+    Without FROM the running session is heard; if there is none, the turtle world is played. A
+    running session keeps no past: a moment is refused.
 
     Args:
         connection: The command's options.

@@ -1,7 +1,6 @@
 """Options that several commands share, and the parsers of their values.
 
-Every duration and moment on a command line is read as exact decimals and reaches its
-command in whole nanoseconds.
+Durations and moments of a command line are read as exact decimals; commands get whole nanoseconds.
 """
 
 import math
@@ -220,7 +219,7 @@ def seconds_option(
 ) -> Any:
     """Return an option that takes seconds and gives nanoseconds.
 
-    The help does not say its default, which would be in nanoseconds: the words do.
+    The help text names the default; the option's own default would be in nanoseconds.
 
     Args:
         words: Text of the help.

@@ -43,7 +43,7 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
 def write_file(path: Path, content: str | bytes) -> None:
     """Write a whole file, text as UTF-8; a pipe or device is written directly.
 
-    The old file stays until the new file is complete: a full disk loses nothing.
+    The old file stays until the new one is complete, so that a full disk loses nothing.
 
     Raises:
         InputError: If that fails.

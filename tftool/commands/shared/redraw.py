@@ -19,7 +19,7 @@ def can_redraw() -> bool:
 class Redrawing:
     """Drawer that replaces its last picture; lines on stderr go above it.
 
-    Nothing is drawn, and the cursor stays, until the first picture.
+    Nothing is drawn, and the cursor is not moved, until the first picture.
     """
 
     def __init__(self, clock: "Clock") -> None:

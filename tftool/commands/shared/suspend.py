@@ -16,7 +16,7 @@ _layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
 def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object]) -> Iterator[None]:
     """Restore the terminal while Ctrl-Z stops the process; may be nested.
 
-    Nothing changes off the main thread, where there is no SIGTSTP, and where it is ignored.
+    Without effect outside the main thread, where there is no SIGTSTP, and where it is ignored.
 
     Args:
         leave: Gives the terminal back as it was.

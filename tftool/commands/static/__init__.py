@@ -52,7 +52,7 @@ def static(
 ) -> None:
     """Publish where CHILD is in PARENT (static_transform_publisher).
 
-    It holds for all time. Runs until interrupted. Lengths are metres, angles radians.
+    It is valid at all times. Runs until interrupted. Lengths are metres, angles radians.
 
     tftool static --z 3 --yaw 3.14 --frame-id A --child-frame-id B
     tftool static 0 0 3 0 0 3.14 A B          x y z yaw pitch roll: 3.14 is ROLL

@@ -28,8 +28,8 @@ def teleop(
 ) -> None:
     """Drive a turtle with the arrow keys (ros2 run turtlesim turtle_teleop_key).
 
-    One press moves the turtle for a second. The eight letters round f turn it to
-    the heading at which they lie: t is north-east. f gives a turn up, q quits.
+    One press moves the turtle for a second. The eight letters around f turn it to the direction of
+    the key: t is north-east. f cancels a turn, q quits.
 
     tftool teleop
     tftool teleop turtle2

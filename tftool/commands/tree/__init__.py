@@ -69,11 +69,11 @@ def tree(
 ) -> None:
     """Show which frame hangs from which (rqt_tf_tree, view_frames).
 
-    Every tree there is, and for every link: whether it is static, who broadcasts it, how
-    often, how long a past the buffer holds of it, and how old its newest data is. Beside
-    a frame that changes between two parents, has stopped, or has another clock than the
-    others, stands the id of the doctor's check.
-    A scenario is shown 5 s after its start, a recording at its end, if --at does not say.
+    Shows every tree, and for every link: whether it is static, its broadcaster, its rate, the
+    length of its history in the buffer, and the age of its newest data. A frame that changes
+    between two parents, has stopped, or has another clock than the others is marked with the id of
+    the doctor's check. A scenario is shown 5 s after its start, a recording at its end, unless --at
+    is given.
 
     tftool tree                   the tree of what runs here
     tftool tree robot -o robot.svg --at 12.5

@@ -52,12 +52,12 @@ def view(
 ) -> None:
     """Show the frames in 3-D, in a browser (rviz2 with its TF display).
 
-    The page is served on this machine alone, and asks no other for anything. It shows axes,
-    names and arrows in any fixed frame, scrubs back through the buffer, and tells the transform
-    of a pair you pick. A robot is drawn by its description: FROM itself, the one in a
-    recording, or the one on /robot_description; sliders move the joints of FROM.
-    With -o the page becomes one file that opens anywhere, without tftool: a recording or a
-    scenario as a whole, a session for so long as --for says.
+    The page is served on this machine only, and loads nothing from others. It shows axes, names and
+    arrows in any fixed frame, goes back in time through the buffer, and shows the transform of a
+    chosen pair. A robot is drawn from its description: FROM itself, the recorded one, or the one on
+    /robot_description; sliders move the joints of FROM. With -o the page becomes one file that
+    opens anywhere, without tftool: a recording or a scenario as a whole, a session for the time of
+    --for.
 
     tftool view --open
     tftool view robot --port 8800

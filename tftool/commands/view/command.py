@@ -242,8 +242,8 @@ async def _until_one_ends(*work: Coroutine[Any, Any, None]) -> None:
 def _redirect_to(url: str) -> Iterator[str]:
     """Create a file that leads to the page while this block runs, and return its address.
 
-    A browser's command line is there for every user of the machine to read, and the page's own
-    address holds its secret: so the browser is given a file that only this user may read.
+    Every user of the machine can read a browser's command line, and the page's address holds its
+    secret: so the browser is given a file that only this user may read.
     """
     with TemporaryDirectory(prefix="tftool-") as folder:
         file = Path(folder, "view.html")

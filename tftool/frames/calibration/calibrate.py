@@ -147,8 +147,8 @@ def calibrate(
         found = tftool.calibrate(tftool.open("vicon.csv"), tftool.open("camera.csv"))
         found.mount, found.interval95.translation
 
-    The equation is A(t + d) · X = Y · B(t): X is the mount, Y joins the two fixed frames, d is
-    the clock offset; all three are found. See docs/do/calibrate.md for the motion to record.
+    It solves A(t + d) · X = Y · B(t) for X, the mount, Y, which joins the two fixed frames, and d,
+    the clock offset. See docs/do/calibrate.md for the motion to record.
 
     Args:
         a: Poses of moving_a in fixed_a over time, odom ← base_link; or frames that are one chain.
@@ -291,8 +291,8 @@ class _Solver:
     def _best(self, problem: Problem, start: Fit, shown: _Shown) -> tuple[Fit, float]:
         """Fit with several segment lengths and with one Y for all; keep the most certain.
 
-        Where longer segments leave larger residuals, a chain drifts. A bootstrap over blocks of
-        time does not see that: such lengths are left out.
+        If longer segments have larger residuals, a chain drifts. A bootstrap over blocks of time
+        does not see that: such lengths are left out.
         """
         whole = float(problem.times[-1] - problem.times[0])
         lengths = [*(one for one in _SEGMENTS if one * 4.0 <= whole), math.inf]
@@ -401,8 +401,8 @@ WIDTH: Final = 2.1
 def _doubt(sizes: Floats, shown: _Shown, halves: tuple[float, float] | None) -> tuple[float, float]:
     """Return the factors that widen the intervals of rotation and translation.
 
-    Where the halves of the recording differ by more than the interval, residuals lie: a scale or
-    a drift is at work that no bootstrap sees.
+    If the halves of the recording differ by more than the interval, there is an error that no
+    bootstrap sees, such as a wrong scale or a drift.
     """
     if halves is None:
         return 1.0, 1.0
@@ -487,7 +487,7 @@ def _interval(sizes: Floats, shown: _Shown) -> Interval:
 def _fixed_interval(sizes: Floats, shown: _Shown, problem: Problem, fit: Fit) -> Interval:
     """Return half-widths of Y: what the mount hides, Y hides as well.
 
-    The only axis of rotation has one direction in fixed_a, and one in fixed_b.
+    The only axis of rotation has a fixed direction in fixed_a and in fixed_b.
     """
     turns, moves = np.degrees(sizes[:3]), sizes[3:]
     if shown.axis is None:

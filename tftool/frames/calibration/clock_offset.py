@@ -1,9 +1,9 @@
 """Offset between the clocks of two motions of one rigid body, from rotation alone.
 
-The angle a body turns by in a window of time depends neither on where on the body it is
-measured nor on the fixed frame. Both motions give it, each on its own clock; the shift at which
-the two courses correlate best is the offset. Angular speed between neighbouring samples is too
-noisy for that on real data.
+The angle by which a body turns in a time window depends neither on the place of measurement on the
+body nor on the fixed frame. Both motions give this angle, each on its own clock; the offset is the
+shift at which the two curves correlate best. On real data, the angular speed between neighbouring
+samples is too noisy for that.
 """
 
 from dataclasses import dataclass
@@ -89,7 +89,7 @@ def clock_offset(a: TransformArray | Frames, b: TransformArray | Frames) -> Cloc
 
 
 def path_of(frames: TransformArray | Frames) -> TransformArray:
-    """Return poses over time: those given, or those of the only chain of some frames.
+    """Return poses over time: given ones, or those of the only chain of frames.
 
     Raises:
         InputError: If the frames are several chains.
@@ -162,8 +162,8 @@ class _Correlation:
     def refined(self) -> tuple[float, float]:
         """Return the interpolated peak and its 95 % half-width, in steps.
 
-        A parabola through five values about the peak; blocks of time are drawn again and again
-        (block bootstrap) to see how far it moves.
+        The peak is that of a parabola through five values; a bootstrap over blocks of time gives
+        its spread.
         """
         lag = int(self.lags[self.peak])
         near = np.arange(-4, 5)

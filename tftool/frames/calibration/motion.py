@@ -41,8 +41,7 @@ class CalibrationRefused(TftoolError):
 def difference(mount: Transform, other: Transform) -> Floats:
     """Return a mount's difference from another, shape (6,).
 
-    Metres along the axes of the frame it is mounted on, then degrees about those of the mounted
-    one, as in `Calibration.interval95`.
+    Metres along the axes of the parent frame, then degrees about those of the mounted one,
     """
     shift = np.subtract(mount.translation, other.translation)
     first, second = np.array([mount.rotation]), np.array([other.rotation])
@@ -138,7 +137,7 @@ class BodyMotion:
     def velocities(self, times: Floats) -> tuple[Floats, Floats]:
         """Return velocities in the fixed frame, and angular velocities about the moving axes.
 
-        They are differences over a tenth of a second, which the noise of poses does not drown.
+        They are differences over a tenth of a second, long enough compared with the noise of poses.
 
         Returns:
             Metres per second and radians per second, each of shape (m, 3).
@@ -169,8 +168,8 @@ _DENSE: Final = 200
 def _steady(positions: Floats, turns: Floats) -> "npt.NDArray[np.intp]":
     """Remove spikes such as flipped tags, which would distort a correlation.
 
-    First goes a pose whose median distance (or angle) to six neighbours is far above that of the
-    poses around it; then, without those, a pose that is far from the middle of its neighbours.
+    First drop poses whose median distance (or angle) to six neighbours is far above that of the
+    poses around them; then those that are far from the middle of their remaining neighbours.
     """
     kept = np.arange(len(turns))
     if len(turns) < _DENSE:

@@ -112,8 +112,8 @@ def lever(pairs: MotionPairs, turn: Floats, weights: Floats) -> tuple[Floats, fl
 def about_one_axis(pairs: MotionPairs, axis: Floats, start: Floats) -> tuple[Floats, Floats, float]:
     """Solve for the turn about the only axis of rotation, and the translation across it.
 
-    The rotation vectors leave the turn about the axis open; the translations decide it, linearly
-    in its cosine and sine.
+    The rotation vectors do not determine the turn about the axis; the translations do, linearly in
+    its cosine and sine.
 
     Args:
         pairs: Motions that turn about one axis.

@@ -1,8 +1,8 @@
 """Least squares of a mount: A(t + d) · X = Y · B(t), with robust weights.
 
-X is the mount, Y joins the fixed frames, d is the clock offset. Where a chain drifts, as odometry
-does, time is cut into segments with a Y of their own, which drop out of the equations (Schur
-complement). Everything is in numpy: each round is one small linear system.
+X is the mount, Y joins the fixed frames, d is the clock offset. If a chain drifts, as odometry
+does, time is divided into segments with a Y of their own, which are eliminated (Schur complement).
+Everything is in numpy: each round solves one small linear system.
 """
 
 from collections.abc import Sequence
@@ -287,7 +287,7 @@ def _moved(fit: Fit, rows: _Residuals, basis: Floats, normal: Floats, right: Flo
 def spread(fit: Fit, draws: int = 200, seed: int = 0) -> Floats:
     """Return the standard deviations of the free parameters, by block bootstrap.
 
-    The fit is moved by one linear step for each drawing of blocks.
+    Each resampling of blocks moves the fit by one linear step.
 
     Returns:
         Deviations along the free directions, and with one Y for all time, of Y: shape (p,).

@@ -1,8 +1,8 @@
 """Fast formatting of millions of numbers: four decimal digits per table lookup, in numpy.
 
-A block of rows becomes one array of bytes in which every number has the same room; bytes
-that stay zero are left out at the end. Nothing is rounded twice: a number is scaled to a
-whole number of its last decimal, and so is a stamp, which is one already.
+A block of rows becomes one array of bytes with equal space for every number; bytes that stay zero
+are removed at the end. Nothing is rounded twice: a number is scaled to a whole multiple of its last
+decimal.
 """
 
 from collections.abc import Sequence

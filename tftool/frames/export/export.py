@@ -106,8 +106,8 @@ def export(
         tftool.export(recording, "map", "base_link", path="run.tum")
         tftool.export(recording, path="robot.urdf")
 
-    The file is whole, or not there. Moments at which a lookup refuses are left out, and told
-    in the result.
+    The file is complete, or does not exist. Moments of refused lookups are left out, and counted in
+    the result.
 
     Args:
         frames: Opened frames, a recording, a buffer, or a robot description.

@@ -1,7 +1,7 @@
 """Trajectory files: TUM, KITTI, EuRoC, CSV, npz, Parquet.
 
-Stamps are whole nanoseconds all the way, and written as such: a float of seconds steps by
-238 ns at today's date. A file is whole, or not there.
+Stamps are whole nanoseconds throughout: today a float of seconds has steps of 238 ns. A file is
+complete, or does not exist.
 """
 
 import csv
@@ -107,7 +107,7 @@ def _write_kitti(
 ) -> list[Path]:
     """Write the upper three rows of each matrix in a line, and the stamps in a second file.
 
-    Both come to their names together, the poses last.
+    Both files get their names together, the poses last.
     """
     times = path.with_name(f"{path.stem}_times.txt")
     rows = found[0].answered()
@@ -160,7 +160,7 @@ def _write_npz(
 ) -> list[Path]:
     """Write NumPy's archive without pickles: stamps, translations, rotations (x y z w).
 
-    Of several pairs the rows lie behind each other, and `pair` says which is whose.
+    Rows of several pairs are concatenated, and `pair` holds the number of each row's pair.
     """
     rows = [one.answered() for one in found]
     several = len(rows) > 1

@@ -72,8 +72,8 @@ def step(
 ) -> tuple[float, PidState]:
     """Update a controller with one measurement; return its output and new state.
 
-    The derivative is taken on the measurement, so that a setpoint that jumps
-    does not kick; before the second step it is 0.
+    The derivative is that of the measurement, so that a jump of the setpoint has no effect on it;
+    before the second step it is 0.
 
     Args:
         gains: How to answer.

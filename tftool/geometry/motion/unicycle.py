@@ -1,7 +1,7 @@
 """Motion of one turtle, update by update: turn, move, stop at the wall.
 
-The numbers are turtlesim's own, kept to the digit: a simulator that used the
-library's π or a field edge in double precision would print other poses.
+The constants are exactly turtlesim's: a simulator with the library's π, or with a field edge in
+double precision, would print other poses.
 """
 
 import math
@@ -130,7 +130,7 @@ def turn_towards(goal: float, start: float, theta: float) -> Turning:
 def float32(value: float) -> float:
     """Round to the nearest 32-bit float, as a message field does.
 
-    Beyond the largest such float the result is infinite.
+    Numbers above the largest such float become infinite.
     """
     # An array converts as C does; `struct` refuses what overflows, from Python 3.14 on always.
     return array("f", (value,))[0]

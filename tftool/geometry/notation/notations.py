@@ -1,7 +1,6 @@
 """Notations of a rotation: how each is read and written.
 
-To add one: its line in `NOTATIONS`. `convert` reads it with `--as`, writes it with `--into`
-and shows it in its table and its JSON.
+A new notation needs one line in `NOTATIONS`.
 """
 
 import math

@@ -1,7 +1,7 @@
 """Rotations and poses parsed from pasted text in other programs' notations.
 
-A label (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) says what the numbers mean.
-Three or four bare numbers do not, and are refused unless the form is named.
+A label (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) identifies the notation. Three or four
+bare numbers are ambiguous, and refused unless the notation is named.
 """
 
 import math

@@ -1,8 +1,8 @@
 """Editing of rosbag2's sqlite files: the file is copied, and changed rows are updated.
 
-Rows that are not touched keep their bytes, numbers and order, tables of others stay, and the
-file keeps the version of its schema. What makes new files of old ones (cuts, joins, statics in
-front of all others) writes row by row instead, as other containers do.
+Unchanged rows keep their bytes, numbers and order, foreign tables stay, and the file keeps its
+schema version. Edits that make new files (cuts, joins, statics at the start) write row by row
+instead, as in other containers.
 """
 
 import os

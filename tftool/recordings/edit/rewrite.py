@@ -1,7 +1,7 @@
 """Rewriting of a recording with changes; everything else stays byte for byte.
 
-Every piece is read once, copied where it may be, else taken apart and changed. Then the result
-is opened, and all of it compared with the intended content. Only then it gets its name.
+Every piece is read once, and copied if possible, else parsed and changed. Then the result is read
+again and compared completely with the intended content. Only then it gets its name.
 """
 
 import contextlib
@@ -268,8 +268,8 @@ class _Job:
     def _examined_ahead(self, tape: ContainerReader) -> Iterator[Block]:
         """Yield an input's blocks; blocks to copy are verified while earlier ones are written.
 
-        To unpack a chunk and hold its CRC against it takes as long as to copy it, and both
-        work without Python's lock.
+        Unpacking a chunk and checking its CRC takes as long as copying it, and both work without
+        Python's lock.
         """
         waiting: deque[tuple[Block, Future[bool] | None]] = deque()
         with ThreadPoolExecutor(1, "tftool-examine") as pool:

@@ -1,8 +1,8 @@
 """Messages of one chunk as columns, and bulk changes of their transforms.
 
-A publisher sends the same frames again and again. One message of a kind is changed by itself;
-others that differ in stamps and numbers alone get the same new bytes, with their own stamps
-and numbers in them.
+A publisher sends the same frames again and again. One message of a kind is changed individually;
+others that differ only in stamps and numbers get the same new bytes, with their own stamps and
+numbers.
 """
 
 from collections import Counter

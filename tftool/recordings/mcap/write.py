@@ -76,8 +76,8 @@ _NOTHING_YET: Final = 2**64 - 1
 class McapWriter:
     """Writer of an MCAP file; see `ContainerWriter`.
 
-    Nothing of a chunk is in the file before it is closed, by its size or by `flush`; what is
-    in the file can be read up to there, whatever happens then.
+    A chunk is written to the file when it is closed, by its size or by `flush`; the file can be
+    read up to there, whatever happens afterwards.
 
     Attributes:
         position: Bytes in the file so far.

@@ -1,6 +1,6 @@
 """Table of pose file formats: recognition, reader and convention of each.
 
-To add a format: a function that recognises the first bytes, a reader, and one entry.
+A new format needs a function that recognises the first bytes, a reader, and one entry.
 """
 
 import re

@@ -1,6 +1,6 @@
 """rosbag2's metadata, and opening of any found recording.
 
-The metadata is advice, never a gate: files are read as they are, whatever it says.
+The metadata is only a hint: files are read whether they agree with it or not.
 """
 
 import re

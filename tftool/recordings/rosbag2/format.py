@@ -1,7 +1,7 @@
 """Bulk reading of rosbag2's messages directly from sqlite's pages.
 
-Only plain pages are read so: at the first page or row that is not as expected it ends, and
-sqlite itself goes on behind the last row that was read.
+Only plain pages are read this way: at the first unexpected page or row it stops, and sqlite itself
+continues after the last row read.
 
 Source: the SQLite database file format, sections 1.3 to 1.6 and 2.1.
 """

@@ -1,13 +1,12 @@
 """Fibers: users' blocking code and the event loop taking turns.
 
-A fiber is a thread whose code may block as ROS nodes do (`rclpy.spin`,
-`time.sleep`, `client.call`). It never touches the world itself: it asks, the
-event loop does, and the thread sleeps until it has its answer. To the loop it
-looks like a coroutine.
+A fiber is a thread whose code may block as ROS nodes do (`rclpy.spin`, `time.sleep`,
+`client.call`). It never touches the world itself: it sends a request, the event loop executes it,
+and the thread sleeps until the answer. For the loop it is like a coroutine.
 
-On the simulated clock the loop stands still while a fiber runs, so exactly one
-of them moves at any time, and two runs are the same run to the last bit. On the
-wall clock the loop goes on, so code that is busy holds up nothing else.
+On the simulated clock the loop waits while a fiber runs, so that only one of them runs at any time,
+and two runs are exactly equal. On the wall clock the loop goes on, so that busy code blocks nothing
+else.
 """
 
 import asyncio
@@ -189,7 +188,7 @@ class Fiber:
     def ask(self, request: Callable[[], Any]) -> Any:
         """Call `request` in the loop's thread, and wait for its result.
 
-        If it returns an awaitable, that is awaited first. Called on the fiber's own thread only.
+        An awaitable result is awaited first. Call it only on the fiber's own thread.
 
         Raises:
             KeyboardInterrupt: If the fiber was asked to end while it waited.
@@ -236,8 +235,8 @@ class Fiber:
     async def drive(self) -> None:
         """Run the body to its end, and carry out its requests.
 
-        Cancelling this interrupts the fiber: the wait it is in raises KeyboardInterrupt,
-        as Ctrl-C does in a ROS node, and it is driven on until it has ended.
+        Cancelling this interrupts the fiber: its present wait raises KeyboardInterrupt, as Ctrl-C
+        does in a ROS node, and the fiber is driven until it has ended.
 
         Raises:
             StuckError: In strict mode, if the body came to no rest and was given up.

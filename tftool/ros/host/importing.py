@@ -1,6 +1,6 @@
 """Import hooks that provide `rclpy` and related modules.
 
-Never by `import tftool`: only `tftool run`, `tftool launch` and the pytest fixture do.
+Only `tftool run`, `tftool launch` and the pytest fixture install it, never `import tftool`.
 """
 
 import importlib
@@ -28,8 +28,8 @@ DISTRIBUTION = "jazzy"
 def real_ros() -> str:
     """Return the folder of a sourced ROS 2's rclpy; "" without one.
 
-    `ROS_DISTRO` alone proves nothing: programs that run here find it set, and so do the
-    processes that they start.
+    `ROS_DISTRO` alone is no proof: it is also set for programs that run here, and for their child
+    processes.
     """
     if not (os.environ.get("ROS_DISTRO") or os.environ.get("AMENT_PREFIX_PATH")):
         return ""
@@ -346,7 +346,7 @@ def look_behind(roots: Iterable[str]) -> None:
 def import_fresh(module: str, root: Path) -> ModuleType:
     """Import a user's module from a folder, and run it again as a new process would.
 
-    Two programs of one file then share no globals.
+    So two programs of one file share no globals.
 
     Raises:
         ImportError: If there is no such module, or it imports one that is missing.

@@ -1,7 +1,7 @@
 """Locks, conditions, semaphores and events between the threads of users' programs.
 
-They wait in the world's time: on the simulated clock a thread that waits for another
-lets the event loop go on, and a timeout means simulated seconds.
+They wait in the world's time: on the simulated clock the event loop goes on while a thread waits
+for another, and a timeout means simulated seconds.
 """
 
 import asyncio
@@ -25,7 +25,7 @@ def running_program() -> Any:
 class StateMonitor:
     """State that threads change and wait for.
 
-    The mutex inside is held only for an instant, never while a thread waits.
+    The inner mutex is held only briefly, never while a thread waits.
     """
 
     def __init__(self) -> None:

@@ -1,7 +1,7 @@
 """A user's program, which `ros2 run` would start as a process.
 
-It has its arguments, its rclpy context and a fiber on which its `main` runs. To
-the world it is a node; the nodes it makes join beside it.
+It has its arguments, its rclpy context and a fiber on which its `main` runs. For the world it is a
+node; its own nodes join beside it.
 """
 
 import asyncio

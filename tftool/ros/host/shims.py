@@ -1,9 +1,9 @@
 """Replacements of four standard modules, and of `print`, in users' files.
 
-In a user's own files `import time` gives a module whose `sleep` and clocks are the
-world's, `import threading` one whose threads take turns too and whose locks wait in the
-world's time, `import queue` the standard queues over those, and `import asyncio` one whose
-event loops wait in the world's time. The four of all other modules stay as they are.
+In users' files, `import time` gives a module with the world's `sleep` and clocks, `import
+threading` one whose threads take turns and whose locks wait in the world's time, `import queue` the
+standard queues with these locks, and `import asyncio` one whose event loops wait in the world's
+time. All other modules get Python's own four.
 """
 
 import asyncio

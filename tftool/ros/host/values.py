@@ -1,7 +1,7 @@
 """Conversion between users' messages and the world's values.
 
-Messages are copied on their way in and out, and turtlesim's of a newer release become those of
-the older one, which the world knows. tf's topics carry tuples of samples.
+Messages are copied on their way in and out, and turtlesim's messages of a newer release are
+converted to the older one, which the world uses. Topics of tf carry tuples of samples.
 """
 
 from typing import Any

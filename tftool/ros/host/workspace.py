@@ -127,7 +127,7 @@ class Workspace:
     def share(self, name: str) -> Path:
         """Return a package's share directory: its sources, or our own launch files.
 
-        Files that its setup.py installs at another place than where they lie are there too.
+        Files that its setup.py installs at another place are there too.
 
         Raises:
             UsageError: If there is no such package.

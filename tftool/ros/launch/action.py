@@ -13,7 +13,7 @@ from tftool.ros.launch.events import ExecutionComplete
 class Action(LaunchDescriptionEntity):
     """One step of a launch: `execute` returns further actions, or None.
 
-    What takes time is handed to the launch (`context.launch`).
+    Long work is passed to the launch (`context.launch`).
 
     Attributes:
         condition: Whether it is done at all; None for always.
@@ -54,7 +54,7 @@ class Action(LaunchDescriptionEntity):
     def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
         """Parse an XML or YAML element of a user's own action class.
 
-        Its condition is read by the launch, whatever class it is.
+        The launch reads the condition of every class.
         """
         return cls, {}
 

@@ -55,7 +55,7 @@ def refuse_unknown(
 ) -> None:
     """Refuse arguments that a launch file neither declares nor mentions.
 
-    Some are used by a LaunchConfiguration with a default, or by a function, undeclared.
+    Undeclared arguments may be used by a LaunchConfiguration with a default, or by a function.
 
     Raises:
         UsageError: If there is one, with the nearest declared name.

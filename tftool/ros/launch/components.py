@@ -1,8 +1,8 @@
 """launch_ros's components: C++ nodes loaded into a container's process.
 
-None runs here. A container that answers in the session, of ROS 2's or of one's own, is asked to
-load them, and one that the launch itself starts is waited for; what can be neither started nor
-asked is left out, with a line that says so.
+Components do not run here. A container that answers in the session is asked to load them, and one
+that the launch itself starts is waited for. Components that can be neither started nor loaded are
+left out, with a notice.
 """
 
 from collections.abc import Iterable

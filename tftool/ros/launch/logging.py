@@ -1,6 +1,6 @@
 """launch.logging: loggers for launch files, separate from the process's own.
 
-A launch here writes no files of its own. One comes up where a launch file asks for its handler.
+A launch writes no log files, unless a launch file requests a handler for one.
 """
 
 import logging

@@ -1,7 +1,7 @@
 """launch_pytest's tools: waiting for a process and its output.
 
-Each has a twin that is no coroutine, with `_sync` behind its name. They take the launch's context,
-the process's action, the function that says what is waited for, and a timeout in seconds.
+Each has a synchronous twin with the suffix `_sync`. They take the launch's context, the process's
+action, the condition as a function, and a timeout in seconds.
 """
 
 import asyncio

@@ -1,7 +1,6 @@
 """Entities of a node that executors wait for.
 
-Each thing keeps what arrived until an executor takes it. `ready` and `take` run on
-the loop's thread; what `take` returns runs on the fiber that spins.
+Each entity keeps arrivals until an executor takes them.
 """
 
 import asyncio

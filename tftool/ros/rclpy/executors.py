@@ -1,8 +1,8 @@
 """rclpy's executors: they execute the callbacks of ready entities in a fixed order.
 
-Readiness is decided on the loop's thread; the callbacks run on the fiber that
-spins. Timers wait for their turn within an instant, so a listener's timer sees all
-that the simulator and the broadcasters of that instant have said.
+Readiness is decided on the loop's thread; callbacks run on the spinning fiber. Timers run last
+within an instant, so that a listener's timer sees everything that the simulator and the
+broadcasters sent in that instant.
 """
 
 import asyncio
@@ -349,8 +349,8 @@ class SingleThreadedExecutor(Executor):
 class MultiThreadedExecutor(Executor):
     """Executor that runs callbacks concurrently, as their groups allow, each on its own fiber.
 
-    Who spins calls none of them itself: as in ROS 2, a callback that takes long keeps
-    `spin_until_future_complete` from returning no longer than its future does.
+    The spinning thread calls no callback itself: as in ROS 2, a long callback does not delay the
+    return of `spin_until_future_complete` beyond its future's completion.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:

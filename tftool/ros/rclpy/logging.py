@@ -78,8 +78,8 @@ class RcutilsLogger:
     ) -> bool:
         """Log a line; return whether it was logged.
 
-        `once`, `skip_first` and `throttle_duration_sec` count per call in the code, and hold
-        together: with two of them a line must pass both.
+        `once`, `skip_first` and `throttle_duration_sec` count separately for each calling line.
+        Several together must all permit a line.
 
         Raises:
             ValueError: If one call in the code asks for another level, name or filter than

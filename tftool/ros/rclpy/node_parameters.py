@@ -204,7 +204,7 @@ class NodeParameters:
     def list_parameters(self, prefixes: Sequence[str], depth: int = 0) -> Any:
         """Return the names below some prefixes; without prefixes all.
 
-        `depth` is how many levels below the prefix to list, 0 for all.
+        `depth` is the number of levels below the prefix to list, 0 for all.
 
         Raises:
             TypeError: If the prefixes are no list or tuple of strings, or the depth no integer.

@@ -1,9 +1,8 @@
 """rclpy.event_handler: events about the other ends of a topic.
 
-Told are those that come and go ("matched"), those whose quality does not fit
-("incompatible_qos"), those that are silent for too long ("deadline"), and those that no longer say
-that they are alive ("liveliness"). Here no message is lost on its way, and one name has one type,
-so of the other events there are none.
+Events report endpoints that appear or disappear ("matched"), an incompatible quality of service
+("incompatible_qos"), silence for too long ("deadline"), and a missing sign of life ("liveliness").
+Other events do not occur: no message is lost, and a name has one type.
 """
 
 import asyncio

@@ -1,8 +1,8 @@
 """A node's connection to the world, shared by its publishers, timers and services.
 
-A node's class belongs to the user, who may call an attribute `world`, `graph` or
-`entities` as well: so all of this stands behind one attribute, `_tftool`. What a node
-keeps of itself beside it, its clock and its parameters, is private as in rclpy.
+A node's class belongs to the user, who may use the attributes `world`, `graph` or `entities` as
+well: so tftool's state is in one attribute, `_tftool`. The node's own attributes, such as its clock
+and parameters, are private as in rclpy.
 """
 
 import asyncio

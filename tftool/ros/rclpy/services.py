@@ -1,6 +1,6 @@
 """Clients and services.
 
-What arrived waits until an executor takes it, as with all entities.
+Requests and responses wait until an executor takes them, as with all entities.
 """
 
 import asyncio

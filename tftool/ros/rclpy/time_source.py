@@ -1,7 +1,7 @@
 """rclpy.time_source: clocks that follow `/clock`, apart from the world's own time.
 
-A node's own clock follows the world. Programs that make a `TimeSource` themselves, most of them
-tests, decide with a node's parameter `use_sim_time` whether the clocks they attach follow `/clock`.
+A node's own clock follows the world. For programs that make a `TimeSource` themselves, mostly
+tests, a node's parameter `use_sim_time` decides whether attached clocks follow `/clock`.
 """
 
 from typing import Any

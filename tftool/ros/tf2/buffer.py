@@ -1,7 +1,7 @@
 """tf2_ros: the buffer with waiting lookups.
 
-A listener's transforms go straight into its buffer, whether its node spins or not, so waiting in a
-callback works; and it waits on the world's clock.
+A listener's transforms go directly into its buffer, whether its node spins or not, so that waiting
+in a callback works, on the world's clock.
 """
 
 import asyncio
@@ -47,7 +47,7 @@ class Buffer(BufferCore, BufferInterface):
     ) -> Any:
         """Return the pose of source in target as a geometry_msgs TransformStamped.
 
-        With a timeout the thread waits for it at most so long, by the world's clock.
+        With a timeout the thread waits, at most for that long by the world's clock.
 
         Raises:
             TransformException: If it cannot be given.

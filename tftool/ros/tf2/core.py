@@ -21,8 +21,8 @@ from tftool.ros.tf2.lookup_requests import (
 class BufferCore:
     """Frames and the transforms between them.
 
-    The methods that end in `_core` take what the waiting ones of `Buffer` take, but for
-    the timeout, and refuse at once.
+    The methods that end in `_core` have the arguments of `Buffer`'s waiting methods except the
+    timeout, and refuse at once.
     """
 
     def __init__(self, cache_time: Duration | None = None) -> None:

@@ -1,7 +1,7 @@
 """tf2_geometry_msgs and tf2_sensor_msgs: messages transformed to another frame.
 
-The message that is passed is never changed, nor is the transform. What a transform does to
-each kind of thing is in `tftool.geometry.quantities`.
+Neither the message nor the transform is changed. `tftool.geometry.quantities` applies transforms to
+each kind of quantity.
 """
 
 import array

@@ -1,7 +1,7 @@
 """tf_transformations: Euler angles, quaternions (x, y, z, w) and 4×4 matrices.
 
-`axes` is "s" (about fixed axes) or "r" (about axes that turn along) and three letters;
-"sxyz" is roll, pitch, yaw. The computing is done in `tftool.geometry`.
+`axes` is "s" (fixed axes) or "r" (rotating axes) and three letters; "sxyz" is roll, pitch, yaw.
+`tftool.geometry` does the computation.
 """
 
 import math
@@ -40,7 +40,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, float]) -> None:
     """Report, once per line of a program, angles that look like degrees.
 
-    Only what a line gives first is looked at: an angle may well grow from turn to turn. And only
+    Only the first value of a line is examined, as an angle may grow from turn to turn. And only
     halves and wholes up to 360: 90.0 is no plausible angle in radians.
     """
     line = (frame.f_code, frame.f_lineno)

@@ -93,7 +93,7 @@ class LiveDisplays:
     def round(self) -> dict[str, bytes]:
         """Return the blocks of topics with new messages; many large ones are spread over rounds.
 
-        Called at the rate at which pages are told.
+        Called at the rate of the pages' updates.
         """
         told: dict[str, bytes] = {}
         room = MOST_BYTES

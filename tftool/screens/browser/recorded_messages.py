@@ -112,7 +112,7 @@ def pack_tracks(
 ) -> list[dict[str, Any]]:
     """Pack topics into a block; return their header.
 
-    Each message goes with where its frame was at its own stamp, in the root of its tree.
+    Each message has the pose of its frame at its own stamp, in the root of its tree.
     """
     return [
         {

@@ -1,12 +1,12 @@
 """The page's server: HTTP for the page and a WebSocket for the frames, on one port.
 
-It listens on 127.0.0.1 only and lives in the same event loop as the nodes. Other users of
-this machine reach that address too: whatever tells of frames wants the secret that stands in
-the printed address alone. A page of another site must not read a robot's frames through its
-visitor's browser: the Host and the Origin a browser sends are compared with our own address.
+It listens on 127.0.0.1 only, in the same event loop as the nodes. Other users of this machine reach
+that address too: requests for frames need the secret in the printed address. Pages of other sites
+must not read a robot's frames through their visitor's browser: the browser's Host and Origin are
+compared with our own address.
 
-A page says when it has drawn what it got. One that is slow is simply not sent the poses
-in between: nothing is ever queued for it.
+A page reports when it has drawn the last poses. A slow page does not get the poses in between:
+nothing is ever queued for it.
 """
 
 import asyncio
@@ -397,7 +397,7 @@ class PageServer:
     async def _standalone(self, connection: ServerConnection, query: str) -> Response:
         """Return everything in the buffer as a standalone page, with the present view.
 
-        One is written at a time; it is given up when its asker leaves or the server stops.
+        One file is written at a time; it is given up when its client leaves or the server stops.
         """
         if self._writing is not None:
             return _refuse(

@@ -1,8 +1,8 @@
 """The page of `tftool view` with its data in one file, which works without a server.
 
-What the page's server would be asked is answered by `page/lookups.js` from the packed samples,
-with the same numbers. The file asks no other for anything, and its content security policy
-lets nothing run but the two scripts of ours, by their digests.
+In place of a server, `page/lookups.js` answers from the packed samples, with the same numbers. The
+file loads nothing from others, and its content security policy permits only tftool's two scripts,
+by their digests.
 """
 
 import base64

@@ -25,8 +25,8 @@ Lookup = Callable[[str, str], Transform | None]
 def natural_fixed(snapshot: Snapshot, pair: tuple[str, str]) -> str:
     """Return the default fixed frame of a picture.
 
-    That is the root of the tree in which both frames of the pair are; where no tree has
-    both, the root of the largest one. Empty where there are no frames.
+    It is the root of the tree with both frames of the pair, or else of the largest tree. Empty
+    without frames.
     """
     if pair[0] in snapshot and pair[1] in snapshot:
         roots = {snapshot.frame(name).root for name in pair}

@@ -31,7 +31,7 @@ class Row(NamedTuple):
 def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
     """Return the rows of all trees, one after the other.
 
-    Frames in a loop, which no root reaches, come last.
+    Frames in a loop, which have no root, are last.
     """
     through, last, down, blank = (
         ("|- ", "`- ", "|  ", "   ") if ascii_only else ("├─ ", "└─ ", "│  ", "   ")
@@ -156,7 +156,7 @@ def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
 def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
     """Format the pair's transform: briefly, or in every notation if there is room.
 
-    Columns are as wide for a number above nothing as for one below: nothing shifts.
+    Positive and negative numbers take equal width, so that columns never shift.
     """
     asked, dim = moment.pair, look.ink(look.palette.dim)
     half = max(1, (width - 4) // 2)

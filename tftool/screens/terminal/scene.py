@@ -265,7 +265,7 @@ class Scene:
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
         """Return every frame's age as in rviz: since its stamp last changed.
 
-        In the past what counts is the stamp itself: its time of arrival is not recorded.
+        For past moments the stamp itself decides: the time of arrival is not recorded.
         """
         ages: dict[str, float] = {}
         for info in snapshot.frames:

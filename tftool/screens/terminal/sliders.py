@@ -205,7 +205,7 @@ def slide_range(joint: RobotJoint) -> tuple[float, float]:
 def tip_of(robot: Robot) -> str:
     """Return the link farthest from the root, usually a hand; the first if there are several.
 
-    Links behind a floating joint have no frame here, and do not count.
+    Links below a floating joint have no frame here, and are ignored.
     """
     depth = {robot.root: 0}
     waiting = [robot.root]

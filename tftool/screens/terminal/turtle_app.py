@@ -1,8 +1,8 @@
 """Terminal app: field, tree, a pair of frames, log; keys drive turtle1.
 
-It looks at a world and never changes it, but for the keys it hands to `press`.
-Time in it is the world's; how often it looks is real time, so that a world at
-100 times real time is drawn no more often than one at 1.
+The screen watches a world and never changes it, except by the keys that it passes to `press`. Its
+time is the world's; pictures are drawn at a rate in real time, so that a world at 100 times real
+time is drawn no more often than one at 1.
 """
 
 import asyncio

@@ -29,7 +29,7 @@ from tftool.world.stopper import leave_screen
 def input_events(sent: str) -> Iterable[Message]:
     """Return the keys and mouse moves that Textual parses from a terminal's input.
 
-    The one place that knows where Textual keeps its parser, which it does not promise: where a
+    Only this function uses Textual's parser, which is not part of its public interface: if a
     version has moved it, nothing is made.
     """
     try:
@@ -42,7 +42,7 @@ def input_events(sent: str) -> Iterable[Message]:
 def tolerant(driver: type[Driver]) -> type[Driver]:
     """Return a driver that ignores bytes which are not UTF-8, if it reads bytes itself.
 
-    Textual's own takes them for a failure of the app: a terminal of another encoding, or a
+    Textual's own driver treats them as a failure of the app: a terminal of another encoding, or a
     cat on the keyboard, would end it with a traceback.
 
     Args:

@@ -1,6 +1,6 @@
 """A link's shared state for its topics, services and actions.
 
-The link makes them and they ask it; this narrow part between the two leaves one direction.
+The link makes its parts, and they use this small part of it, so that imports go in one direction.
 """
 
 from typing import Final
@@ -94,8 +94,8 @@ class LinkContext:
     def endpoint(self, gid: bytes, topic: str, ros_type: str) -> Endpoint:
         """Return the publisher of a message.
 
-        A message can overtake the word that its publisher is there. Until that is known, the
-        publisher is named by its gid, and fits what any subscription asks for.
+        A message can arrive before the announcement of its publisher. Until then, the publisher is
+        named by its gid, and matches any subscription.
         """
         entity = self._sender(gid, topic)
         if entity is None:

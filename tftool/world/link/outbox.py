@@ -1,8 +1,7 @@
 """Queue from our event loop to the transport's sending thread.
 
-To send blocks while a reader takes nothing, up to a second until it counts as gone.
-That may hold up this thread, and nothing else: a process that is stopped with
-Ctrl-Z must not stop the worlds of the others.
+Sending blocks while a reader takes nothing, up to a second until it counts as gone. That may block
+this thread, but nothing else: a process stopped with Ctrl-Z must not stop the worlds of the others.
 """
 
 import contextlib
@@ -53,8 +52,8 @@ class Outbox:
     def put(self, send: Callable[[], object], size: int = 0) -> None:
         """Queue a call after all earlier ones; exceptions in it are ignored.
 
-        Where too much waits, and the sender has sent nothing for `LONGEST_WAIT`, it is
-        dropped: a call that never returns must not hold up the loop for ever.
+        If too much waits, and nothing was sent for `LONGEST_WAIT`, the call is dropped: a call that
+        never returns must not block the loop for ever.
 
         Args:
             send: Sends it.
@@ -96,7 +95,7 @@ class Outbox:
     def _let_catch_up(self) -> None:
         """Wait while the sender makes progress.
 
-        Without it, a loop that never rests would keep the interpreter to itself.
+        Without it, a busy loop would block the interpreter's other threads.
         """
         pause = threading.Event()
         sent, idle = self._sent, 0

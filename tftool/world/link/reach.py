@@ -1,7 +1,7 @@
 """Declarations of each middleware: options, contradictions, and names for sentences.
 
-A middleware derives from `Reach` in its folder, as `zenoh/reach.py` does; one line in
-`link_options.MIDDLEWARES` adds it. Commands know no middleware by its name.
+A middleware derives from `Reach` in its folder, as in `zenoh/reach.py`; one line in
+`link_options.MIDDLEWARES` adds it. Commands do not name middlewares.
 """
 
 from collections.abc import Mapping

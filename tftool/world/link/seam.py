@@ -1,10 +1,9 @@
 """Interface between a middleware and a link: a ROS graph, with messages as CDR.
 
 A middleware is a folder beside `zenoh/` with a class that has the methods of `Middleware`, a
-`Reach` that declares its options and joins a session, and one line in
-`link_options.MIDDLEWARES`. Nothing else of the link knows which one carries it: values
-go in at the bridges (`topics`, `tf`, `services`, `actions`), CDR comes out here. Whatever a
-middleware calls back, it calls on the event loop.
+`Reach` that declares its options and joins a session, and one line in `link_options.MIDDLEWARES`.
+The rest of the link does not depend on it: the bridges (`topics`, `tf`, `services`, `actions`) pass
+values, which are serialised to CDR here. A middleware makes all its callbacks on the event loop.
 """
 
 import asyncio
@@ -138,7 +137,7 @@ class Middleware(Protocol):
     ) -> Callable[[], None]:
         """Announce a node's subscription until the returned function is called.
 
-        Several subscriptions of a process share what one `listen` brings in.
+        Several subscriptions of a process share the messages of one `listen`.
         """
 
     def listen(

@@ -1,8 +1,8 @@
 """A session: one world connected to the processes that share it.
 
-What nodes here publish goes out, what others publish comes in, and neither goes
-round: what came in over the link is never sent out again. The world does not know
-the difference; a service of another process is a service of the world.
+Messages of nodes here are sent out, messages of others are received, and a received message is
+never sent out again. For the world there is no difference; a service of another process is a
+service of the world.
 """
 
 import asyncio
@@ -49,9 +49,9 @@ class Link(LinkContext):
     def __init__(self, options: Options) -> None:
         """Join the processes of this machine, and those in the reach of `options`.
 
-        Returns at once when it stands alone. No other process of this machine can join
-        in between until `attach`, `settle` or `close` is called, so that no two of them
-        decide at once whether to host.
+        Returns at once if there is no other process. No other process of this machine can join
+        until `attach`, `settle` or `close` is called, so that no two of them decide at once whether
+        to host.
 
         Raises:
             LinkError: If there is no place to meet, or the middleware is missing or refuses.
@@ -196,7 +196,7 @@ class Link(LinkContext):
     def _name_topics(self) -> None:
         """Register others' topics as topics of the world.
 
-        Those that no process has any more, here or there, are forgotten again.
+        Topics that no process has any more are forgotten.
         """
         for entity in self.graph.entities(PUBLISHER):
             known = entity.ros_type not in _NAMED or entity.name in self.world.topics()

@@ -23,9 +23,9 @@ from tftool.world.world import TransformMessage, World
 class TopicBridge:
     """Bridge of an ordinary topic.
 
-    Nodes that state what they publish and subscribe, and with what quality, are shown one
-    by one; all others together as the first node of the world. Incoming messages are taken once
-    for all, except by latched subscriptions: each gets earlier messages.
+    Nodes that declare their publishers and subscriptions, with their quality of service, are shown
+    one by one; all others together as the first node of the world. Incoming messages are received
+    once for all, except for latched subscriptions, each of which gets earlier messages.
     """
 
     def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:

@@ -22,8 +22,7 @@ CARROT_PERIOD: Duration = seconds(0.1)
 class Broadcaster(Node):
     """Broadcasts a turtle's frame at every pose the turtle publishes.
 
-    The pose carries no stamp; it gets the moment of its reception, which is the
-    moment of the tick.
+    The pose has no stamp; it gets the moment of its reception, which is that of the tick.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -179,7 +178,7 @@ USAGE = "static_turtle_tf2_broadcaster child_frame_name x y z roll pitch yaw"
 def static_turtle(arguments: Sequence[str]) -> TransformStamped:
     """Parse the seven arguments of the tutorial's program.
 
-    Mind the order: roll, pitch, yaw, unlike static_transform_publisher's.
+    Note the order: roll, pitch, yaw, unlike static_transform_publisher's.
 
     Args:
         arguments: child_frame_name x y z roll pitch yaw.
@@ -215,10 +214,10 @@ def _number(text: str) -> float:
 class Noise(Node):
     """Broadcasts a frame beside another one, with noise and accumulating drift.
 
-    Each broadcast is off by an error of its own, normally distributed in each coordinate and
-    about each axis. The drift is a random walk in the plane: after t seconds it is normally
-    distributed too, with the square root of t times the value for one second. The same seed
-    gives the same errors on every machine.
+    Each broadcast has its own error, normally distributed in each coordinate and about each axis.
+    The drift is a random walk in the plane: after t seconds it is normally distributed, with the
+    square root of t times the value for one second. The same seed gives the same errors on every
+    machine.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST

@@ -21,8 +21,8 @@ TUTORIAL_SPAWN = (4.0, 2.0, 0.0)
 class Follower(Node):
     """Spawns a turtle and steers it towards a frame by lookups.
 
-    With a delay it goes where the leader was that long ago: the follower now, the
-    leader then, and a frame in between that stands still.
+    With a delay it goes to the leader's earlier place: the follower now, the leader then, relative
+    to a fixed frame.
     """
 
     def __init__(
@@ -118,8 +118,8 @@ class Follower(Node):
     def _too_old(self, stamp: Stamp, now: Stamp) -> bool:
         """Whether the data is too old to follow; logs when that changes.
 
-        A question about a given moment is refused where data is missing; only the
-        latest can be old unnoticed. Statics, stamped 0, never are.
+        A lookup at a given moment is refused if data is missing; only the latest transform can be
+        old without an error. Statics, stamped 0, are never old.
         """
         if self.stale_after is None or self.delay != 0 or stamp == LATEST:
             return False
@@ -142,8 +142,8 @@ class Follower(Node):
 class Spawning:
     """The tutorial's state machine for spawning, stepped by a node's timer.
 
-    One step asks for the turtle, a later one sees the answer, and only the one
-    after that begins: with a period of one second, three seconds after the start.
+    One step requests the turtle, a later one sees the answer, and the next one begins: with a
+    period of one second, three seconds after the start.
     """
 
     def __init__(self, node: Node, x: float, y: float, theta: float, name: str) -> None:

@@ -61,9 +61,9 @@ def joint_state(stamp: Stamp, positions: Mapping[str, float]) -> Any:
 class RobotStatePublisher(Node):
     """Broadcasts a robot's frames: fixed joints at once, others from joint states.
 
-    As ROS 2's node of that name does it: a message whose names and positions differ in number
-    is ignored, only the joints it names move, a joint that mimics another follows unless the
-    message names it too, and samples carry the stamp of the message.
+    As in ROS 2's node of that name, a message with different numbers of names and positions is
+    ignored, only the named joints move, a mimic joint follows unless the message names it too, and
+    samples have the stamp of the message.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -195,8 +195,8 @@ class RobotStatePublisher(Node):
 class JointStatePublisher(Node):
     """Publishes a robot's joint positions repeatedly; `move` changes them.
 
-    As ROS 2's node of that name: a joint begins at zero where its limits allow it, else in
-    the middle of them, and one that mimics another follows it.
+    As in ROS 2's node of that name, a joint begins at zero if its limits allow it, else in their
+    middle, and a mimic joint follows its joint.
     """
 
     phase: ClassVar[Phase] = Phase.SIMULATE

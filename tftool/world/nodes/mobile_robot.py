@@ -1,9 +1,8 @@
 """A mobile robot's usual frames: map, odom, base_link, laser_link.
 
-Where it truly is, only these nodes know. Odometry adds up small errors and
-drifts; localisation corrects it now and then, so odom jumps in the map; a laser
-sees one point of a wall, which therefore stays put in the map and wanders in
-odom.
+Only these nodes know its true pose. Odometry adds up small errors and drifts; localisation corrects
+it now and then, so that odom jumps in the map; a laser sees one point of a wall, which therefore is
+fixed in the map and moves in odom.
 """
 
 import math
@@ -155,7 +154,7 @@ class MapCorrection(Node):
 class LaserPoint(Node):
     """Broadcasts one point of a wall as the laser sees it: laser_link to laser_point.
 
-    Nothing is broadcast before the laser's place on the robot is known.
+    Nothing is broadcast before the laser's mount on the robot is known.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST
@@ -196,7 +195,7 @@ class LaserPoint(Node):
 class ScanMatcher(Node):
     """Broadcasts the laser's motion from its scans, in a separate tree.
 
-    It knows nothing of the published mount: the laser is where it truly is on the robot.
+    It does not use the published mount: the laser has its true pose on the robot.
     """
 
     phase: ClassVar[Phase] = Phase.BROADCAST

@@ -237,8 +237,8 @@ class Player(Node):
     def _send_known(self, moment: Stamp) -> None:
         """Send what a lookup at a time needs.
 
-        The last transform of each link alone would not: their stamps differ, and a lookup of two
-        of them wants a moment between two samples of the one that is ahead.
+        The last transform of each link would not suffice: their stamps differ, and a lookup of two
+        links needs a moment between two samples of the one that is ahead.
         """
         last = self._timeline.place(moment, after=True)
         first = last

@@ -57,9 +57,9 @@ class FarTurtle:
 class FarTurtles(Node):
     """A remote simulator, which is drawn like a local one.
 
-    The background is asked of the node that sends the poses, by its parameters; the strokes of
-    the pens too, where it is a simulator of ours. Topics of ROS 2's own turtlesim tell no pen:
-    there the trail is what turtles drew since the first look if all have the pen they begin with.
+    The background is read from the parameters of the node that sends the poses; the strokes of the
+    pens too, if it is tftool's simulator. ROS 2's own turtlesim does not publish its pens: there
+    the trail is the path of the turtles since the first look if all pens have their first settings.
 
     Attributes:
         trail: Lines of the pens.

@@ -1,9 +1,9 @@
 """Trails of the turtles' pens: strokes to draw, the colour under a point, and their transfer to
 other processes.
 
-turtlesim's topics tell no pen, and no stroke from before one listened. A simulator of ours
-therefore answers a hidden service, `<node>/_drawing`: lists of services leave it out, as in ROS 2
-they do whatever begins with an underscore.
+turtlesim's topics contain neither pens nor earlier strokes. tftool's simulator therefore has a
+hidden service, `<node>/_drawing`: as in ROS 2, lists of services omit names that begin with an
+underscore.
 """
 
 import math
@@ -95,8 +95,8 @@ class _Pixels:
     def paint(self, segment: Segment) -> None:
         """Set every pixel whose centre is on the stroke, which has square ends.
 
-        A stroke is a rectangle, `width` across, that reaches half a width beyond
-        both ends. The pixels nearest to the ends belong to it however thin it is.
+        A stroke is a rectangle of this `width` that exceeds both ends by half a width. The pixels
+        nearest to the ends belong to it, however thin it is.
         """
         number = self._number(segment.color)
         x0, y0 = segment.x0 * PIXELS_PER_METRE, (FIELD - segment.y0) * PIXELS_PER_METRE

@@ -116,8 +116,8 @@ class Turtle:
     def command(self, twist: Twist2D, holonomic: bool, now: Stamp, say: Say) -> None:
         """Set the velocity command, replacing all of the previous one.
 
-        One exception: a simulator that is not holonomic, as turtlesim is not, keeps the
-        sideways speed of before until the timeout or the rotate action clears it.
+        One exception: a simulator that is not holonomic, like turtlesim, keeps the previous
+        sideways speed until the timeout or the rotate action clears it.
         """
         self._settled = False
         self._commanded = now

@@ -136,7 +136,7 @@ class DrawSquare(Node):
 class Mimic(Node):
     """Makes one turtle copy another's motion.
 
-    A pose's speed is a magnitude: where the leader reverses, the copy drives forward.
+    A pose's speed is a magnitude: if the leader reverses, the copy drives forward.
     """
 
     def __init__(
@@ -177,8 +177,8 @@ _STEPS: Final = 360
 class IdleDrawing(Node):
     """Makes an idle turtle draw a rose of four petals repeatedly.
 
-    It begins when no command came for `PATIENCE`, and ends with the next command that is
-    not its own, with `touch`, and while `is_alone` says that others are there.
+    It begins after `PATIENCE` without a command, and ends with the next foreign command, with
+    `touch`, and while `is_alone` reports that others are there.
 
     Attributes:
         is_drawing: Whether it does now.

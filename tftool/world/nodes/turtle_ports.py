@@ -38,8 +38,8 @@ MOST_WAITING = 10_000
 class TickQueue:
     """Queue of work between two ticks, run in order at the next one.
 
-    What arrives in the very instant of a tick waits for the one after it, so that the order
-    within an instant does not matter.
+    Arrivals in the instant of a tick wait for the next one, so that the order within an instant
+    does not matter.
     """
 
     def __init__(self, clock: Clock) -> None:
@@ -57,7 +57,7 @@ class TickQueue:
     def ask(self, work: Work[T]) -> "asyncio.Future[T]":
         """Queue work for the next tick, and wait for its result.
 
-        The future's exception is a TftoolError where too much waits already.
+        The future's exception is a TftoolError if too many requests wait already.
         """
         answer: asyncio.Future[T] = asyncio.get_running_loop().create_future()
 

@@ -33,11 +33,11 @@ BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
 class Turtlesim(Node):
     """The turtle simulator, with ticks every 16 ms.
 
-    Whatever arrives (commands, services, goals) waits for the next tick; then every
-    turtle is updated once, in the order of the names. Topics of a turtle: `pose` out
-    at every tick, `cmd_vel` in, `color_sensor` out at every tick while it
-    has subscribers. Services: spawn, kill, clear, reset, and of each turtle
-    teleport_absolute, teleport_relative, set_pen. Action of each turtle: rotate_absolute.
+    Arrivals (commands, services, goals) wait for the next tick; then every turtle is updated once,
+    in the order of the names. Topics of a turtle: `pose` is sent at every tick, `cmd_vel` is
+    received, `color_sensor` is sent at every tick while it has subscribers. Services: spawn, kill,
+    clear, reset, and for each turtle teleport_absolute, teleport_relative, set_pen. Action of each
+    turtle: rotate_absolute.
 
     Parameters: background_r, background_g, background_b (0 to 255), holonomic.
 
@@ -164,7 +164,7 @@ class Turtlesim(Node):
     def close(self) -> None:
         """Close everything, and refuse waiting requests.
 
-        The turtles stay where they are, for a look at the end.
+        The turtles stay at their places, so that the end can be seen.
         """
         for ports in self._ports.values():
             ports.close()

@@ -1,7 +1,7 @@
 """Services over DDS as in ROS 2 with Cyclone: two topics, each message preceded by its number.
 
-Fast DDS carries that number beside the message, out of reach of the library; what speaks it
-is refused by name.
+Fast DDS sends that number beside the message, where the library cannot read it; its services are
+refused by name.
 """
 
 import asyncio

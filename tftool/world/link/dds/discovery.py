@@ -1,7 +1,7 @@
 """Discovery in DDS: built-in topics, and what ROS 2's nodes publish about themselves.
 
-DDS knows participants and their endpoints; which node an endpoint belongs to is written on
-`ros_discovery_info`, which every participant of ROS 2 publishes.
+DDS knows participants and their endpoints; the node of an endpoint is published on
+`ros_discovery_info`, by every participant of ROS 2.
 """
 
 import threading

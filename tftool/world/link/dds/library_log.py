@@ -22,10 +22,10 @@ _NUMBER: Final = re.compile(r"[0-9a-f.]*\d[0-9a-f.]*")
 class LibraryLog:
     """The library's error output, read through a pipe and passed to listeners.
 
-    The library has no function that says where they go: a domain writes to the `stderr` of C as
-    it was when the domain was made. That variable names our pipe for so long. The pipe's end in
-    the library never blocks, what finds no room is dropped: the library holds locks while it
-    writes, so neither a full pipe nor Python's own lock, as in a callback from C, may stop it.
+    The library has no function that redirects them: a domain writes to C's `stderr` at the time of
+    its creation. During that time the variable names our pipe. The library's end of the pipe never
+    blocks, and text that does not fit is dropped: the library holds locks while it writes, so
+    neither a full pipe nor Python's own lock, as in a callback from C, may stop it.
     """
 
     def __init__(self) -> None:

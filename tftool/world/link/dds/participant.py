@@ -1,8 +1,7 @@
 """This process as a DDS participant: readers and writers, and their threads.
 
-`cyclonedds` is imported with this module, and this module when `DdsReach` joins. What the
-library calls back on its own threads goes through an inbox to the event loop; data written
-goes through an outbox.
+`cyclonedds` is imported with this module, and this module when `DdsReach` joins. Callbacks on the
+library's threads go through an inbox to the event loop; written data goes through an outbox.
 """
 
 import contextlib
@@ -328,7 +327,7 @@ class TopicWriter:
 def _end(entity: Any) -> None:
     """Delete a library object now, whatever still refers to it.
 
-    The library itself does so when the last reference is gone, and has no other way.
+    The library itself does so, and only so, when the last reference is gone.
     """
     entity.__del__()
 

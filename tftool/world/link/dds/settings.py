@@ -1,7 +1,7 @@
 """DDS's network: ROS 2's environment variables and options, as Cyclone's configuration.
 
-Nothing here sends anything. Without a word from the user all of it stays on the loopback
-of this machine; the library's own defaults would send to the whole network at once.
+Nothing here sends anything. By default everything stays on the loopback of this machine; the
+library's own defaults would send to the whole network at once.
 """
 
 import ipaddress

@@ -1,7 +1,7 @@
 """Client of one server in its own thread: connects, subscribes, and reconnects.
 
-`websockets` is imported with this module, and this module when `FoxgloveReach` joins. What comes
-in goes through an inbox to the event loop of the world.
+`websockets` is imported with this module, and this module when `FoxgloveReach` joins. Received data
+goes through an inbox to the event loop of the world.
 """
 
 import asyncio

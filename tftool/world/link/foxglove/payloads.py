@@ -41,8 +41,8 @@ class RosTopic(NamedTuple):
 def ros_topic(channel: FoxgloveChannel) -> RosTopic:
     """Return the topic and type for a channel.
 
-    Foxglove takes its own transforms from any topic, so each such channel is a publisher of
-    `tf`, or of `tf_static` where its name ends so.
+    Foxglove reads its own transforms from any topic, so each such channel is a publisher of `tf`,
+    or of `tf_static` if its name ends so.
     """
     name = channel.topic.strip("/")
     if _is_foreign(channel):

@@ -1,7 +1,7 @@
 """Messages of the Foxglove WebSocket protocol that a reader needs.
 
-A server sends JSON about its channels, and binary messages of those subscribed. All of it
-comes from strangers: every field is checked, and every store has a limit.
+A server sends JSON about its channels, and binary messages of subscribed ones. All of it is
+untrusted: every field is checked, and every store has a limit.
 
 Source: the protocol's description in foxglove/ws-protocol, and foxglove-sdk.
 """

@@ -49,8 +49,8 @@ class Opening:
     def __init__(self, options: Options, reach: ZenohReach) -> None:
         """Join; immediately if there is no other process.
 
-        No other process of this machine can do so in between until `settle` or `close` is
-        called, so that no two of them decide at once whether to host.
+        No other process of this machine can enter until `settle` or `close` is called, so that no
+        two of them decide at once whether to host.
 
         Raises:
             LinkError: If there is no place to meet, zenoh is missing or refuses, or no

@@ -322,6 +322,6 @@ def _named_attachment(raw: bytes) -> Attachment:
 def gid_of(token: str) -> bytes:
     """Return a publisher's 16-byte gid, derived from its token.
 
-    ROS 2 makes them from the token too, by another hash; only equality counts.
+    ROS 2 also makes them from the token, with another hash; only equality matters.
     """
     return hashlib.blake2b(token.encode(), digest_size=16).digest()

@@ -1,13 +1,13 @@
 """Meeting place of this machine's processes: a folder that only its owner may enter.
 
-Every member of a session has a socket there, named after itself. Who comes later
-connects to all that answer and sweeps away those whose process is gone, so there is
-no daemon, and no process whose death matters. A lock held while a process joins keeps two
-of them from both believing they are the first.
+Every member of a session has a socket there, named after itself. A later process connects to all
+that answer, and removes the sockets of ended ones. So there is no daemon, and no process whose end
+matters. A lock held while a process joins prevents two of them from both believing they are the
+first.
 
-Other users of the machine are kept out: sockets lie in folders of mode 700. A path that no
-socket can have is replaced by a short folder of the user's own, never by a port. Where the
-platform has no such sockets, ports of the loopback are guarded by a password in the folder.
+Other users of the machine are kept out: sockets are in folders of mode 700. If a path is too long
+for a socket, a short folder of the user is used instead, never a port. On platforms without such
+sockets, ports of the loopback are guarded by a password in the folder.
 """
 
 import contextlib
@@ -57,8 +57,8 @@ _LONGEST_LIST = 2**24
 def folder(environment: Mapping[str, str] = os.environ) -> Path:
     """Return the folder with this user's sessions.
 
-    `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the
-    user's own beside other temporary files.
+    `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the user among the
+    temporary files.
 
     Raises:
         UsageError: If `TFTOOL_SESSION_DIR` is a relative path: commands run in two folders
@@ -268,7 +268,7 @@ def _unusable(path: Path, error: OSError) -> str:
 def _fitting(place: Path) -> Path:
     """Return the folder for a place: itself, or a short one if sockets need a shorter path.
 
-    All processes that share the place find the same one.
+    All processes with the same folder get the same one.
     """
     if not HAS_UNIX_SOCKETS or _holds_sockets(place):
         return place
@@ -299,8 +299,8 @@ def _password_in(folder: Path) -> str:
 def page_secret(home: Path | None = None) -> str:
     """Return the secret in this user's page addresses: stable, from the sessions' folder.
 
-    An open page then finds the server that takes the place of the one it came from. Where the
-    folder cannot be used the secret is new.
+    So an open page finds the successor of its server. If the folder cannot be used, the secret is
+    new.
     """
     place = folder() if home is None else home
     file = place / PAGE_SECRET
