@@ -55,6 +55,17 @@ def test_topics_are_told_by_types_ends_and_numbers(node, ros_runtime):
     assert node.count_publishers("silent") == node.count_subscribers("silent") == 0
 
 
+def test_the_subscriptions_of_other_processes_are_counted_and_described(node, ros_runtime):
+    from tftool.world.endpoints import SUBSCRIPTION, USUAL, Endpoint
+
+    far = Endpoint(SUBSCRIPTION, "far", "chatter", "std_msgs/msg/String", USUAL, is_remote=True)
+    ros_runtime.ask(lambda: ros_runtime.world.endpoints.add(far))
+
+    assert node.count_subscribers("chatter") == 1
+    (seen,) = node.get_subscriptions_info_by_topic("chatter")
+    assert (seen.node_name, seen.node_namespace) == ("far", "/")
+
+
 def test_what_one_node_has_can_be_asked_by_its_name(node):
     import rclpy
     from rclpy.node import NodeNameNonExistentError

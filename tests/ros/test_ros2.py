@@ -194,6 +194,54 @@ def test_one_field_of_a_topic_is_echoed(ros_runtime, tmp_path):
     assert "Pose has no field 'thet'; did you mean 'theta'?" in str(failure)
 
 
+def test_messages_are_echoed_in_part(ros_runtime, tmp_path):
+    from tftool.ros.host.program import Program
+
+    said = "{name: [long, ä], position: [1, 2, 3, 4]}"
+    words = ["topic", "pub", "/joints", "sensor_msgs/msg/JointState", said, "-r", "10"]
+    body = user_code.whole(ros2.body(words, Workspace(tmp_path), lambda line: None))
+    ros_runtime.ask(lambda: [Program(ros_runtime.world, "pub", body, on_exit=lambda _: None)])
+    ros_runtime.sleep(0.5)
+
+    def echo(*options):
+        return ran(ros_runtime, tmp_path, "topic", "echo", "/joints", "--once", *options)[1]
+
+    assert echo("--csv") == ["0,0,,long,ä,1.0,2.0,3.0,4.0"]
+    assert echo("--field", "position", "-l", "2", "--flow-style") == ["[1.0, 2.0, '...']", "---"]
+    assert echo("--no-arr")[-4:-2] == [
+        "position: '<sequence type: double, length: 4>'",
+        "velocity: '<sequence type: double, length: 0>'",
+    ]
+    assert echo("--no-str")[5:7] == ["name:", "- '<string length: <4>>'"]
+    assert echo("--truncate-length", "3", "--field", "name")[0] == "- lon..."
+    assert echo("--filter", "m.position[3] == 4", "--field", "name") == ["- long", "- ä", "---"]
+    fails = ("topic", "echo", "/joints", "--filter", "m.pos")
+    assert "the expression of --filter fails" in str(ran(ros_runtime, tmp_path, *fails)[0])
+    with pytest.raises(UsageError, match=r"'m' is no expression|'m is' is no expression"):
+        ros2.body(["topic", "echo", "/joints", "--filter", "m is"], Workspace(tmp_path), print)
+
+
+def test_a_message_of_many_elements_is_cut_as_in_ros_unless_whole(ros_runtime, tmp_path):
+    from tftool.ros.host.ros2_words import Shortening, plain
+
+    assert plain(list(range(5)), Shortening(length=3)) == [0, 1, 2, "..."]
+    assert plain("abcde", Shortening(length=5)) == "abcde"
+    assert plain("abcde") == "abcde"
+
+
+def test_lists_are_counted_and_described(ros_runtime, tmp_path):
+    _, lines = ran(ros_runtime, tmp_path, "topic", "list", "-v", "--no-daemon", "--spin-time", "1")
+    assert lines[0] == "Published topics:"
+    assert " * /turtle1/pose [turtlesim/msg/Pose] 1 publisher" in lines
+    subscribed = lines[lines.index("Subscribed topics:") :]
+    assert " * /turtle1/cmd_vel [geometry_msgs/msg/Twist] 1 subscriber" in subscribed
+    counts = [
+        ran(ros_runtime, tmp_path, noun, "list", "-c")[1] for noun in ("node", "action", "service")
+    ]
+    assert counts[:2] == [["1"], ["1"]]
+    assert int(counts[2][0]) == len(ran(ros_runtime, tmp_path, "service", "list")[1])
+
+
 def test_a_topic_is_published_and_described_with_the_quality_asked_for(ros_runtime, tmp_path):
     from tftool.ros.host.program import Program
 
@@ -208,6 +256,8 @@ def test_a_topic_is_published_and_described_with_the_quality_asked_for(ros_runti
     assert "  Reliability: BEST_EFFORT" in lines
     assert "  History (Depth): KEEP_LAST (7)" in lines
     assert "  Durability: TRANSIENT_LOCAL" in lines
+    assert "  Deadline: Infinite" in lines
+    assert "  Liveliness: AUTOMATIC" in lines
     assert "Subscription count: 0" in lines
 
 
@@ -230,6 +280,12 @@ def test_parameters_are_described_and_loaded_from_a_file(ros_runtime, tmp_path):
     assert ran(ros_runtime, tmp_path, "param", "get", "/turtlesim", "background_b")[1] == [
         "Integer value is: 9"
     ]
+    shown = ran(ros_runtime, tmp_path, "param", "get", "--hide-type", "/turtlesim", "background_b")
+    assert shown[1] == ["9"]
+    typed = ran(ros_runtime, tmp_path, "param", "list", "/turtlesim", "--param-type")[1]
+    assert "  background_b (type: integer)" in typed
+    refused = ran(ros_runtime, tmp_path, "param", "delete", "/turtlesim", "background_b")
+    assert refused[1][0].startswith("Deleting parameter failed: ")
     _, lines = ran(ros_runtime, tmp_path, "param", "describe", "/turtlesim", "background_b")
     assert lines[:2] == ["Parameter name: background_b", "  Type: integer"]
 
@@ -291,6 +347,10 @@ def test_executables_and_prefixes_of_packages_are_shown(ros_runtime, tmp_path):
     assert ran(ros_runtime, tmp_path, "pkg", "executables", "mine")[1] == ["mine go"]
     assert "turtlesim mimic" in ran(ros_runtime, tmp_path, "pkg", "executables")[1]
     assert ran(ros_runtime, tmp_path, "pkg", "prefix", "mine")[1] == [str(package)]
+    (package / "package.xml").write_text("<package>\n<name>mine</name>\n<x a='b'>one</x></package>")
+    assert ran(ros_runtime, tmp_path, "pkg", "xml", "mine")[1][1] == "<name>mine</name>"
+    assert ran(ros_runtime, tmp_path, "pkg", "xml", "mine", "-t", "x")[1] == ["one"]
+    assert ran(ros_runtime, tmp_path, "pkg", "prefix", "--share", "turtlesim")[0] == 0
 
 
 def test_what_is_not_there_is_named(ros_runtime, tmp_path):

@@ -8,6 +8,7 @@ import argparse
 import itertools
 import re
 import statistics
+import textwrap
 from collections.abc import Callable, Sequence
 from copy import copy
 from typing import Any
@@ -18,6 +19,7 @@ from tftool.base.stamps import seconds
 from tftool.messages.classes import INTERFACES
 from tftool.messages.parameter_values import value_of
 from tftool.ros.host import executables, names, program, ros2_words
+from tftool.ros.host.package_files import read_text
 from tftool.ros.host.values import stamp_of
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.rclpy import core
@@ -54,9 +56,6 @@ PATIENCE = 10.0
 UNKNOWN = 1
 """Exit status when the named thing does not exist."""
 
-SESSIONLESS = ("interface", "pkg")
-"""Commands that files answer: no session is asked."""
-
 
 def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[], None]:
     """Return the body of a `Program` that runs `ros2 WORDS` and prints by `show`.
@@ -65,7 +64,7 @@ def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[]
         UsageError: If the words are no command, or a type they name is not known.
     """
     asked = ros2_words.parse(words)
-    if asked.noun in SESSIONLESS:
+    if asked.noun in ros2_words.SESSIONLESS:
         text = _FROM_FILES[asked.noun, asked.verb](asked, workspace)
         return lambda: _show_lines(text, show)
     run = _COMMANDS[asked.noun, asked.verb]
@@ -115,9 +114,13 @@ def _full(name: str) -> str:
 
 
 def _list(pairs: Any, asked: argparse.Namespace, show: Print, *, hidden: bool) -> None:
-    for name, kinds in pairs:
-        if hidden or not topic_or_service_is_hidden(name):
-            show(f"{name} [{', '.join(kinds)}]" if asked.show_types else name)
+    seen = [(name, kinds) for name, kinds in pairs
+            if hidden or not topic_or_service_is_hidden(name)]  # fmt: skip
+    if getattr(asked, f"count_{asked.noun}s"):
+        show(str(len(seen)))
+        return
+    for name, kinds in seen:
+        show(f"{name} [{', '.join(kinds)}]" if asked.show_types else name)
 
 
 # Topics
@@ -126,7 +129,19 @@ def _list(pairs: Any, asked: argparse.Namespace, show: Print, *, hidden: bool) -
 def _topic_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
     _listen(node)
     pairs = node.get_topic_names_and_types()
-    _list(pairs, asked, show, hidden=asked.include_hidden_topics)
+    if not asked.verbose:
+        _list(pairs, asked, show, hidden=asked.include_hidden_topics)
+        return
+    for title, role, count in (
+        ("Published", "publisher", node.count_publishers),
+        ("\nSubscribed", "subscriber", node.count_subscribers),
+    ):
+        _show_lines(f"{title} topics:", show)
+        for name, kinds in pairs:
+            hidden = topic_or_service_is_hidden(name) and not asked.include_hidden_topics
+            if not hidden and (number := count(name)):
+                ends = f"{number} {role}{'s' if number > 1 else ''}"
+                show(f" * {name} [{', '.join(kinds)}] {ends}")
 
 
 def _type_of_topic(node: Node, topic: str) -> str:
@@ -195,21 +210,33 @@ def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None
     # What a topic carries behind an action or a service is no message of its own file.
     is_derived = "/action/" in name or "/srv/" in name
     kind = INTERFACES.part(name) if is_derived else ros2_words.interface(name, "msg")
-    node.create_subscription(kind, _full(asked.topic), callback, profile)
+
+    def take(message: Any) -> None:
+        try:
+            if asked.wanted is not None and not asked.wanted(message):
+                return
+        except Exception as error:
+            raise UsageError(f"the expression of --filter fails: {error}") from error
+        callback(message)
+
+    node.create_subscription(kind, _full(asked.topic), take, profile)
 
 
 def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    import yaml
-
     heard: list[Any] = []
+    length = None if asked.full_length else asked.truncate_length
+    short = ros2_words.Shortening(length, asked.no_arr, asked.no_str)
 
     def echo(message: Any) -> None:
         heard.append(None)
         if asked.once and len(heard) > 1:
             return
-        shown = ros2_words.plain(message if asked.field is None else _field(message, asked.field))
-        is_single = not isinstance(shown, dict | list)
-        _show_lines(str(shown) if is_single else yaml.safe_dump(shown, sort_keys=False), show)
+        value = message if asked.field is None else _field(message, asked.field)
+        shown = ros2_words.plain(value, short)
+        if asked.csv:
+            show(ros2_words.as_csv(shown))
+            return
+        _show_lines(ros2_words.as_yaml(shown, flow_style=asked.flow_style), show)
         show("---")
 
     _heard(node, asked, echo)
@@ -361,7 +388,8 @@ def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
     def publish() -> None:
         nonlocal sent
         sent += 1
-        show(f"publishing #{sent}: {asked.message!r}")
+        if sent % asked.each == 0:
+            show(f"publishing #{sent}: {asked.message!r}")
         publisher.publish(asked.message)
 
     publish()
@@ -413,11 +441,16 @@ def _service_call(node: Node, asked: argparse.Namespace, show: Print) -> None:
     if not client.service_is_ready():
         show("waiting for service to become available...")
         client.wait_for_service()
-    show(f"requester: making request: {asked.message!r}")
-    show("")
-    response = client.call(asked.message)
-    show("response:")
-    show(repr(response))
+    rate = None if asked.rate is None else node.create_rate(asked.rate)
+    while True:
+        show(f"requester: making request: {asked.message!r}")
+        show("")
+        response = client.call(asked.message)
+        show("response:")
+        show(repr(response))
+        if rate is None or not core.ok():
+            return
+        rate.sleep()
 
 
 def _parameters(node: Node, name: str) -> AsyncParameterClient:
@@ -442,17 +475,24 @@ def _names_of_parameters(node: Node, client: AsyncParameterClient) -> list[str]:
 
 
 def _param_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
+    def each(owner: str) -> None:
+        client = _parameters(node, owner)
+        known = _names_of_parameters(node, client)
+        if not asked.param_type:
+            _show_lines("\n".join(f"  {name}" for name in known), show)
+            return
+        for one in _answer(node, client.describe_parameters(known)).descriptors:
+            show(f"  {one.name} (type: {_TYPES.get(one.type, 'not set')})")
+
     if asked.node is not None:
-        for name in _names_of_parameters(node, _parameters(node, asked.node)):
-            show(f"  {name}")
+        each(asked.node)
         return
     _listen(node)
     for name, kinds in node.get_service_names_and_types():
         owner, _, service = name.rpartition("/")
         if service == "list_parameters" and kinds == ["rcl_interfaces/srv/ListParameters"]:
             show(f"{owner}:")
-            for parameter in _names_of_parameters(node, _parameters(node, owner)):
-                show(f"  {parameter}")
+            each(owner)
 
 
 _WORDS = {
@@ -473,7 +513,8 @@ def _param_get(node: Node, asked: argparse.Namespace, show: Print) -> int:
     if value is None:
         show("Parameter not set")
         return UNKNOWN
-    show(f"{_WORDS.get(type(value), 'Array')} value is: {value}")
+    shown = "" if asked.hide_type else f"{_WORDS.get(type(value), 'Array')} value is: "
+    show(f"{shown}{value}")
     return 0
 
 
@@ -488,9 +529,17 @@ def _param_set(node: Node, asked: argparse.Namespace, show: Print) -> int:
     return UNKNOWN
 
 
-def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
-    import yaml
+def _param_delete(node: Node, asked: argparse.Namespace, show: Print) -> int:
+    client = _parameters(node, asked.node)
+    (result,) = _answer(node, client.delete_parameters([asked.name])).results
+    if result.successful:
+        show("Deleted parameter successfully")
+        return 0
+    show(f"Deleting parameter failed: {result.reason}")
+    return UNKNOWN
 
+
+def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
     client = _parameters(node, asked.node)
     known = _names_of_parameters(node, client)
     whole: dict[str, Any] = {}
@@ -501,7 +550,7 @@ def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
             below = below.setdefault(folder, {})
         below[last] = value
     dumped = {_full(asked.node): {"ros__parameters": whole}}
-    _show_lines(yaml.safe_dump(dumped, sort_keys=False), show)
+    _show_lines(ros2_words.as_yaml(dumped), show)
 
 
 def _param_describe(node: Node, asked: argparse.Namespace, show: Print) -> None:
@@ -554,9 +603,13 @@ def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
 
 def _node_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
     _listen(node)
-    for name, namespace in sorted(node.get_node_names_and_namespaces(), key=lambda one: one[::-1]):
-        if asked.all or not topic_or_service_is_hidden(name):
-            show(f"{namespace.rstrip('/')}/{name}")
+    known = sorted(node.get_node_names_and_namespaces(), key=lambda one: one[::-1])
+    seen = [one for one in known if asked.all or not topic_or_service_is_hidden(one[0])]
+    if asked.count_nodes:
+        show(str(len(seen)))
+        return
+    for name, namespace in seen:
+        show(f"{namespace.rstrip('/')}/{name}")
 
 
 def _node_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
@@ -613,12 +666,9 @@ def _action_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 
 def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    import yaml
-
     def dump(message: Any) -> None:
-        text = yaml.safe_dump(ros2_words.plain(message), sort_keys=False)
-        for line in text.rstrip("\n").splitlines():
-            show(f"    {line}")
+        text = ros2_words.as_yaml(ros2_words.plain(message))
+        _show_lines(textwrap.indent(text, "    "), show)
 
     early: list[Any] = []
     accepted = False
@@ -664,6 +714,30 @@ def _pkg_executables(asked: argparse.Namespace, workspace: Workspace) -> str:
     )
 
 
+def _pkg_prefix(asked: argparse.Namespace, workspace: Workspace) -> str:
+    known = workspace.packages.get(asked.package)
+    return str(workspace.share(asked.package) if known is None or asked.share else known.path)
+
+
+def _pkg_xml(asked: argparse.Namespace, workspace: Workspace) -> str:
+    """Return a package's package.xml, or the texts of one of its tags.
+
+    Raises:
+        UsageError: If the package has no such file, or the file no such tag.
+    """
+    file = workspace.package(asked.package).path / "package.xml"
+    if not file.is_file():
+        raise UsageError(f"package '{asked.package}' has no package.xml")
+    text = read_text(file)
+    if asked.tag is None:
+        return text
+    tag = re.escape(asked.tag)
+    found = re.findall(rf"<{tag}(?:\s[^>]*)?>\s*(.*?)\s*</{tag}>", text, re.DOTALL)
+    if not found:
+        raise UsageError(f"package.xml of '{asked.package}' has no tag '{asked.tag}'")
+    return "\n".join(found)
+
+
 def _interface_list(asked: argparse.Namespace, workspace: Workspace) -> str:
     wanted = [
         kind
@@ -682,10 +756,8 @@ def _interface_list(asked: argparse.Namespace, workspace: Workspace) -> str:
 
 
 def _interface_proto(asked: argparse.Namespace, workspace: Workspace) -> str:
-    import yaml
-
     shown = ros2_words.plain(ros2_words.prototype(asked.type))
-    text: str = yaml.safe_dump(shown, sort_keys=False) if shown else ""
+    text = ros2_words.as_yaml(shown) if shown else ""
     return text if asked.no_quotes else f'"{text}"'
 
 
@@ -699,7 +771,8 @@ _FROM_FILES: dict[tuple[str, str], Callable[[argparse.Namespace, Workspace], str
         sorted({*workspace.packages, *INTERFACES.packages()})
     ),
     ("pkg", "executables"): _pkg_executables,
-    ("pkg", "prefix"): lambda asked, workspace: str(workspace.package(asked.package).path),
+    ("pkg", "prefix"): _pkg_prefix,
+    ("pkg", "xml"): _pkg_xml,
 }
 
 _STATUSES = {4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
@@ -722,6 +795,7 @@ _COMMANDS: dict[tuple[str, str], Callable[[Node, argparse.Namespace, Print], obj
     ("param", "list"): _param_list,
     ("param", "get"): _param_get,
     ("param", "set"): _param_set,
+    ("param", "delete"): _param_delete,
     ("param", "dump"): _param_dump,
     ("param", "load"): _param_load,
     ("param", "describe"): _param_describe,

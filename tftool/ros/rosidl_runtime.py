@@ -1,36 +1,41 @@
 """rosidl_runtime_py: messages as mappings, YAML and CSV, and interfaces by name."""
 
 from collections import OrderedDict
-from collections.abc import Mapping
 from typing import Any
 
 from tftool.ros.host import ros2_words
 
 
-def message_to_ordereddict(msg: Any, **_: Any) -> "OrderedDict[str, Any]":
-    """Return the fields of a message, messages inside it as mappings too."""
-    return OrderedDict(ros2_words.plain(msg))
+def _short(
+    truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+) -> ros2_words.Shortening:
+    return ros2_words.Shortening(truncate_length, no_arr, no_str)
 
 
-def message_to_yaml(msg: Any, **_: Any) -> str:
-    """Return a message as YAML, its fields in the order of the definition."""
-    import yaml
+def message_to_ordereddict(msg: Any, **options: Any) -> "OrderedDict[str, Any]":
+    """Return the fields of a message, messages inside it as mappings too.
 
-    text: str = yaml.safe_dump(ros2_words.plain(msg), sort_keys=False)
-    return text
-
-
-def message_to_csv(msg: Any, **_: Any) -> str:
-    """Return the values of a message, separated by commas."""
-    return ",".join(str(value) for value in _single_values(ros2_words.plain(msg)))
+    Args:
+        msg: The message.
+        options: `truncate_length` of lists and texts; `no_arr` and `no_str` summarize them.
+    """
+    return OrderedDict(ros2_words.plain(msg, _short(**options)))
 
 
-def _single_values(value: Any) -> list[Any]:
-    if isinstance(value, Mapping):
-        value = list(value.values())
-    if isinstance(value, list):
-        return [one for part in value for one in _single_values(part)]
-    return [value]
+def message_to_yaml(msg: Any, *, flow_style: bool = False, **options: Any) -> str:
+    """Return a message as YAML, its fields in the order of the definition.
+
+    Args:
+        msg: The message.
+        flow_style: Whether on one line.
+        options: As for `message_to_ordereddict`.
+    """
+    return ros2_words.as_yaml(ros2_words.plain(msg, _short(**options)), flow_style=flow_style)
+
+
+def message_to_csv(msg: Any, **options: Any) -> str:
+    """Return the values of a message, separated by commas; `options` as for the mapping."""
+    return ros2_words.as_csv(ros2_words.plain(msg, _short(**options)))
 
 
 def get_message_slot_types(msg: Any) -> "OrderedDict[str, str]":

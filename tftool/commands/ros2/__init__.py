@@ -30,10 +30,10 @@ def ros2(
     """Ask a session in the words of ROS 2's command line, without ROS.
 
     topic list, echo, find, hz, bw, delay, info, type, pub; service list, type, info, find, call;
-    param list, get, set, dump, load, describe; node list, info; action list, type, info, send_goal;
-    interface show, list, package, packages, proto; pkg list, executables, prefix; test FILE runs
-    a file of launch tests, in real time. The options of each are those of ROS 2. Options of this
-    command go before COMMAND.
+    param list, get, set, delete, dump, load, describe; node list, info; action list, type, info,
+    send_goal; interface show, list, package, packages, proto; pkg list, executables, prefix, xml;
+    test FILE runs a file of launch tests, in real time. The options of each are those of ROS 2.
+    Options of this command go before COMMAND.
 
     tftool ros2 topic list
     tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2}"

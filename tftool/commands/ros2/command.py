@@ -81,6 +81,8 @@ def run(
         return _run_launch_tests(connection, words[1:])
     workspace = Workspace(Path.cwd())
     lines = _JsonLines(words)
+    if as_json and words[:2] == ["topic", "echo"]:
+        words = [*words, "--full-length"]
     body = ros2_command.body(words, workspace, lines if as_json else typer.echo)
     if words[0] in ("interface", "pkg"):
         body()

@@ -4,6 +4,7 @@ import argparse
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
 from tftool.base.errors import InputError, UsageError
@@ -46,7 +47,7 @@ def _parser() -> tuple[_Parser, dict[str, list[str]]]:
         below = nouns.add_parser(noun).add_subparsers(dest="verb", required=True, metavar="VERB")
         for verb, arguments in verbs.items():
             one = below.add_parser(verb)
-            for names, how in arguments:
+            for names, how in (*arguments, *(_ASKING if noun not in SESSIONLESS else ())):
                 one.add_argument(*names, **how)
         listed[noun] = list(verbs)
         below.help = ", ".join(verbs)
@@ -55,6 +56,16 @@ def _parser() -> tuple[_Parser, dict[str, list[str]]]:
 
 
 _Argument: TypeAlias = tuple[tuple[str, ...], dict[str, Any]]
+
+SESSIONLESS = ("interface", "pkg")
+"""Commands that files answer: no session is asked."""
+
+_ASKING: tuple[_Argument, ...] = (
+    (("--no-daemon",), {"action": "store_true"}),
+    (("-s", "--use-sim-time"), {"action": "store_true"}),
+    (("--spin-time",), {"type": float}),
+)
+"""Options about how a graph is asked, which make no difference here."""
 
 
 def _arguments() -> dict[str, dict[str, list[_Argument]]]:
@@ -67,8 +78,9 @@ def _arguments() -> dict[str, dict[str, list[_Argument]]]:
         return (name,), how
 
     types, values = flag("-t", "--show-types"), word("values", nargs="?", default="{}")
+    filtered = word("--filter", dest="wanted", metavar="EXPRESSION", type=_expression)
     topic, service, node, kind = word("topic"), word("service"), word("node"), word("type")
-    measured = [topic, (("-w", "--window"), {"type": _count, "default": 10_000})]
+    measured = [topic, filtered, (("-w", "--window"), {"type": _count, "default": 10_000})]
     quality = [
         word("--qos-profile", choices=PROFILES),
         word("--qos-depth", type=_count),
@@ -78,8 +90,19 @@ def _arguments() -> dict[str, dict[str, list[_Argument]]]:
     ]
     return {
         "topic": {
-            "list": [types, flag("--include-hidden-topics")],
-            "echo": [topic, word("type", nargs="?"), flag("--once"), word("--field"), *quality],
+            "list": [
+                types,
+                flag("-c", "--count-topics"),
+                flag("-v", "--verbose"),
+                flag("--include-hidden-topics"),
+            ],
+            "echo": [
+                *(topic, word("type", nargs="?"), flag("--once"), word("--field"), filtered),
+                *(flag("--csv"), flag("--flow-style"), flag("--no-arr"), flag("--no-str")),
+                (("-l", "--truncate-length"), {"type": _count, "default": 128}),
+                flag("-f", "--full-length"),
+                *quality,
+            ],
             "find": [kind],
             "hz": measured,
             "bw": measured,
@@ -89,23 +112,27 @@ def _arguments() -> dict[str, dict[str, list[_Argument]]]:
             "pub": [*_publishing(topic, kind, values), *quality],
         },
         "service": {
-            "list": [types, flag("--include-hidden-services")],
+            "list": [types, flag("-c", "--count-services"), flag("--include-hidden-services")],
             "type": [service],
             "info": [service],
             "find": [kind],
-            "call": [service, kind, values],
+            "call": [service, kind, values, (("-r", "--rate"), {"type": _rate})],
         },
         "param": {
-            "list": [word("node", nargs="?")],
-            "get": [node, word("name")],
+            "list": [word("node", nargs="?"), flag("--param-type")],
+            "get": [node, word("name"), flag("--hide-type")],
             "set": [node, word("name"), word("value")],
+            "delete": [node, word("name")],
             "dump": [node],
             "describe": [node, word("names", nargs="+")],
             "load": [node, word("file"), flag("--no-use-wildcard")],
         },
-        "node": {"list": [flag("-a", "--all")], "info": [node, flag("--include-hidden")]},
+        "node": {
+            "list": [flag("-a", "--all"), flag("-c", "--count-nodes")],
+            "info": [node, flag("--include-hidden")],
+        },
         "action": {
-            "list": [types],
+            "list": [types, flag("-c", "--count-actions")],
             "type": [word("action")],
             "info": [word("action"), types],
             "send_goal": [word("action"), kind, word("values"), flag("-f", "--feedback")],
@@ -114,7 +141,8 @@ def _arguments() -> dict[str, dict[str, list[_Argument]]]:
         "pkg": {
             "list": [],
             "executables": [word("package", nargs="?"), flag("--full-path")],
-            "prefix": [word("package")],
+            "prefix": [word("package"), flag("--share")],
+            "xml": [word("package"), word("-t", dest="tag")],
         },
     }
 
@@ -126,6 +154,8 @@ def _publishing(*words: _Argument) -> list[_Argument]:
         (("-t", "--times"), {"type": int, "default": 0}),
         (("-w", "--wait-matching-subscriptions"), {"type": int}),
         (("-1", "--once"), {"action": "store_true"}),
+        (("-p", "--print"), {"type": _count, "default": 1, "dest": "each"}),
+        (("--keep-alive",), {"type": float, "default": 0.5}),
     ]
 
 
@@ -154,6 +184,16 @@ def _count(text: str) -> int:
     if text.isdecimal() and int(text) > 0:
         return int(text)
     raise argparse.ArgumentTypeError(f"{text} is no whole number above 0")
+
+
+def _expression(text: str) -> Callable[[Any], bool]:
+    """Return the function of a message `m` that an expression describes."""
+    try:
+        code = compile(text, "--filter", "eval")
+    except SyntaxError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no expression: {error.msg}") from None
+    # As in ROS 2, the person who types it runs their own code.
+    return lambda message: bool(eval(code, {"m": message}))
 
 
 def interface(name: str, kind: str) -> Any:
@@ -273,14 +313,82 @@ def _fitting(field: Any, value: Any, path: str) -> Any:
     return value
 
 
-def plain(value: Any) -> Any:
+@dataclass(frozen=True, slots=True)
+class Shortening:
+    """Parts of a message that are left out.
+
+    Attributes:
+        length: How many elements of a list, or letters of a text, are shown; None for all.
+        no_arr: Whether a list is replaced by its type and length.
+        no_str: Whether a text is replaced by its length.
+    """
+
+    length: int | None = None
+    no_arr: bool = False
+    no_str: bool = False
+
+
+WHOLE = Shortening()
+
+
+def plain(value: Any, short: Shortening = WHOLE) -> Any:
     """Convert a message for YAML: mappings, lists and single values."""
     if isinstance(value, Message):
-        return {field.name: plain(getattr(value, field.name)) for field in value.fields__}
+        types = value.get_fields_and_field_types() if short.no_arr else {}
+        return {
+            field.name: _summary(getattr(value, field.name), types[field.name])
+            if field.size is not None and short.no_arr
+            else plain(getattr(value, field.name), short)
+            for field in value.fields__
+        }
     if isinstance(value, bytes | bytearray):
-        return list(value)
+        value = list(value)
     if hasattr(value, "tolist"):
-        return value.tolist()
+        value = value.tolist()
+    if isinstance(value, str):
+        if short.no_str:
+            return f"<string length: <{len(value)}>>"
+        is_long = short.length is not None and len(value) > short.length
+        return f"{value[: short.length]}..." if is_long else value
     if isinstance(value, list | tuple):
-        return [plain(one) for one in value]
+        shown = [plain(one, short) for one in value[: short.length]]
+        return shown if len(shown) == len(value) else [*shown, "..."]
     return value
+
+
+def _summary(value: Any, kind: str) -> str:
+    """Return the type of a list, "double[36]" or "sequence<double>", and its length."""
+    if not kind.startswith("sequence<"):
+        return f"<array type: {kind}>"
+    element = kind.removeprefix("sequence<").removesuffix(">")
+    name, _, bound = element.partition(", ")
+    return f"<sequence type: {name}{bound and f'<{bound}>'}, length: {len(value)}>"
+
+
+def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
+    """Return a value of `plain` as YAML, with its line's end."""
+    import yaml  # Not for a command line alone.
+
+    if not isinstance(shown, dict | list):
+        return f"{shown}\n"
+    text: str = yaml.safe_dump(
+        shown,
+        sort_keys=False,
+        allow_unicode=True,
+        default_flow_style=flow_style,
+        width=math.inf,
+    )
+    return text
+
+
+def as_csv(shown: Any) -> str:
+    """Return the single values in a value of `plain`, separated by commas."""
+    return ",".join(str(value) for value in _single_values(shown))
+
+
+def _single_values(value: Any) -> list[Any]:
+    if isinstance(value, Mapping):
+        value = list(value.values())
+    if isinstance(value, list):
+        return [one for part in value for one in _single_values(part)]
+    return [value]

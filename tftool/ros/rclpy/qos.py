@@ -196,22 +196,19 @@ _UNFIT = {
 }
 
 
-def _liveliness(timing: Timing | None) -> LivelinessPolicy:
-    """Return an endpoint's liveliness policy; the system's default if unknown."""
-    if timing is None:
-        return LivelinessPolicy.SYSTEM_DEFAULT
-    manual = timing.is_manual
-    return LivelinessPolicy.MANUAL_BY_TOPIC if manual else LivelinessPolicy.AUTOMATIC
+def _time(length: int | None) -> Duration:
+    return Infinite if length is None else Duration(nanoseconds=length)
 
 
 def profile_from(quality: Quality) -> QoSProfile:
-    """Return the profile of another process's endpoint, as far as known."""
+    """Return the profile of another process's endpoint; what is not known is as by default."""
     timing = quality.timing or Timing()
+    manual = timing.is_manual
     return QoSProfile(
-        deadline=Duration(nanoseconds=timing.deadline or 0),
-        liveliness_lease_duration=Duration(nanoseconds=timing.lease or 0),
-        lifespan=Duration(nanoseconds=timing.lifespan or 0),
-        liveliness=_liveliness(quality.timing),
+        deadline=_time(timing.deadline),
+        liveliness_lease_duration=_time(timing.lease),
+        lifespan=_time(timing.lifespan),
+        liveliness=LivelinessPolicy.MANUAL_BY_TOPIC if manual else LivelinessPolicy.AUTOMATIC,
         depth=quality.depth,
         history=HistoryPolicy.KEEP_ALL if quality.keeps_all else HistoryPolicy.KEEP_LAST,
         reliability=ReliabilityPolicy.RELIABLE
