@@ -40,6 +40,7 @@ import launch_ros.actions
 import launch_testing
 import launch_testing.actions
 import launch_testing.asserts
+import launch_testing.event_handlers
 import launch_testing.markers
 import launch_testing.util
 import pytest
@@ -158,6 +159,7 @@ def run(pytester):
     def tested(*words, **files):
         pytester.makepyfile(talker=TALKER, **files)
         given = ["--ros-free", "-p", "tftool.ros.pytest_plugin", "-p", "no:cacheprovider"]
+        given += ["-W", "default::pytest.PytestCollectionWarning"]
         return pytester.runpytest(*given, *words)
 
     return tested
@@ -172,6 +174,81 @@ def test_a_launch_of_nodes_is_tested_while_it_runs_and_after_it(run):
     result.stdout.fnmatch_lines(["*TestAfter.test_output*", "*'printed 1' not found in sequence*"])
 
 
+@pytest.mark.parametrize(
+    "handler",
+    [
+        "launch.event_handlers.OnProcessStart(target_action=one, on_start=[READY()])",
+        "launch.event_handlers.OnProcessIO(target_action=one, on_stderr=None, on_stdout=READY())",
+        "launch_testing.event_handlers.StdoutReadyListener("
+        "target_action=one, ready_txt='printed 2', actions=[READY()])",
+    ],
+)
+def test_an_event_may_start_the_tests(run, handler):
+    described = f"""
+@pytest.mark.launch_test
+def generate_test_description():
+    one = talker("one")
+    ready = launch.actions.RegisterEventHandler({handler})
+    return launch.LaunchDescription([ready, one])
+
+
+class TestIt(unittest.TestCase):
+    def test_it(self, proc_info):
+        assert proc_info.processes()
+"""
+    run(test_it=HEAD + described).assert_outcomes(passed=1)
+
+
+@pytest.mark.parametrize(
+    ("process", "number", "told"),
+    [
+        ("python('import time; time.sleep(100)', name='one')", "'SIGTERM'", "returncode == -15"),
+        ("python('import time; time.sleep(100)', name='one')", "9", "returncode == -9"),
+        ("talker('one')", "2", "returncode == 0"),
+    ],
+)
+def test_a_process_is_sent_a_signal(run, process, number, told):
+    described = f"""
+from launch.actions import EmitEvent
+from launch.events import matches_action
+from launch.events.process import SignalProcess
+
+
+@pytest.mark.launch_test
+def generate_test_description():
+    one = {process}
+    end = SignalProcess(signal_number={number}, process_matcher=matches_action(one))
+    late = TimerAction(period=0.3, actions=[EmitEvent(event=end)])
+    keep = launch_testing.util.KeepAliveProc()
+    return launch.LaunchDescription([one, keep, late, READY()]), {{"one": one}}
+
+
+class TestIt(unittest.TestCase):
+    def test_it(self, proc_info, one):
+        proc_info.assertWaitForShutdown(one, timeout=5)
+        assert proc_info[one].{told}
+"""
+    run(test_it=HEAD + described).assert_outcomes(passed=1)
+
+
+def test_a_test_that_is_a_process_is_ended_after_its_timeout(run):
+    described = """
+@pytest.mark.launch_test
+def generate_test_description():
+    test = launch_testing.actions.GTest(path="sleep", timeout=0.2, name="slow")
+    test.cmd.append("100")
+    late = launch.actions.TimerAction(period=0.1, actions=[READY()])
+    return launch.LaunchDescription([test, launch_testing.util.KeepAliveProc(), late])
+
+
+class TestIt(unittest.TestCase):
+    def test_it(self, proc_info):
+        proc_info.assertWaitForShutdown("slow", timeout=5)
+        assert proc_info["slow"].returncode == -2
+"""
+    run(test_it=HEAD + described).assert_outcomes(passed=1)
+
+
 def test_a_launch_of_processes_is_tested_once_for_each_of_its_parameters(run):
     run("--launch-args", "colour:=any", "--", test_processes=HEAD + PROCESSES).assert_outcomes(
         passed=1
@@ -182,7 +259,7 @@ def test_a_launch_of_processes_is_tested_once_for_each_of_its_parameters(run):
     ("described", "told"),
     [
         ("return launch.LaunchDescription([READY()])", "Launch stopped before the active tests"),
-        ("return launch.LaunchDescription([])", "LaunchDescription with a ReadyToTest action"),
+        ("return launch.LaunchDescription([])", "LaunchDescription containing a ReadyToTest"),
         (
             "return launch.LaunchDescription([launch_testing.util.KeepAliveProc(),"
             " TimerAction(period=16.0, actions=[READY()])])",
@@ -310,7 +387,8 @@ def test_tests_beside_the_launch_of_a_fixture(run):
     order = ["last", "function", "coroutine", "before", "after", "async before", "async after"]
 
     result = run(test_it=HEAD + PYTEST.format(scope="", order=order))
-    result.assert_outcomes(passed=6, skipped=1)
+    result.assert_outcomes(passed=6, skipped=1, warnings=2)
+    result.stdout.fnmatch_lines(['*"fixture" keyword argument is required in a*'])
 
 
 def test_tests_that_share_a_launch_go_before_those_after_its_end(run):
@@ -318,6 +396,66 @@ def test_tests_that_share_a_launch_go_before_those_after_its_end(run):
 
     result = run(test_it=HEAD + PYTEST.format(scope="(scope='module')", order=order))
     result.assert_outcomes(passed=8, skipped=1)
+
+
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        ("    return [1]", "must be either a launch description or a sequence"),
+        (
+            "    return launch.LaunchDescription([READY(), READY()])",
+            "containing only one ReadyToTest action",
+        ),
+    ],
+)
+def test_a_fixture_that_launches_nothing_is_an_error(run, body, told):
+    text = f"""
+import launch_pytest
+
+@launch_pytest.fixture
+def described():
+{body}
+
+
+@pytest.mark.launch(fixture=described)
+def test_it():
+    pass
+"""
+    result = run(test_it=HEAD + text)
+    result.assert_outcomes(errors=1)
+    assert told in result.stdout.str()
+
+
+WRONG = """
+import launch_pytest
+
+
+@launch_pytest.fixture(scope="{scope}")
+def described():
+    return launch.LaunchDescription([launch_testing.util.KeepAliveProc()])
+
+
+@pytest.mark.launch(fixture=described{more})
+{kind} test_it():
+    {before}
+    yield
+    {after}
+"""
+
+
+@pytest.mark.parametrize("kind", ["def", "async def"])
+@pytest.mark.parametrize(
+    ("scope", "more", "before", "after", "outcome"),
+    [
+        ("function", "", "pass", "yield", {"failed": 1}),
+        ("module", "", "pass", "yield", {"passed": 1, "failed": 1}),
+        ("module", "", "assert False", "pass", {"failed": 1, "skipped": 1}),
+        ("function", ", shutdown=True", "pass", "pass", {"failed": 1}),
+    ],
+)
+def test_a_wrong_generator_fails(run, kind, scope, more, before, after, outcome):
+    text = WRONG.format(kind=kind, scope=scope, more=more, before=before, after=after)
+    run(test_it=HEAD + text).assert_outcomes(**outcome)
 
 
 def test_a_conftest_may_import_rclpy_at_its_top(run):

@@ -103,7 +103,8 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
         if fixture:
             test = pytest.mark.usefixtures("launch_service", fixture)(test)
         else:
-            reason = "pytest.mark.launch needs the fixture: pytest.mark.launch(fixture=…)"
+            reason = '"fixture" keyword argument is required in a pytest.mark.launch() decorator'
+            collector.warn(pytest.PytestCollectionWarning(f"{name}: {reason}"))
             test = pytest.mark.skip(reason)(test)
         # pytest reads a test from its module or class.
         setattr(collector.obj, shown, test)
@@ -141,7 +142,9 @@ def pytest_fixture_setup(fixturedef: Any, request: Any) -> Iterator[None]:
     service: Any = None if options is None else request.getfixturevalue("launch_service")
     value = yield
     if options is not None:
-        # Before the fixtures it uses are gone, and before `launch_service` itself is.
-        fixturedef.addfinalizer(service.finish)
-        fixtures.launched(options, service, value)
+        try:
+            fixtures.launched(fixturedef.argname, options, service, value)
+        finally:
+            # Last, so that it comes first: before the world of a fixture for many tests ends.
+            fixturedef.addfinalizer(service.finish)
     return value

@@ -218,7 +218,7 @@ launch.event_handlers: launch.events: OnProcessExit OnProcessStart OnShutdown
 launch.event_handlers: launch.events: OnExecutionComplete OnProcessIO
 launch.events: launch.events: Shutdown ExecutionComplete matches_action
 launch.events.process: launch.events: ProcessExited ProcessStarted ProcessIO
-launch.events.process: launch.events: ShutdownProcess RunningProcessEvent
+launch.events.process: launch.events: ShutdownProcess SignalProcess RunningProcessEvent
 launch.event: launch.events: Event
 launch.event_handler: launch.events: EventHandler
 launch.condition: launch.conditions: Condition

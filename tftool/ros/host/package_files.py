@@ -129,9 +129,13 @@ def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Pat
         if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
             continue
         target, files = entry
-        if not isinstance(target, str) or f"{target.rstrip('/')}/".partition(f"{share}/")[0]:
+        if not isinstance(target, str):
             continue
-        below = target.rstrip("/")[len(share) :].strip("/")
+        below = target.strip("/")
+        if f"{below}/".startswith(f"{share}/"):
+            below = below[len(share) :].strip("/")
+        elif not below.startswith("lib/"):  # the prefix is the same folder here
+            continue
         for file in files:
             if isinstance(file, str) and (folder / file).is_file():
                 place = str(PurePosixPath(below, PurePosixPath(file).name))

@@ -1,6 +1,7 @@
 """Execution of a launch description: all its nodes in one process, on one loop."""
 
 import asyncio
+import os
 import shlex
 import signal
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -44,6 +45,9 @@ Say = Callable[[str, str, str], object]
 
 SOONEST = 0.1
 """Seconds before a program is started again at least: one that ends at once must let time pass."""
+
+
+_ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGABRT)
 
 
 class Launch(Node):
@@ -191,11 +195,22 @@ class Launch(Node):
         if isinstance(event, ShutdownProcess):
             for label, action in self._actions.items():
                 if label in self._running and event.process_matcher(action):
-                    self._running[label]()
+                    self._signal(label, getattr(event, "signal", signal.SIGINT))
         if isinstance(event, Shutdown) and not self._closing:
             self._closing = True
             self._say("INFO", "launch", f"shutting down: {event.reason}")
             self._end()
+
+    def _signal(self, label: str, number: int) -> None:
+        """Send a signal to a process; a program of the world only ends, by those that end one."""
+        pid = (self._actions[label].process_details or {}).get("pid")
+        if pid is not None and number != signal.SIGINT:
+            os.kill(pid, number)
+        elif number in _ENDS:
+            self._running[label]()
+        else:
+            name = signal.Signals(number).name
+            self.warn(f"{name} for {label} has no effect: it is no process of its own here")
 
     def hear(self, topic: str, kind: type[Any], callback: Callable[[Any], object]) -> None:
         """Call `callback` with every message of a topic; an exception in it ends the launch."""

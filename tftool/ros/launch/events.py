@@ -1,5 +1,6 @@
 """launch's events and their handlers."""
 
+import signal
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -98,6 +99,26 @@ class ShutdownProcess(Event):
         self.process_matcher = process_matcher
 
 
+class SignalProcess(ShutdownProcess):
+    """Event that sends a signal to processes.
+
+    Attributes:
+        signal: Its number.
+    """
+
+    name = "launch.events.process.SignalProcess"
+
+    def __init__(self, *, signal_number: Any, process_matcher: Callable[[Any], bool]) -> None:
+        super().__init__(process_matcher=process_matcher)
+        is_name = isinstance(signal_number, str)
+        self.signal = signal.Signals[signal_number] if is_name else signal.Signals(signal_number)
+
+    @property
+    def signal_name(self) -> str:
+        """Return the signal's name."""
+        return self.signal.name
+
+
 def matches_action(target_action: Any) -> Callable[[Any], bool]:
     """Return a matcher for one action."""
     return lambda action: action is target_action
@@ -131,8 +152,18 @@ def _require_target(handler: str, target: Any) -> None:
         )
 
 
+def _listed(given: Any) -> list[Any]:
+    """Return the entities in what a handler was given; none of a function's."""
+    found = [given] if hasattr(given, "visit") else given
+    return [] if found is None or callable(found) else list(found)
+
+
 class EventHandler:
-    """Does something when a matching event occurs."""
+    """Does something when a matching event occurs.
+
+    Attributes:
+        entities: What it does then, as far as it is known before.
+    """
 
     def __init__(
         self,
@@ -143,6 +174,7 @@ class EventHandler:
     ) -> None:
         self._matcher = matcher
         self._given = entities
+        self.entities = _listed(entities)
         self.handle_once = handle_once
 
     def matches(self, event: Event) -> bool:
@@ -209,6 +241,7 @@ class OnProcessIO(EventHandler):
             entities=written,
             **kwargs,
         )
+        self.entities = [*_listed(on_stdout), *_listed(on_stderr)]
 
 
 class OnExecutionComplete(EventHandler):

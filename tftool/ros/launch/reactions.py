@@ -29,6 +29,10 @@ class RegisterEventHandler(Action):
         super().__init__(**kwargs)
         self.event_handler = event_handler
 
+    def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
+        """Return what the handler does, as far as it is known before."""
+        return [(type(self.event_handler).__name__, getattr(self.event_handler, "entities", []))]
+
     def execute(self, context: LaunchContext) -> Any:
         """Register the handler."""
         context.launch.handlers.append(self.event_handler)

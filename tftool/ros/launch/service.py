@@ -15,7 +15,11 @@ from tftool.ros.launch.events import Event
 
 
 class LaunchService:
-    """Runs launch descriptions as the program that made it."""
+    """Runs launch descriptions as the program that made it.
+
+    Attributes:
+        errors: Sentences about faults of the launch itself, and of its processes.
+    """
 
     def __init__(
         self, *, argv: Any = None, noninteractive: bool = False, debug: bool = False
@@ -25,6 +29,7 @@ class LaunchService:
         self._launch: Launch | None = None
         self._owner: program.Program | None = None
         self._loops: set[asyncio.AbstractEventLoop] = set()
+        self.errors: list[str] = []
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Add a description, which is executed when it runs; at once if it runs already."""
@@ -60,6 +65,8 @@ class LaunchService:
         self._owner = owner = program.current()
 
         def say(level: str, who: str, text: str) -> None:
+            if level == "ERROR":
+                self.errors.append(f"{who}: {text}")
             sys.stderr.write(f"[{level}] [{who}]: {text}\n" if level else f"[{who}] {text}\n")
 
         def start() -> list[Launch]:

@@ -126,6 +126,7 @@ class StdoutReadyListener(OnProcessIO):
             return actions if ready_txt in event.text.decode() else None
 
         super().__init__(target_action=target_action, on_stdout=check)
+        self.entities = list(actions)
 
 
 class ReadyAggregator:

@@ -44,7 +44,10 @@ class LaunchedService(LaunchService):
             description.add_action(action := ReadyToTest())
             found = [action]
         if len(found) > 1:
-            raise AssertionError("a launch_pytest fixture has one ReadyToTest action at most")
+            raise AssertionError(
+                "launch_pytest fixtures must return a LaunchDescription containing only one "
+                "ReadyToTest action"
+            )
         ready = asyncio.Event()
         found[0].callbacks.append(ready.set)
         self.include_launch_description(description)
@@ -146,8 +149,8 @@ def fixture(
     return declare if decorated is None else declare(decorated)
 
 
-def launched(options: tuple[bool, bool], service: LaunchedService, value: Any) -> None:
-    """Start the launch of a fixture that has given a value.
+def launched(name: str, options: tuple[bool, bool], service: LaunchedService, value: Any) -> None:
+    """Start the launch of a fixture of that name, which has given a value.
 
     Raises:
         AssertionError: If that is no description.
@@ -155,8 +158,8 @@ def launched(options: tuple[bool, bool], service: LaunchedService, value: Any) -
     description = value[0] if isinstance(value, tuple | list) and value else value
     if not isinstance(description, LaunchDescription):
         raise AssertionError(
-            "a launch_pytest fixture returns a LaunchDescription, or a sequence that begins "
-            f"with one, not {value!r}"
+            f"When running launch_pytest fixture '{name}': return value must be either a launch "
+            "description or a sequence which first item is a launch description"
         )
     shutdown_when_idle, service.auto_shutdown = options
     service.start(description, keep_alive=not shutdown_when_idle)
@@ -180,8 +183,13 @@ def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable
             if (generator := service.waiting.pop(test, None)) is None:
                 pytest.skip("the part before its yield has failed")
             service.finish()
-            _end(generator)
+            _end(generator, test)
             return
+        if after_end and is_generator(test):
+            raise AssertionError(
+                "generator or async generator based launch test items cannot be marked with "
+                "shutdown=True"
+            )
         loop = service.event_loop or UserEventLoop()
         if after_end:
             service.finish()
@@ -193,7 +201,7 @@ def as_function(test: Any, *, after_end: bool, second: bool = False) -> Callable
             next(steps)
             if scope_of(test) == "function":
                 service.finish()
-                _end(steps)
+                _end(steps, test)
             else:
                 service.waiting[test] = steps
 
@@ -237,11 +245,14 @@ def _steps(generator: Any, loop: asyncio.AbstractEventLoop) -> Iterator[None]:
         yield
 
 
-def _end(steps: Iterator[None]) -> None:
+def _end(steps: Iterator[None], test: Any) -> None:
     """Run the rest of a generator.
 
     Raises:
         AssertionError: If it yields once more.
     """
     if next(steps, steps) is not steps:
-        raise AssertionError("a launch test yields once: what follows runs after the launch's end")
+        kind = "a generator" if inspect.isgeneratorfunction(test) else "an async gen"
+        raise AssertionError(
+            f"launch tests using {kind} function must stop iteration after yielding once"
+        )

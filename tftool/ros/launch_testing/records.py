@@ -161,8 +161,11 @@ ActiveProcInfoHandler, ActiveIoHandler = ProcInfoHandler, IoHandler
 
 
 def _described(action: Any) -> str:
-    details = action.process_details or {"name": "not started", "cmd": ()}
-    return " ".join((details["name"], *details["cmd"][1:]))
+    if (details := action.process_details) is not None:
+        return " ".join((details["name"], *details["cmd"][1:]))
+    words = getattr(action, "cmd", [None])
+    is_known = all(isinstance(word, str) for word in words)
+    return " ".join(words) if is_known else "Unknown - Process not launched yet"
 
 
 def resolveProcesses(

@@ -142,8 +142,8 @@ class TestRun:
         ready = next(ready_actions(description.entities), None)
         if ready is None:
             raise UsageError(
-                f"{MAKES}() must return a LaunchDescription with a ReadyToTest action, "
-                "which says when the tests start"
+                f"{MAKES} functions must return a LaunchDescription containing a ReadyToTest "
+                "action, which says when the tests start"
             )
         ready.callbacks.append(ready_fn)
         return description, values
@@ -160,10 +160,12 @@ class TestRun:
         """
         takes = inspect.getfullargspec(inspect.unwrap(self._function))
         names = {*takes.args, *takes.kwonlyargs}
-        for name in sorted(names ^ set(self.param_args)):
-            missing = name in names
-            what = "which parametrize() does not give" if missing else "which it should have"
-            raise UsageError(f"{MAKES}() has {'an' if missing else 'no'} argument '{name}', {what}")
+        for name in sorted(self.param_args.keys() - names):
+            raise UsageError(
+                f"Could not find an argument in {MAKES} matching parametrized argument '{name}'"
+            )
+        for name in sorted(names - self.param_args.keys()):
+            raise UsageError(f"{MAKES} has unexpected extra argument '{name}'")
 
     def run(self, arguments: Mapping[str, str], preamble: Sequence[Any] = ()) -> TestResult:
         """Launch it, and run its tests.
@@ -198,7 +200,7 @@ class TestRun:
             service.shutdown(force_sync=True)
             program.current().ask(launch.ended.wait)
         if result is None or stopped:
-            told = STOPPED if stopped else failure
+            told = "\n".join((STOPPED if stopped else failure, *service.errors))
             for text in _last_words(info, output):
                 sys.stdout.write(text)
             return _failed(list(self.all_cases()), told)
@@ -252,10 +254,8 @@ def _failed(cases: Sequence[Any], reason: str) -> TestResult:
     stream.writeln(reason)
     for case in cases:
         result.startTest(case)
-        try:
-            raise AssertionError(reason)
-        except AssertionError:
-            result.addFailure(case, sys.exc_info())
+        # Without a traceback: the lines of this module say nothing.
+        result.addFailure(case, cast(Any, (AssertionError, AssertionError(reason), None)))
     return result
 
 
