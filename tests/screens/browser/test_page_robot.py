@@ -70,6 +70,30 @@ def test_switches_show_what_links_collide_with_and_where_joints_turn(chromium, s
     )
 
 
+def test_a_mesh_for_collisions_is_fetched_when_collisions_are_shown(chromium, stage, tmp_path):
+    from tests.screens.browser.mesh_files import stl
+    from tests.screens.browser.test_robots import ROBOT
+    from tftool.robots.mesh_folders import MeshFolders
+    from tftool.robots.robot_model import Robot
+    from tftool.robots.urdf import parse_description
+    from tftool.screens.browser.robots import ShownRobot
+
+    package = write_package(tmp_path)
+    (package / "meshes" / "shell.stl").write_bytes(stl())
+    shell = '<collision><geometry><mesh filename="../meshes/shell.stl"/></geometry></collision>'
+    text = f"{shell}</link>".join(ROBOT.rsplit("</link>", 1))
+    folders = MeshFolders(package / "urdf" / "arm.urdf")
+    stage.show(ShownRobot(Robot(parse_description(text)), folders))
+    stage.put(1.0, 0.0, parent="base", child="hand")
+    page = Page(chromium, stage, "view=orbit")
+    page.until(lambda: "hand" in links_of(page) and page.said("tftool.robot().waiting") == 0)
+
+    fetched = "performance.getEntriesByType('resource').map(({ name }) => name).join(' ')"
+    assert "shell.stl" not in page.said(fetched)
+    page.find("#collisions").click()
+    page.until(lambda: "shell.stl" in page.said(fetched) and links_of(page)["hand"][1] == 1)
+
+
 def test_a_slider_moves_its_joint(chromium, stage, robot):
     from tftool.world.nodes.joints import JointStatePublisher
 

@@ -152,6 +152,29 @@ def test_scripts_travel_compressed_to_a_browser_that_takes_it():
     serve(test)
 
 
+def test_meshes_travel_compressed_to_a_browser_that_takes_it(tmp_path):
+    from tests.screens.browser.mesh_files import stl, write_package
+    from tests.screens.browser.test_robots import ROBOT
+    from tftool.robots.mesh_folders import MeshFolders
+    from tftool.robots.robot_model import Robot
+    from tftool.robots.urdf import parse_description
+    from tftool.screens.browser.robots import ShownRobot
+
+    folders = MeshFolders(write_package(tmp_path) / "urdf" / "arm.urdf")
+    shown = ShownRobot(Robot(parse_description(ROBOT)), folders)
+    address = folders.address("../meshes/a.stl")
+
+    async def test(world, page):
+        page.show_robot(shown)
+        _, headers, packed = await fetch(
+            page.port, where(page, address), **{"Accept-Encoding": "gzip"}
+        )
+        assert headers["Content-Encoding"] == "gzip"
+        assert gzip.decompress(packed) == stl()
+
+    serve(test)
+
+
 def test_nothing_else_is_served():
     async def test(world, page):
         for path in ("/../server.py", "/page/main.js", "/etc/passwd", "//", "/frames/x"):

@@ -70,12 +70,16 @@ export class Robot {
     this.places = new Places(0);
     /** Shapes that are drawn together: all but textured ones. */
     this.solids = { visuals: new Solids(this.places), collisions: new Solids(this.places) };
+    /** Collision shapes that were never shown: they are loaded with the first look at them. @type {[string, Shape][]} */
+    this.unloaded = [];
     /** @type {string[]} */
     this.missing = [];
     /** @type {Map<string, Promise<import("three").Object3D>>} */
     this.meshes = new Map();
     this.textures = new TextureLoader();
     this.waiting = 0; // meshes that have not come yet
+    /** @type {Set<string>} frames of links with a shape, visible or for collisions */
+    this.shaped = new Set();
     const above = new HemisphereLight("#ffffff", "#5a6270", 2.2);
     above.position.set(0, 0, 1);
     const sun = new DirectionalLight("#ffffff", 1.6);
@@ -91,8 +95,7 @@ export class Robot {
 
   /** Frames that have a shape. */
   has(frame) {
-    const link = this.links.get(frame);
-    return link !== undefined && link.visuals.children.length + link.collisions.children.length > 0;
+    return this.shaped.has(frame);
   }
 
   /** What of it is in the picture, by link: how many visuals, collisions and axes. */
@@ -127,8 +130,9 @@ export class Robot {
     }
     for (const link of description.links) {
       for (const shape of link.visuals) this.add(link.frame, "visuals", shape, shape.color ?? GREY);
-      for (const shape of link.collisions) this.add(link.frame, "collisions", shape, COLLISION);
     }
+    this.unloaded = description.links.flatMap((link) => link.collisions.map((shape) => /** @type {[string, Shape]} */ ([link.frame, shape])));
+    this.shaped = new Set(description.links.filter(({ visuals, collisions }) => visuals.length + collisions.length).map(({ frame }) => frame));
     for (const joint of description.joints) {
       const way = new Vector3(...joint.axis);
       const arrow = new ArrowHelper(way, new Vector3(), AXIS_LENGTH, AXIS, AXIS_LENGTH / 4, AXIS_LENGTH / 8);
@@ -287,6 +291,9 @@ export class Robot {
    */
   place(frames, look) {
     if (!this.group.visible) return;
+    if (look.collisions) {
+      for (const [frame, shape] of this.unloaded.splice(0)) this.add(frame, "collisions", shape, COLLISION);
+    }
     for (const { all } of this.links.values()) all.visible = false;
     this.places.clear();
     const turn = new Quaternion();
