@@ -116,7 +116,7 @@ def test_a_view_is_a_frame_of_its_own_that_gives_nothing_away(tmp_path):
     assert (tmp_path / "view.html").read_text("utf-8") == shown.html
     with pytest.raises(UsageError, match="exists"):
         shown.save(tmp_path / "view.html")
-    with pytest.raises(TypeError, match="a Recording or a Buffer is wanted"):
+    with pytest.raises(TypeError, match="expected a Recording or a Buffer"):
         tftool.view("run.mcap")
 
 
