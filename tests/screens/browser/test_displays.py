@@ -309,6 +309,50 @@ def test_a_file_shows_them_where_they_were(chromium, run, tmp_path):
 
 
 @needs_browser
+def test_a_point_of_a_cloud_is_measured_exactly_whatever_frame_is_fixed(
+    chromium, run, tmp_path
+):
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
+
+    from tests.screens.browser.test_cameras import clicked, pixels
+    from tests.screens.browser.test_file import opened
+
+    def brought_into_view(*place):
+        x, y = pixels(page, *place)
+        over = page.find("#over")
+        if 300 < x < over.size["width"] - 300 and 100 < y < over.size["height"] - 150:
+            return True
+        wheel = ActionChains(page.driver)
+        wheel.scroll_from_origin(ScrollOrigin.from_element(over), 0, 300).perform()
+        return False
+
+    def measured(first, second):
+        for place in (first, second):
+            page.until(lambda place=place: brought_into_view(*place))
+        clicked(page, first)
+        page.until(lambda: "second point" in page.text("#measured"))
+        clicked(page, second)
+        return page.until(lambda: " m (" in page.text("#measured") and page.text("#measured"))
+
+    assert main(["view", str(run), "-o", str(tmp_path / "run.html")]) == 0
+    page = opened(chromium, tmp_path / "run.html", "fixed=world&at=2&view=side")
+    assert shown(page, "/cloud", 2.0)[1] == [3.0, 2.0, 4.0]
+    page.find("#measure").click()
+    # The cloud remains where the sensor was, so that the point belongs to the root.
+    from_point = "(3.00, 2.00, 4.00) in world to robot: 4.583 m (x -1.000, y -2.000, z -4.000)"
+    assert measured((3, 2, 4), (2, 0, 0)) == from_point
+
+    page.pick("fixed", "robot")
+    page.until(lambda: shown(page, "/cloud", 2.0)[1] == [1.0, 2.0, 4.0])
+    assert page.text("#measured") == from_point
+    # From (1, 2, 3) the sensor's origin is the root of 14 away.
+    assert measured((1, 2, 4), (0, 0, 1)).startswith(
+        "(3.00, 2.00, 4.00) in world to sensor: 3.742 m"
+    )
+
+
+@needs_browser
 def test_a_server_shows_them_where_they_were(chromium, run):
     from tests.screens.browser.driving import Page
     from tftool.commands.shared.connection import Connection

@@ -74,7 +74,10 @@ export class Displays {
     for (const { message, shape } of this.shown.values()) {
       if (!shape.visible) continue;
       shape.updateMatrixWorld();
-      for (const { point, distance } of ray.intersectObject(shape, false)) {
+      for (const { point, distance, index } of ray.intersectObject(shape, false)) {
+        // Of a cloud, three.js returns the place on the ray that is nearest to the point.
+        const { position } = shape.geometry.attributes;
+        if (shape.type === "Points" && index !== undefined) point.fromBufferAttribute(position, index).applyMatrix4(shape.matrixWorld);
         if (!best || distance < best.distance) best = { frame: message.root ?? message.frame, point: point.toArray(), distance };
       }
     }
