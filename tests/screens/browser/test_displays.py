@@ -309,9 +309,7 @@ def test_a_file_shows_them_where_they_were(chromium, run, tmp_path):
 
 
 @needs_browser
-def test_a_point_of_a_cloud_is_measured_exactly_whatever_frame_is_fixed(
-    chromium, run, tmp_path
-):
+def test_a_point_of_a_cloud_is_measured_exactly_whatever_frame_is_fixed(chromium, run, tmp_path):
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 
