@@ -227,11 +227,11 @@ def test_a_commands_lines_may_be_of_any_length(monkeypatch):
 
 def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
     from tftool.app.main import main
-    from tftool.ros.launch import ending
+    from tftool.ros.launch import commands
 
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "session"))
-    monkeypatch.setattr(ending, "PATIENCE", 1.0)
+    monkeypatch.setattr(commands, "PATIENCE", 1.0)
     file = tmp_path / "a.launch.py"
     # Both the shell and what it runs ignore the first signal, the second one also the next. Nothing
     # is sent before both have said that they do.

@@ -1,9 +1,10 @@
 """Table of ROS 2's modules and names provided here, and where they are implemented.
 
-A line is "their module: our module: the names", a name alone or `theirs=ours`; a module of
-ours with a slash is a package of interfaces. The classes of some modules are found in modules
-of their own below them as well, as in ROS 2: `launch.actions.execute_process`. Packages of
-interfaces (geometry_msgs and so on) need no line: they follow from their definitions.
+A line is "their module: our module: the names", a name alone or `theirs=ours`. A module of ours
+with a slash is a package of interfaces; one with a dot in front is a module of tftool outside of
+`tftool.ros`. The classes of some modules are found in modules of their own below them as well, as
+in ROS 2: `launch.actions.execute_process`. Packages of interfaces (geometry_msgs and so on) need no
+line: they follow from their definitions.
 """
 
 import re
@@ -16,8 +17,8 @@ rclpy: rclpy.core: init shutdown try_shutdown ok spin spin_once spin_until_futur
 rclpy: rclpy.core: create_node get_global_executor get_default_context logging
 rclpy: rclpy.core: InitContextManager Context List Optional TYPE_CHECKING
 rclpy: rclpy.parameters: Parameter
-rclpy: rclpy.signals: SignalHandlerOptions
-rclpy: rclpy.utilities: get_rmw_implementation_identifier
+rclpy: rclpy.core: SignalHandlerOptions
+rclpy: rclpy.core: get_rmw_implementation_identifier
 rclpy.node: rclpy.node: Node
 rclpy.node: rclpy.parameters: Parameter
 rclpy.node: rclpy.node_graph: NodeNameNonExistentError
@@ -60,7 +61,7 @@ rclpy.type_support: rclpy.type_support: check_is_valid_srv_type
 rclpy.type_description_service: rclpy.services: START_TYPE_DESCRIPTION_SERVICE_PARAM
 rclpy.type_hash: rclpy.endpoints: TypeHash
 rclpy.topic_endpoint_info: rclpy.endpoints: TopicEndpointInfo TopicEndpointTypeEnum
-rclpy.wait_for_message: rclpy.waiting: wait_for_message
+rclpy.wait_for_message: rclpy.core: wait_for_message
 rclpy.client: rclpy.services: Client
 rclpy.service: rclpy.services: Service
 rclpy.guard_condition: rclpy.entities: GuardCondition
@@ -68,8 +69,8 @@ rclpy.task: rclpy.futures: Future Task
 rclpy.executors: rclpy.executors: Executor SingleThreadedExecutor MultiThreadedExecutor
 rclpy.executors: rclpy.exceptions: ExternalShutdownException ShutdownException
 rclpy.executors: rclpy.exceptions: TimeoutException ConditionReachedException
-rclpy.callback_groups: rclpy.groups: CallbackGroup MutuallyExclusiveCallbackGroup
-rclpy.callback_groups: rclpy.groups: ReentrantCallbackGroup
+rclpy.callback_groups: rclpy.entities: CallbackGroup MutuallyExclusiveCallbackGroup
+rclpy.callback_groups: rclpy.entities: ReentrantCallbackGroup
 rclpy.logging: rclpy.logging: get_logger LoggingSeverity set_logger_level initialize shutdown
 rclpy.logging: rclpy.logging: clear_config get_logging_directory _root_logger
 rclpy.logging: rclpy.logging: get_logger_effective_level get_logging_severity_from_string
@@ -110,7 +111,7 @@ rclpy.action.graph: rclpy.node_graph: get_action_client_names_and_types_by_node
 rclpy.action.graph: rclpy.node_graph: get_action_server_names_and_types_by_node
 rclpy.action.graph: rclpy.node_graph: get_action_names_and_types
 rclpy.action.client: rclpy.action_client: ActionClient ClientGoalHandle
-rclpy.action.client: rclpy.action_goals: GoalStatus
+rclpy.action.client: rclpy.action_client: GoalStatus
 rclpy.action.server: rclpy.action_server: ActionServer ServerGoalHandle GoalResponse
 rclpy.action.server: rclpy.action_server: CancelResponse
 rclpy.lifecycle: rclpy.lifecycle: LifecycleNode LifecycleNodeMixin LifecyclePublisher
@@ -122,9 +123,9 @@ rclpy.lifecycle.node: rclpy.lifecycle: TransitionCallbackReturn
 rclpy.lifecycle.publisher: rclpy.lifecycle: LifecyclePublisher
 rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity SimpleManagedEntity
 rclpy.serialization: rclpy.serialization: serialize_message deserialize_message
-rclpy.signals: rclpy.signals: SignalHandlerOptions get_current_signal_handlers_options
-rclpy.utilities: rclpy.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
-rclpy.utilities: rclpy.utilities: get_rmw_implementation_identifier shutdown try_shutdown
+rclpy.signals: rclpy.core: SignalHandlerOptions get_current_signal_handlers_options
+rclpy.utilities: rclpy.core: remove_ros_args ok get_default_context timeout_sec_to_nsec
+rclpy.utilities: rclpy.core: get_rmw_implementation_identifier shutdown try_shutdown
 rclpy.expand_topic_name: rclpy.validation: expand_topic_name
 rclpy.topic_or_service_is_hidden: rclpy.validation: topic_or_service_is_hidden
 rclpy.topic_or_service_is_hidden: rclpy.validation: HIDDEN_TOPIC_PREFIX
@@ -136,15 +137,15 @@ rclpy.validate_topic_name: rclpy.validation: validate_topic_name
 message_filters: rclpy.message_filters: Subscriber Cache TimeSynchronizer SimpleFilter
 message_filters: rclpy.message_filters: ApproximateTimeSynchronizer
 tf2_py: tf2.core: BufferCore
-tf2_py: tf2.errors: TransformException LookupException ConnectivityException TimeoutException
-tf2_py: tf2.errors: ExtrapolationException InvalidArgumentException
+tf2_py: .base.errors: TransformException LookupException ConnectivityException TimeoutException
+tf2_py: .base.errors: ExtrapolationException InvalidArgumentException
 tf2_ros: tf2.buffer: Buffer
 tf2_ros: tf2.core: BufferCore
 tf2_ros: tf2.interface: BufferInterface
 tf2_ros: tf2.broadcasters: TransformListener TransformBroadcaster
 tf2_ros: tf2.broadcasters: StaticTransformBroadcaster StaticTransformListener
-tf2_ros: tf2.errors: TransformException LookupException ConnectivityException TimeoutException
-tf2_ros: tf2.errors: ExtrapolationException InvalidArgumentException
+tf2_ros: .base.errors: TransformException LookupException ConnectivityException TimeoutException
+tf2_ros: .base.errors: ExtrapolationException InvalidArgumentException
 tf2_ros: tf2.registry: TransformRegistration ConvertRegistration TypeException convert
 tf2_ros: tf2.registry: NotImplementedException
 tf2_ros: rclpy.time: Time Duration

@@ -91,7 +91,7 @@ class _StandInLoader(Loader):
                 of, _, sort = imported.module.partition("/")
                 setattr(module, shown, INTERFACES.find(of, sort, imported.name))
                 continue
-            ours = importlib.import_module(f"tftool.ros.{imported.module}")
+            ours = importlib.import_module(f".{imported.module}", "tftool.ros")
             if shown == "*":
                 for name in vars(ours):
                     if not name.startswith("_"):

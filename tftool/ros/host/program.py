@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Awaitable, Callable, Sequence
+from functools import partial
 from typing import Any, ClassVar, TypeVar
 
 from tftool.base.errors import TftoolError
@@ -267,7 +268,7 @@ class Program(Node):
         """Block this thread for a duration; when asked to end, return at once."""
         if self.interrupted:
             return
-        self.ask(lambda: self.clock.sleep(max(0, duration), self.turn, self.rank))
+        self.ask(partial(self.clock.sleep, max(0, duration), self.turn, self.rank))
 
     def _count(self, share: float) -> None:
         # A loop that looks without ever waiting would hold simulated time still for ever.
@@ -280,7 +281,7 @@ class Program(Node):
         self._asked += share
         if self._asked > 1.0 and not self.interrupted:
             self._asked = 0.0
-            fiber.ask(lambda: self.clock.sleep(TICK, self.turn, self.rank))
+            fiber.ask(partial(self.clock.sleep, TICK, self.turn, self.rank))
             self._note_polling(now)
 
     def _note_polling(self, start: Stamp) -> None:

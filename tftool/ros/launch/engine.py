@@ -17,10 +17,9 @@ from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.program import Program, ProgramNode
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch.arguments import declared, refuse_unknown
-from tftool.ros.launch.commands import SystemCommand, begin, lines_of, run_at_once
+from tftool.ros.launch.commands import SystemCommand, begin, interrupt, lines_of, run_at_once
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
-from tftool.ros.launch.ending import interrupt
 from tftool.ros.launch.event_queue import EventQueue
 from tftool.ros.launch.events import (
     Event,

@@ -2,19 +2,34 @@
 
 import asyncio
 from collections.abc import Callable
+from enum import IntEnum
 from typing import Any
 
 from tftool.base.errors import TftoolError
 from tftool.messages.classes import INTERFACES, duplicate
 from tftool.ros.host import values
-from tftool.ros.rclpy.action_goals import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import Requester
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
-from tftool.world.action_parts import goal_id_message
+from tftool.world.action_parts import ENDED, goal_id_message
 from tftool.world.topics import GoalHandle as WorldGoal
 from tftool.world.topics import new_goal_id
+
+
+class GoalStatus(IntEnum):
+    """Status of a goal, with action_msgs' numbers."""
+
+    STATUS_UNKNOWN = 0
+    STATUS_ACCEPTED = 1
+    STATUS_EXECUTING = 2
+    STATUS_CANCELING = 3
+    STATUS_SUCCEEDED = 4
+    STATUS_CANCELED = 5
+    STATUS_ABORTED = 6
+
+
+STATUS: dict[str, GoalStatus] = {name: GoalStatus(number) for name, number in ENDED.items()}
 
 
 class _Result:

@@ -10,7 +10,7 @@ from tftool.base.errors import TftoolError
 from tftool.messages.classes import duplicate
 from tftool.ros.host import values
 from tftool.ros.host.error_text import error_sentence
-from tftool.ros.rclpy.action_goals import STATUS, GoalStatus
+from tftool.ros.rclpy.action_client import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import WorkQueue
 from tftool.ros.rclpy.qos import (
     QoSProfile,

@@ -1,15 +1,19 @@
-"""Functions of the module rclpy."""
+"""Functions of rclpy itself, and of its modules utilities, signals and wait_for_message."""
 
+import sys
 from collections.abc import Sequence
+from enum import IntEnum
 from typing import TYPE_CHECKING, Any, List, Optional  # noqa: UP035
 
-from tftool.ros.host import program
+from tftool.ros.host import names, program
 from tftool.ros.rclpy import logging
 from tftool.ros.rclpy.context import Context, context_of
-from tftool.ros.rclpy.executors import Executor, SingleThreadedExecutor, executor_of
+from tftool.ros.rclpy.executors import Executor, SingleThreadedExecutor, executor_of, wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.node_parameters import unused_parameters
+from tftool.ros.rclpy.qos import QoSProfile
+from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.time import S_TO_NS, Duration, Time
 
 # Some programs import what rclpy's own module imports from typing.
@@ -141,3 +145,71 @@ def warn_of_unused(node: Node) -> None:
     """Warn of parameters that were given but never declared."""
     for sentence in unused_parameters(node):
         node.get_logger().warning(sentence, once=False)
+
+
+def wait_for_message(
+    msg_type: Any,
+    node: Any,
+    topic: str,
+    *,
+    qos_profile: QoSProfile | int = 1,
+    time_to_wait: float = -1,
+) -> tuple[bool, Any]:
+    """Block until a message arrives.
+
+    Args:
+        msg_type: The topic's type.
+        node: Listening node.
+        topic: The topic's name.
+        qos_profile: How to listen.
+        time_to_wait: Seconds to wait at most; negative for no limit.
+
+    Returns:
+        (True, the message), or (False, None) if there was none in time, or everything ended.
+    """
+    arrived = Future()
+
+    def keep(message: Any) -> None:
+        if not arrived.done():
+            arrived.set_result(message)
+
+    subscription = node.create_subscription(msg_type, topic, keep, qos_profile)
+    # The callback that waits may keep the node's other callbacks from running.
+    subscription.passes_busy_group = True
+    try:
+        wait_for(seat_of(node), arrived, None if time_to_wait < 0 else time_to_wait)
+    finally:
+        node.destroy_subscription(subscription)
+    return arrived.done(), arrived.result()
+
+
+class SignalHandlerOptions(IntEnum):
+    """Signals that rclpy could handle."""
+
+    NO = 0
+    ALL = 1
+    SIGINT = 2
+    SIGTERM = 3
+
+
+def get_current_signal_handlers_options() -> SignalHandlerOptions:
+    """Return the handled signals: as in ROS 2 all, while the context is initialised."""
+    started = context_of(program.current()).ok()
+    return SignalHandlerOptions.ALL if started else SignalHandlerOptions.NO
+
+
+def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
+    """Return the arguments without ROS 2's."""
+    return names.parse(list(sys.argv if args is None else args))[1]
+
+
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
+    """Return nanoseconds; -1 for no limit."""
+    if timeout_sec is None or timeout_sec < 0:
+        return -1
+    return int(float(timeout_sec) * 1e9)
+
+
+def get_rmw_implementation_identifier() -> str:
+    """Return the middleware's name: messages stay in this process."""
+    return "tftool"

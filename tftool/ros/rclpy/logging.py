@@ -2,12 +2,14 @@
 
 import inspect
 import os
+from collections.abc import Callable, Iterator
 from enum import IntEnum
 from pathlib import Path
 from types import CodeType, FrameType
 from typing import Any
 
 from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.messages.classes import INTERFACES
 from tftool.ros.host import program
 from tftool.world.log import Level
 
@@ -263,3 +265,37 @@ def initialize() -> None:
 
 def shutdown() -> None:
     """Do nothing."""
+
+
+_NO_LEVEL = "Failed reason: Invalid logger level."
+
+
+def logger_services() -> Iterator[tuple[str, Any, Callable[[Any, Any], Any]]]:
+    """Yield each service's name below its node, its type, and its handler."""
+    level_kind: Any = INTERFACES.message("rcl_interfaces/LoggerLevel")
+    result_kind: Any = INTERFACES.message("rcl_interfaces/SetLoggerLevelsResult")
+
+    def get(request: Any, response: Any) -> Any:
+        levels = program.current().log_levels
+        response.levels = [
+            level_kind(name=name, level=levels.get(name, LoggingSeverity.UNSET))
+            for name in request.names
+        ]
+        return response
+
+    def change(wanted: Any) -> Any:
+        try:
+            set_logger_level(wanted.name, wanted.level)
+        except ValueError:
+            return result_kind(successful=False, reason=_NO_LEVEL)
+        return result_kind(successful=True)
+
+    def set_levels(request: Any, response: Any) -> Any:
+        response.results = [change(one) for one in request.levels]
+        return response
+
+    for name, kind, answer in (
+        ("get_logger_levels", "GetLoggerLevels", get),
+        ("set_logger_levels", "SetLoggerLevels", set_levels),
+    ):
+        yield name, INTERFACES.find("rcl_interfaces", "srv", kind), answer

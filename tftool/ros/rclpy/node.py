@@ -8,25 +8,26 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from tftool.messages.classes import Message
 from tftool.ros.host import names, program
 from tftool.ros.host.fibers import CodeLine, user_line
-from tftool.ros.rclpy import parameter_events
 from tftool.ros.rclpy.context import Context, context_of
-from tftool.ros.rclpy.entities import GuardCondition, NodeEntity, RequiredHandle
+from tftool.ros.rclpy.entities import (
+    CallbackGroup,
+    GuardCondition,
+    MutuallyExclusiveCallbackGroup,
+    NodeEntity,
+    RequiredHandle,
+)
 from tftool.ros.rclpy.exceptions import NotInitializedException
-from tftool.ros.rclpy.groups import CallbackGroup, MutuallyExclusiveCallbackGroup
-from tftool.ros.rclpy.logger_service import logger_services
-from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger
+from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
 from tftool.ros.rclpy.node_graph import NodeGraph
-from tftool.ros.rclpy.node_parameters import NodeParameters
-from tftool.ros.rclpy.parameter_service import ServedParameters
+from tftool.ros.rclpy.node_parameters import NodeParameters, ServedParameters, teller
 from tftool.ros.rclpy.qos import QoSProfile, profile_of
 from tftool.ros.rclpy.qos_events import EndpointWatch
 from tftool.ros.rclpy.qos_overriding_options import declare_overrides
-from tftool.ros.rclpy.rosout import RosoutPublisher
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.services import Client, Service, serve_own
 from tftool.ros.rclpy.time import Clock, Rate, ROSClock
 from tftool.ros.rclpy.timers import RateTimer, Timer, period_of
-from tftool.ros.rclpy.topics import Publisher, Subscription
+from tftool.ros.rclpy.topics import Publisher, RosoutPublisher, Subscription
 from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
 from tftool.world.node_parameters import parameter_services
 
@@ -75,13 +76,11 @@ class Node(NodeGraph, NodeParameters):
             parameter_overrides or (),
             allow_undeclared_parameters,
             automatically_declare_parameters_from_overrides,
-            parameter_events.teller(self._tftool),
+            teller(self._tftool),
         )
         if enable_rosout and options.logs_to_rosout:
             seat = self._tftool
-            seat.rosout = seat.keep(
-                lambda: RosoutPublisher(seat, self._logger.name, rosout_qos_profile)
-            )
+            seat.rosout = seat.keep(RosoutPublisher, seat, self._logger.name, rosout_qos_profile)
         if start_parameter_services:
             serve_own(self, parameter_services(ServedParameters(self)))
         if enable_logger_service:
@@ -183,7 +182,7 @@ class Node(NodeGraph, NodeParameters):
             profile = copy.copy(profile)
             declare_overrides(self, "publisher", f"/{full}", profile, qos_overriding_options)
         make = publisher_class or Publisher
-        made: Publisher = self.__keep(lambda: make(self._tftool, msg_type, topic, full, profile))
+        made: Publisher = self.__keep(make, msg_type, topic, full, profile)
         self.__watch(made, callback_group, event_callbacks)
         return made
 
@@ -209,7 +208,7 @@ class Node(NodeGraph, NodeParameters):
             profile = copy.copy(profile)
             declare_overrides(self, "subscription", f"/{full}", profile, qos_overriding_options)
         made: Subscription = self.__keep(
-            lambda: Subscription(self._tftool, msg_type, topic, full, callback, profile, group, raw)
+            Subscription, msg_type, topic, full, callback, profile, group, raw
         )
         self.__watch(made, group, event_callbacks)
         return made
@@ -219,9 +218,7 @@ class Node(NodeGraph, NodeParameters):
         if wanted is None:
             return
         group = group or self._default_callback_group
-        made.event_watch = self.__keep(
-            lambda: EndpointWatch(self._tftool, group, made.endpoint, wanted)
-        )
+        made.event_watch = self.__keep(EndpointWatch, group, made.endpoint, wanted)
 
     def create_timer(
         self,
@@ -241,7 +238,7 @@ class Node(NodeGraph, NodeParameters):
             raise ValueError("timer period must not be negative")
         group = callback_group or self._default_callback_group
         goes_by = clock or self._clock
-        return self.__keep(lambda: Timer(self._tftool, callback, period, group, goes_by, autostart))
+        return self.__keep(Timer, callback, period, group, goes_by, autostart)
 
     def _warn_of_missing_callback(self, place: CodeLine | None) -> None:
         # rclpy takes None too, for a timer that is only waited for; a student's calls nothing.
@@ -263,7 +260,7 @@ class Node(NodeGraph, NodeParameters):
         _require_service(srv_type)
         full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
-        return self.__keep(lambda: Client(self._tftool, srv_type, srv_name, full, group))
+        return self.__keep(Client, srv_type, srv_name, full, group)
 
     def create_service(
         self,
@@ -279,14 +276,14 @@ class Node(NodeGraph, NodeParameters):
         _require_callable(callback)
         full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
-        return self.__keep(lambda: Service(self._tftool, srv_type, srv_name, full, callback, group))
+        return self.__keep(Service, srv_type, srv_name, full, callback, group)
 
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
         """Create a guard condition, which calls back when triggered."""
         group = callback_group or self._default_callback_group
-        return self.__keep(lambda: GuardCondition(self._tftool, callback, group))
+        return self.__keep(GuardCondition, callback, group)
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Create a rate for a loop.
@@ -299,7 +296,7 @@ class Node(NodeGraph, NodeParameters):
         if frequency <= 0:
             raise ValueError("frequency must be greater than 0")
         period, goes_by = period_of(1.0 / frequency), clock or self._clock
-        timer = self.__keep(lambda: RateTimer(self._tftool, None, period, None, goes_by))
+        timer = self.__keep(RateTimer, None, period, None, goes_by)
         return Rate(self._tftool, timer)
 
     def destroy_rate(self, rate: Rate) -> bool:
@@ -309,9 +306,8 @@ class Node(NodeGraph, NodeParameters):
         rate.destroy()
         return True
 
-    def __keep(self, make: Callable[[], E]) -> E:
-        kept: E = self._tftool.keep(make)
-        return kept
+    def __keep(self, make: Callable[..., E], *args: Any) -> E:
+        return self._tftool.keep(make, self._tftool, *args)
 
     def __destroy(self, entity: Any) -> bool:
         return self._tftool.forget(entity)

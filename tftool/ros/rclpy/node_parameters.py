@@ -1,4 +1,4 @@
-"""Declaration, reading and setting of a node's parameters."""
+"""A node's parameters: their store, and its faces in Python, as services and as events."""
 
 import math
 import warnings
@@ -7,6 +7,7 @@ from typing import Any
 
 from tftool.messages.classes import INTERFACES
 from tftool.messages.parameter_values import list_result, value_of
+from tftool.ros.host import names, values
 from tftool.ros.host.missing_names import undeclared
 from tftool.ros.rclpy.exceptions import (
     InvalidParameterTypeException,
@@ -18,7 +19,12 @@ from tftool.ros.rclpy.exceptions import (
 )
 from tftool.ros.rclpy.parameters import Parameter
 from tftool.ros.rclpy.parameters import ParameterType as Type
+from tftool.ros.rclpy.qos import qos_profile_parameter_events
+from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.topics import Publisher
 from tftool.ros.rclpy.validation import validate_parameter_name
+
+PARAMETER_EVENTS = "/parameter_events"
 
 Setter = Callable[[list[Parameter]], Any]
 
@@ -469,3 +475,67 @@ def _hint(wanted: Type, value: Any) -> str:
     if wanted is Type.STRING and isinstance(value, bool | int | float):
         return f": write '\"{value}\"' to pass a text"
     return ""
+
+
+def teller(seat: NodeSeat) -> Callable[..., None]:
+    """Return a node's publisher of parameter events, created at once."""
+    kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
+    publisher: Publisher = seat.keep(
+        Publisher, seat, kind, PARAMETER_EVENTS, PARAMETER_EVENTS[1:], qos_profile_parameter_events
+    )
+
+    def tell(
+        *,
+        new: Sequence[Parameter] = (),
+        changed: Sequence[Parameter] = (),
+        deleted: Sequence[Parameter] = (),
+    ) -> None:
+        # Parameters change far more often than there is a subscriber.
+        if not publisher.get_subscription_count():
+            return
+        event = kind(
+            stamp=values.time_message(seat.now()),
+            node=f"/{names.join(seat.namespace, seat.name)}",
+            new_parameters=[one.to_parameter_msg() for one in new],
+            changed_parameters=[one.to_parameter_msg() for one in changed],
+            deleted_parameters=[one.to_parameter_msg() for one in deleted],
+        )
+        publisher.publish(event)
+
+    return tell
+
+
+# A request may name a type that is none, or a value that is not of its type.
+_REFUSALS = (ParameterNotDeclaredException, ValueError, TypeError)
+
+
+class ServedParameters:
+    """A node's parameters in the form of `node_parameters`."""
+
+    def __init__(self, node: NodeParameters) -> None:
+        self._node = node
+
+    def values(self, names: Sequence[str]) -> list[Any]:
+        """Return a ParameterValue for each name; none at all if one has no value, as in ROS 2."""
+        try:
+            return [one.get_parameter_value() for one in self._node.get_parameters(list(names))]
+        except (ParameterNotDeclaredException, ParameterUninitializedException):
+            return []
+
+    def descriptors(self, names: Sequence[str]) -> list[Any]:
+        """Return a ParameterDescriptor for each known name."""
+        node = self._node
+        return [node.describe_parameter(name) for name in names if node.has_parameter(name)]
+
+    def listed(self, prefixes: Sequence[str], depth: int) -> Any:
+        """Return the names below some prefixes."""
+        return self._node.list_parameters(prefixes, depth)
+
+    def change(self, parameters: Sequence[Any]) -> Any:
+        """Make all changes or none; return the result."""
+        try:
+            return self._node.set_parameters_atomically(
+                [Parameter.from_parameter_msg(one) for one in parameters]
+            )
+        except _REFUSALS as error:
+            return set_result(False, str(error))

@@ -1,45 +1,13 @@
-"""Publishing of parameter changes on `/parameter_events`, and rclpy's handler for it."""
+"""rclpy.parameter_event_handler: callbacks for parameters that change."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from tftool.messages.classes import INTERFACES
-from tftool.ros.host import names, values
-from tftool.ros.rclpy.parameters import Parameter
+from tftool.ros.host import names
+from tftool.ros.rclpy.node_parameters import PARAMETER_EVENTS
 from tftool.ros.rclpy.qos import QoSProfile, qos_profile_parameter_events
-from tftool.ros.rclpy.seat import NodeSeat
-from tftool.ros.rclpy.topics import Publisher
-
-TOPIC = "parameter_events"
-
-
-def teller(seat: NodeSeat) -> Callable[..., None]:
-    """Return a node's publisher of parameter events, created at once."""
-    kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
-    publisher: Publisher = seat.keep(
-        lambda: Publisher(seat, kind, f"/{TOPIC}", TOPIC, qos_profile_parameter_events)
-    )
-
-    def tell(
-        *,
-        new: Sequence[Parameter] = (),
-        changed: Sequence[Parameter] = (),
-        deleted: Sequence[Parameter] = (),
-    ) -> None:
-        # Parameters change far more often than there is a subscriber.
-        if not publisher.get_subscription_count():
-            return
-        event = kind(
-            stamp=values.time_message(seat.now()),
-            node=f"/{names.join(seat.namespace, seat.name)}",
-            new_parameters=[one.to_parameter_msg() for one in new],
-            changed_parameters=[one.to_parameter_msg() for one in changed],
-            deleted_parameters=[one.to_parameter_msg() for one in deleted],
-        )
-        publisher.publish(event)
-
-    return tell
 
 
 @dataclass(eq=False, slots=True)
@@ -73,7 +41,7 @@ class ParameterEventHandler:
         self._of_all: list[ParameterEventCallbackHandle] = []
         self.parameter_event_subscription = node.create_subscription(
             INTERFACES.message("rcl_interfaces/ParameterEvent"),
-            f"/{TOPIC}",
+            PARAMETER_EVENTS,
             self._arrived,
             qos_profile,
             callback_group=callback_group,

@@ -7,7 +7,8 @@ and parameters, are private as in rclpy.
 
 import asyncio
 from collections.abc import Callable
-from typing import Any
+from functools import partial
+from typing import Any, TypeVar
 
 from tftool.base.stamps import Stamp
 from tftool.ros.host import names
@@ -17,6 +18,8 @@ from tftool.ros.rclpy.validation import validate_topic_name
 from tftool.world.clock import Phase
 from tftool.world.endpoints import PUBLISHER, Endpoint
 from tftool.world.world import TransformMessage, World
+
+T = TypeVar("T")
 
 
 class NodeSeat:
@@ -115,21 +118,22 @@ class NodeSeat:
         if self._destroyed:
             raise InvalidHandle(f"node '{self.name}' is destroyed: it can have nothing new")
 
-    def keep(self, make: Callable[[], Any]) -> Any:
-        """Make an entity in the loop's thread, and add it to executors.
+    def keep(self, make: Callable[..., T], *args: Any) -> T:
+        """Call `make` in the loop's thread, and add the new entity to executors.
 
         Raises:
             InvalidHandle: If the node is destroyed.
         """
         self.require()
+        entity: T = self.program.ask(partial(self.add, make, *args))
+        return entity
 
-        def made() -> Any:
-            entity = make()
-            self.entities.append(entity)
-            self.wake()
-            return entity
-
-        return self.program.ask(made)
+    def add(self, make: Callable[..., T], *args: Any) -> T:
+        """Make an entity (in the loop's thread)."""
+        entity = make(*args)
+        self.entities.append(entity)
+        self.wake()
+        return entity
 
     def forget(self, entity: Any) -> bool:
         """Close an entity; return whether it belonged to the node."""

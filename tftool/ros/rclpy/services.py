@@ -200,11 +200,13 @@ def serve_own(
 ) -> None:
     """Serve nodes' own services; of two with one name the first responds."""
     seat, wanted = seat_of(node), list(services)
+    group = callback_group or node.default_callback_group
 
     def offer() -> None:
         for below, kind, answer in wanted:
-            if not seat.world.has_service(seat.full(f"~/{below}", is_service=True)):
-                node.create_service(kind, f"~/{below}", answer, callback_group=callback_group)
+            full = seat.full(f"~/{below}", is_service=True)
+            if not seat.world.has_service(full):
+                seat.add(Service, seat, kind, f"~/{below}", full, answer, group)
 
     # In one go: another program's thread may come between two requests.
     seat.program.ask(offer)

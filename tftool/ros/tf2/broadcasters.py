@@ -55,7 +55,7 @@ class TransformListener:
         self._member = seat_of(node)
         self._member.program.listens = True
         buffer.hints.has_listener = True
-        self._member.keep(lambda: self._listen(static_only))
+        self._member.keep(self._listen, static_only)
 
     def _listen(self, static_only: bool) -> NodeEntity:
         world = self._member.world

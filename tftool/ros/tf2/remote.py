@@ -2,6 +2,14 @@
 
 from typing import Any
 
+from tftool.base.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
 from tftool.messages.classes import INTERFACES
 from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.action_server import ActionServer
@@ -10,14 +18,6 @@ from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.time import Duration, Time
 from tftool.ros.tf2.buffer import Buffer
-from tftool.ros.tf2.errors import (
-    ConnectivityException,
-    ExtrapolationException,
-    InvalidArgumentException,
-    LookupException,
-    TimeoutException,
-    TransformException,
-)
 from tftool.ros.tf2.interface import NOW, BufferInterface
 from tftool.ros.tf2.lookup_requests import length, stamp
 
