@@ -6,7 +6,6 @@ for another, and a timeout means simulated seconds.
 
 import asyncio
 import threading
-from collections import deque
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -73,31 +72,25 @@ class StateMonitor:
 
     async def _wait(self, owner: Any, take: Callable[[], bool], timeout: float | None) -> bool:
         loop, clock = asyncio.get_running_loop(), owner.clock
-        timer = None
-        if timeout is not None:
-            timer = clock.timer(clock.now() + seconds(timeout), owner.turn, owner.rank)
-        try:
-            while True:
-                changed: asyncio.Future[None] = loop.create_future()
+        end = None if timeout is None else clock.now() + seconds(timeout)
+        is_late = False
+        while True:
+            changed: asyncio.Future[None] = loop.create_future()
 
-                def wake(changed: "asyncio.Future[None]" = changed) -> None:
-                    loop.call_soon_threadsafe(fibers.finish, changed)
+            def wake(changed: "asyncio.Future[None]" = changed) -> None:
+                loop.call_soon_threadsafe(fibers.finish, changed)
 
+            with self._mutex:
+                if take():
+                    return True
+                if is_late:
+                    return False
+                self._wakers.append(wake)
+            try:
+                is_late = not await owner.first_of(changed, until=end)
+            finally:
                 with self._mutex:
-                    if take():
-                        return True
-                    if timer is not None and timer.done():
-                        return False
-                    self._wakers.append(wake)
-                try:
-                    waits_for = {changed} if timer is None else {changed, timer}
-                    await asyncio.wait(waits_for, return_when=asyncio.FIRST_COMPLETED)
-                finally:
-                    with self._mutex:
-                        self._wakers.remove(wake)
-        finally:
-            if timer is not None:
-                timer.cancel()
+                    self._wakers.remove(wake)
 
     def _block(self, take: Callable[[], bool], timeout: float | None) -> bool:
         """Wait in real time, on a thread that belongs to no program."""
@@ -166,18 +159,7 @@ class UserLock:
         """Whether it is held."""
         return self._held
 
-    def is_owned(self) -> bool:
-        """Whether a condition may assume that the caller holds it."""
-        return self._held
-
-    def release_whole(self) -> int:
-        """Release it for a condition's wait; return how often to take it again."""
-        self.release()
-        return 1
-
-    def acquire_whole(self, count: int) -> None:
-        """Take it again after a condition's wait."""
-        self.acquire()
+    _is_owned = locked  # A condition asks so; its own way, a failed acquire, counts as polling.
 
     def __enter__(self) -> bool:
         return self.acquire()
@@ -186,82 +168,24 @@ class UserLock:
         self.release()
 
 
-class UserRLock:
+# The others are the standard library's own, on locks and conditions of these kinds.
+
+
+class UserRLock(threading._RLock):  # type: ignore[misc]
     """`threading.RLock` in the world's time."""
 
     def __init__(self) -> None:
-        self._state = StateMonitor()
-        self._owner = 0
-        self._count = 0
-
-    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock, again if this thread holds it; return whether that succeeded in time."""
-        return self._take(1, _limit(blocking, timeout))
-
-    def _take(self, count: int, limit: float | None) -> bool:
-        # `take` may run on the loop's thread for this one.
-        thread = threading.get_ident()
-
-        def take() -> bool:
-            if self._count and self._owner != thread:
-                return False
-            self._owner, self._count = thread, self._count + count
-            return True
-
-        return self._state.wait(take, limit)
-
-    def release(self) -> None:
-        """Release it once.
-
-        Raises:
-            RuntimeError: If this thread does not hold it.
-        """
-        self._give(1)
-
-    def _give(self, count: int) -> None:
-        if not self.is_owned():
-            raise RuntimeError("cannot release un-acquired lock")
-
-        def free() -> None:
-            self._count -= count
-
-        self._state.change(free)
-
-    def is_owned(self) -> bool:
-        """Whether this thread holds it."""
-        return bool(self._count) and self._owner == threading.get_ident()
-
-    def release_whole(self) -> int:
-        """Release it for a condition's wait; return how often to take it again."""
-        count = self._count
-        self._give(count)
-        return count
-
-    def acquire_whole(self, count: int) -> None:
-        """Take it again after a condition's wait."""
-        self._take(count, None)
-
-    def __enter__(self) -> bool:
-        return self.acquire()
-
-    def __exit__(self, *args: object) -> None:
-        self.release()
+        super().__init__()
+        self._block: Any = UserLock()
 
 
-class UserCondition:
+class UserCondition(threading.Condition):
     """`threading.Condition` in the world's time."""
 
+    _waiters: Any
+
     def __init__(self, lock: Any = None) -> None:
-        self._lock = UserRLock() if lock is None else lock
-        self.acquire, self.release = self._lock.acquire, self._lock.release
-        self._state = StateMonitor()
-        self._waiting: deque[object] = deque()
-
-    def __enter__(self) -> Any:
-        return self._lock.__enter__()
-
-    def __exit__(self, *args: object) -> None:
-        self._lock.__exit__(*args)
+        super().__init__(UserRLock() if lock is None else lock)
 
     def wait(self, timeout: float | None = None) -> bool:
         """Release the lock, block until notified, and take the lock again.
@@ -272,16 +196,20 @@ class UserCondition:
         Raises:
             RuntimeError: If the lock is not held.
         """
-        self._check("wait on")
-        token = object()
-        self._waiting.append(token)
-        count = self._lock.release_whole()
+        parts: Any = self
+        if not parts._is_owned():
+            raise RuntimeError("cannot wait on un-acquired lock")
+        waiter, is_notified = UserLock(), False
+        waiter.acquire()
+        self._waiters.append(waiter)
+        held = parts._release_save()
         try:
-            return self._state.wait(lambda: token not in self._waiting, timeout)
+            is_notified = waiter.acquire(timeout=-1 if timeout is None else max(0.0, timeout))
+            return is_notified
         finally:
-            if token in self._waiting:
-                self._waiting.remove(token)
-            self._lock.acquire_whole(count)
+            parts._acquire_restore(held)
+            if not is_notified and waiter in self._waiters:
+                self._waiters.remove(waiter)
 
     def wait_for(self, predicate: Callable[[], T], timeout: float | None = None) -> T:
         """Block until a predicate is true; return its last value."""
@@ -296,112 +224,44 @@ class UserCondition:
                 left = timeout - passed if in_time else 0.0
         return result
 
-    def notify(self, n: int = 1) -> None:
-        """Wake up to `n` waiting threads.
 
-        Raises:
-            RuntimeError: If the lock is not held.
-        """
-        self._check("notify on")
-
-        def pick() -> None:
-            for _ in range(min(n, len(self._waiting))):
-                self._waiting.popleft()
-
-        self._state.change(pick)
-
-    def notify_all(self) -> None:
-        """Wake all waiting threads."""
-        self.notify(len(self._waiting))
-
-    def _check(self, verb: str) -> None:
-        if not self._lock.is_owned():
-            raise RuntimeError(f"cannot {verb} un-acquired lock")
-
-
-class UserSemaphore:
+class UserSemaphore(threading.Semaphore):
     """`threading.Semaphore` in the world's time."""
 
-    def __init__(self, value: int = 1) -> None:
-        if value < 0:
-            raise ValueError("semaphore initial value must be >= 0")
-        self._state = StateMonitor()
-        self._value = value
-
-    def acquire(self, blocking: bool = True, timeout: float | None = None) -> bool:
-        """Take one; return whether that succeeded in time."""
-        return self._state.wait(self._take, _limit(blocking, timeout))
-
-    def _take(self) -> bool:
-        if self._value == 0:
-            return False
-        self._value -= 1
-        return True
-
-    def release(self, n: int = 1) -> None:
-        """Release `n`."""
-        if n < 1:
-            raise ValueError("n must be one or more")
-
-        def give() -> None:
-            self._check(n)
-            self._value += n
-
-        self._state.change(give)
-
-    def _check(self, n: int) -> None:
-        """Refuse to exceed the initial value."""
-
-    def __enter__(self) -> bool:
-        return self.acquire()
-
-    def __exit__(self, *args: object) -> None:
-        self.release()
-
-
-class UserBoundedSemaphore(UserSemaphore):
-    """`threading.BoundedSemaphore` in the world's time."""
+    _value: int
 
     def __init__(self, value: int = 1) -> None:
         super().__init__(value)
-        self._most = value
+        self._cond: Any = UserCondition(UserLock())
 
-    def _check(self, n: int) -> None:
-        if self._value + n > self._most:
-            raise ValueError("Semaphore released too many times")
+    def acquire(self, blocking: bool = True, timeout: float | None = None) -> bool:
+        """Take one; return whether that succeeded in time."""
+        limit = _limit(blocking, timeout)
+        with self._cond:
+            if limit == 0.0 and not self._value:
+                self._cond.wait(0.0)  # which counts as polling
+            is_free = bool(self._cond.wait_for(lambda: self._value, limit))
+            self._value -= is_free
+        return is_free
+
+    __enter__ = acquire
 
 
-class UserEvent:
+class UserBoundedSemaphore(UserSemaphore, threading.BoundedSemaphore):
+    """`threading.BoundedSemaphore` in the world's time."""
+
+
+class UserEvent(threading.Event):
     """`threading.Event` in the world's time."""
 
     def __init__(self) -> None:
-        self._state = StateMonitor()
-        self._set = False
-
-    def is_set(self) -> bool:
-        """Whether it is set."""
-        return self._set
-
-    def set(self) -> None:
-        """Set it, and wake all waiting threads."""
-        self._put(True)
-
-    def clear(self) -> None:
-        """Unset it."""
-        self._put(False)
-
-    def _put(self, value: bool) -> None:
-        def put() -> None:
-            self._set = value
-
-        self._state.change(put)
+        super().__init__()
+        self._cond: Any = UserCondition(UserLock())
 
     def wait(self, timeout: float | None = None) -> bool:
         """Block until it is set; return whether it is."""
         owner = running_program()
-        if owner is not None and owner.interrupted:
-            return self._set
-        return self._state.wait(self.is_set, timeout)
+        return self.is_set() if owner is not None and owner.interrupted else super().wait(timeout)
 
 
 class UserBarrier(threading.Barrier):
@@ -411,5 +271,4 @@ class UserBarrier(threading.Barrier):
         self, parties: int, action: Callable[[], None] | None = None, timeout: float | None = None
     ) -> None:
         super().__init__(parties, action, timeout)
-        # The class of the standard library does everything by this condition.
         self._cond: Any = UserCondition(UserLock())

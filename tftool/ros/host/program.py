@@ -270,6 +270,33 @@ class Program(Node):
             return
         self.ask(partial(self.clock.sleep, max(0, duration), self.turn, self.rank))
 
+    async def first_of(
+        self,
+        *waits: "asyncio.Future[Any]",
+        until: Stamp | None = None,
+        phase: Phase | None = None,
+    ) -> bool:
+        """Wait for the first of some futures (in the loop), which are not cancelled.
+
+        Args:
+            waits: What to wait for.
+            until: The moment at which to stop waiting; None for none.
+            phase: The turn within that moment; this program's own unless given.
+
+        Returns:
+            Whether one of them is done.
+        """
+        timers = []
+        if until is not None:
+            turn = (self.turn, self.rank) if phase is None else (phase,)
+            timers.append(self.clock.timer(until, *turn))
+        try:
+            await asyncio.wait({*waits, *timers}, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            for timer in timers:
+                timer.cancel()
+        return any(one.done() for one in waits)
+
     def _count(self, share: float) -> None:
         # A loop that looks without ever waiting would hold simulated time still for ever.
         fiber = fibers.current()

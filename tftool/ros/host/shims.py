@@ -14,7 +14,6 @@ import queue
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -106,52 +105,21 @@ class UserThread(threading.Thread):
             return
         if self._owner.interrupted:
             return
-        task, clock = self._task, self._owner.clock
-
-        async def ended() -> None:
-            waits_for: set[asyncio.Future[None]] = {task}
-            if timeout is not None:
-                due = clock.now() + seconds(max(0.0, timeout))
-                waits_for.add(timer := clock.timer(due, self._owner.turn, self._owner.rank))
-            try:
-                await asyncio.wait(waits_for, return_when=asyncio.FIRST_COMPLETED)
-            finally:
-                if timeout is not None:
-                    timer.cancel()
-
-        self._owner.ask(ended)
+        owner = self._owner
+        end = None if timeout is None else owner.clock.now() + seconds(max(0.0, timeout))
+        owner.ask(lambda: owner.first_of(self._task, until=end))
 
     def is_alive(self) -> bool:
         """Whether it runs."""
         return super().is_alive() if self._fiber is None else not self._fiber.ended
 
 
-class UserTimer(UserThread):
+class UserTimer(UserThread, threading.Timer):
     """A thread that calls a function after a number of the world's seconds."""
 
-    def __init__(
-        self,
-        interval: float,
-        function: Callable[..., Any],
-        args: Iterable[Any] | None = None,
-        kwargs: Mapping[str, Any] | None = None,
-    ) -> None:
-        super().__init__()
-        self.interval = interval
-        self.function = function
-        self.args = args or ()
-        self.kwargs = kwargs or {}
-        self.finished = locks.UserEvent()
-
-    def cancel(self) -> None:
-        """Cancel the call."""
-        self.finished.set()
-
-    def run(self) -> None:
-        """Wait, and call it."""
-        if not self.finished.wait(self.interval):
-            self.function(*self.args, **self.kwargs)
-        self.finished.set()
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.finished: Any = locks.UserEvent()
 
 
 @cache

@@ -215,12 +215,10 @@ def wait_for_first(
     owner = program.current()
 
     async def wait() -> None:
-        waits: list[Any] = [asyncio.ensure_future(event.wait()) for event in events]
-        if timeout is not None:
-            end = owner.clock.now() + seconds(timeout)
-            waits.append(owner.clock.timer(end, owner.turn, owner.rank))
+        waits = [asyncio.ensure_future(event.wait()) for event in events]
+        end = None if timeout is None else owner.clock.now() + seconds(timeout)
         try:
-            await asyncio.wait(waits, return_when=asyncio.FIRST_COMPLETED)
+            await owner.first_of(*waits, until=end)
         finally:
             for one in waits:
                 one.cancel()

@@ -202,28 +202,23 @@ class NodeSeat:
         return bool(self.program.ask(lambda: self._appears(there, timeout_sec)))
 
     async def _appears(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
-        clock = self.program.clock
-        timer = None
+        end = None
         if timeout_sec is not None:
-            timer = clock.timer(clock.now() + int(timeout_sec * 1e9), Phase.WATCH)
+            end = self.now() + int(timeout_sec * 1e9)
         changed = asyncio.Event()
         stop = self.world.watch(changed.set)
+        in_time = True
         try:
-            while not there() and self.context.ok() and (timer is None or not timer.done()):
+            while in_time and not there() and self.context.ok():
                 changed.clear()
-                waiting: set[asyncio.Future[Any]] = {asyncio.ensure_future(changed.wait())}
-                if timer is not None:
-                    waiting.add(timer)
+                waiting = asyncio.ensure_future(changed.wait())
                 try:
-                    await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
+                    in_time = await self.program.first_of(waiting, until=end, phase=Phase.WATCH)
                 finally:
-                    for one in waiting - {timer}:
-                        one.cancel()
+                    waiting.cancel()
             return there()
         finally:
             stop()
-            if timer is not None:
-                timer.cancel()
 
 
 def seat_of(node: Any) -> NodeSeat:

@@ -115,11 +115,9 @@ class Buffer(BufferCore, BufferInterface):
     async def _until(self, asked: LookupRequest | FullLookupRequest, limit: int) -> None:
         clock = self._program.clock
         attempt = asyncio.ensure_future(asked.wait(self._frames, clock))
-        timer = clock.timer(clock.now() + limit, Phase.WATCH)
         try:
-            await asyncio.wait([attempt, timer], return_when=asyncio.FIRST_COMPLETED)
+            await self._program.first_of(attempt, until=clock.now() + limit, phase=Phase.WATCH)
         finally:
-            timer.cancel()
             attempt.cancel()
             await asyncio.gather(attempt, return_exceptions=True)
 
