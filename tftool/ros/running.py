@@ -3,6 +3,7 @@
 import asyncio
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from tftool.base.errors import InputError, NodeFailed, UsageError
 from tftool.base.stamps import Duration
@@ -266,12 +267,20 @@ def advice(world: World) -> Iterator[str]:
 
 async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
     """Wait until something is over, at most for a duration."""
-    if limit is not None:
-        end = world.clock.now() + limit
-        world.clock.limit(end)
-        stop = world.clock.timer(end, Phase.WATCH)
-        stop.add_done_callback(lambda _: over.set())
-    await over.wait()
+    if limit is None:
+        await over.wait()
+        return
+    end = world.clock.now() + limit
+    world.clock.limit(end)
+    waits: list[asyncio.Future[Any]] = [
+        asyncio.ensure_future(over.wait()),
+        world.clock.timer(end, Phase.WATCH),
+    ]
+    try:
+        await asyncio.wait(waits, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for one in waits:
+            one.cancel()
 
 
 class Ending:

@@ -18,10 +18,11 @@ import sys
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from types import FrameType, TracebackType
+from types import FrameType, SimpleNamespace, TracebackType
 from typing import Any, TypeVar
 
 from tftool.base.errors import TftoolError, is_users_file
+from tftool.world.clock import Clock
 
 T = TypeVar("T")
 
@@ -124,7 +125,7 @@ class Fiber:
         on_busy: Callable[[CodeLine | None], object] = lambda place: None,
         patience: float | None = None,
         give_up: float | None = None,
-        told_to_end: Callable[[], bool] = lambda: False,
+        clock: Clock | None = None,
     ) -> None:
         """Prepare a thread for `body`; `drive` starts it.
 
@@ -137,8 +138,8 @@ class Fiber:
             patience: See `on_busy`.
             give_up: In strict mode, after how many real seconds the code is stopped (`GIVE_UP`
                 unless told).
-            told_to_end: In strict mode, a function that says whether a signal has come: the
-                loop is blocked and learns of it only afterwards.
+            clock: Clock of the world, which knows at once of a signal: the loop, blocked in strict
+                mode, learns of it only afterwards.
         """
         self.name = name
         self.interrupted = False
@@ -149,7 +150,7 @@ class Fiber:
         self._on_busy = on_busy
         self._patience = PATIENCE if patience is None else patience
         self._give_up = GIVE_UP if give_up is None else give_up
-        self._told_to_end = told_to_end
+        self._clock = clock or SimpleNamespace(interrupted=False)
         # Two locks pass the turn: `_go` wakes the thread, `_rest` tells the loop that it sleeps
         # again.
         self._go = _taken_lock()
@@ -320,11 +321,11 @@ class Fiber:
             return
         if self._rests_within(self._patience):
             return
-        if not self._told_to_end():
+        if not self._clock.interrupted:
             self._say_busy()
             if self._rests_within(max(0.0, self._give_up - self._patience)):
                 return
-        if self._told_to_end():
+        if self._clock.interrupted:
             self._end_now()
             return
         place = self.place()
@@ -339,7 +340,7 @@ class Fiber:
 
     def _rests_within(self, limit: float) -> bool:
         """Whether the thread pauses within `limit` real seconds, unless told to end."""
-        while limit > 0.0 and not self._told_to_end():
+        while limit > 0.0 and not self._clock.interrupted:
             # In short parts, so that a signal that comes meanwhile is noticed.
             part = min(limit, GRACE)
             if self._rest.acquire(timeout=part):
@@ -359,7 +360,7 @@ class Fiber:
         """Interrupt running code: first by a request, then by raising in it."""
         self.interrupted = True
         # A person at Ctrl-C waits and wants it broken off; at the end of --for that is a fault.
-        signalled = self._told_to_end()
+        signalled = self._clock.interrupted
         for forced in (False, True):
             if forced:
                 if not signalled:
@@ -409,8 +410,8 @@ def _taken_lock() -> threading.Lock:
     return lock
 
 
-def finish(future: "asyncio.Future[None]") -> None:
-    """Set a future's result unless it is done or cancelled."""
+def finish(future: "asyncio.Future[None]", _: object = None) -> None:
+    """Set a future's result unless it is done or cancelled; also as another's callback."""
     if not future.done():
         future.set_result(None)
 

@@ -31,7 +31,7 @@ rclpy.clock: rclpy.time: Time Duration
 rclpy.clock_type: rclpy.time: ClockType
 rclpy.constants: rclpy.time: S_TO_NS
 rclpy.timer: rclpy.time: Rate
-rclpy.timer: rclpy.timers: Timer TimerInfo
+rclpy.timer: rclpy.entities: Timer TimerInfo
 rclpy.publisher: rclpy.topics: Publisher
 rclpy.subscription: rclpy.topics: Subscription MessageInfo
 rclpy.event_handler: rclpy.qos_events: PublisherEventCallbacks SubscriptionEventCallbacks

@@ -96,6 +96,7 @@ class Program(Node):
             on_exit: Called on the loop's thread once it has ended; without one a program
                 that fails ends the run.
         """
+        self.world = world  # The fiber is made before it joins.
         self.label = name
         self.argv = list(argv)
         self.options = options or RosOptions()
@@ -201,13 +202,7 @@ class Program(Node):
 
     def new_fiber(self, name: str, body: Callable[[], object], **settings: Any) -> Fiber:
         """Make one more thread for this program, not started yet."""
-        return Fiber(
-            name,
-            body,
-            strict=self.strict,
-            told_to_end=lambda: self.clock.interrupted,
-            **settings,
-        )
+        return Fiber(name, body, strict=self.strict, clock=self.world.clock, **settings)
 
     def _fiber_ended(self, task: "asyncio.Task[None]") -> None:
         self._others.discard(task)

@@ -9,16 +9,16 @@ import asyncio
 import inspect
 from collections import deque
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 from tftool.base.stamps import Stamp, seconds
-from tftool.ros.host import program
+from tftool.ros.host import fibers, program
 from tftool.ros.rclpy.context import Context, context_of
-from tftool.ros.rclpy.entities import NodeEntity, Work
+from tftool.ros.rclpy.entities import NodeEntity, Timer, Work
 from tftool.ros.rclpy.exceptions import ExternalShutdownException, ShutdownException
 from tftool.ros.rclpy.futures import Future, Task
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
-from tftool.ros.rclpy.timers import Timer
 
 THREADS = 4
 """How many callbacks a MultiThreadedExecutor runs at once unless told; the same everywhere."""
@@ -310,21 +310,17 @@ class Executor:
     async def _pause(self, waker: "asyncio.Future[None]", due: Stamp | None) -> None:
         """Wait for arrivals, or for a turn at some time."""
         owner = self._program
-        timer = None if due is None else owner.clock.timer(due, owner.turn, owner.rank)
-
-        def reached(future: "asyncio.Future[None]") -> None:
-            if not future.cancelled():
-                self._reached = max(self._reached, owner.clock.now())
-                if not waker.done():
-                    waker.set_result(None)
-
-        if timer is not None:
-            timer.add_done_callback(reached)
+        if due is None:
+            await waker
+            return
+        timer = owner.clock.timer(due, owner.turn, owner.rank)
+        timer.add_done_callback(partial(fibers.finish, waker))
         try:
             await waker
         finally:
-            if timer is not None:
-                timer.cancel()
+            if timer.done():
+                self._reached = max(self._reached, owner.clock.now())
+            timer.cancel()
 
 
 class _Continued(Task):

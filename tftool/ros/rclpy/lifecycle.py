@@ -15,7 +15,6 @@ from tftool.ros.rclpy.lifecycle_states import (
     TransitionCallbackReturn,
 )
 from tftool.ros.rclpy.node import Node
-from tftool.ros.rclpy.services import serve_own
 from tftool.ros.rclpy.topics import Publisher
 
 __all__ = ["LifecycleState", "TransitionCallbackReturn"]
@@ -272,8 +271,7 @@ def _serve(node: Any, callback_group: Any) -> None:
         ("get_available_transitions", "GetAvailableTransitions", get_transitions),
         ("get_transition_graph", "GetAvailableTransitions", get_graph),
     )
-    serve_own(
-        node,
+    node._serve_own(
         (
             (name, INTERFACES.find("lifecycle_msgs", "srv", kind), answer)
             for name, kind, answer in services

@@ -2,7 +2,7 @@
 
 import copy
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.messages.classes import Message
@@ -14,7 +14,9 @@ from tftool.ros.rclpy.entities import (
     GuardCondition,
     MutuallyExclusiveCallbackGroup,
     NodeEntity,
+    RateTimer,
     RequiredHandle,
+    Timer,
 )
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
@@ -24,9 +26,8 @@ from tftool.ros.rclpy.qos import QoSProfile, profile_of
 from tftool.ros.rclpy.qos_events import EndpointWatch
 from tftool.ros.rclpy.qos_overriding_options import declare_overrides
 from tftool.ros.rclpy.seat import NodeSeat
-from tftool.ros.rclpy.services import Client, Service, serve_own
-from tftool.ros.rclpy.time import Clock, Rate, ROSClock
-from tftool.ros.rclpy.timers import RateTimer, Timer, period_of
+from tftool.ros.rclpy.services import Client, Service
+from tftool.ros.rclpy.time import Clock, Duration, Rate, ROSClock
 from tftool.ros.rclpy.topics import Publisher, RosoutPublisher, Subscription
 from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
 from tftool.world.node_parameters import parameter_services
@@ -82,9 +83,9 @@ class Node(NodeGraph, NodeParameters):
             seat = self._tftool
             seat.rosout = seat.keep(RosoutPublisher, seat, self._logger.name, rosout_qos_profile)
         if start_parameter_services:
-            serve_own(self, parameter_services(ServedParameters(self)))
+            self._serve_own(parameter_services(ServedParameters(self)))
         if enable_logger_service:
-            serve_own(self, logger_services())
+            self._serve_own(logger_services())
 
     if not TYPE_CHECKING:  # to a type checker, every name would be one
 
@@ -233,7 +234,7 @@ class Node(NodeGraph, NodeParameters):
             self._warn_of_missing_callback(user_line(sys._getframe(1)))
         else:
             _require_callable(callback)
-        period = period_of(timer_period_sec)
+        period = _period_of(timer_period_sec)
         if period < 0:
             raise ValueError("timer period must not be negative")
         group = callback_group or self._default_callback_group
@@ -295,7 +296,7 @@ class Node(NodeGraph, NodeParameters):
         self._tftool.require()
         if frequency <= 0:
             raise ValueError("frequency must be greater than 0")
-        period, goes_by = period_of(1.0 / frequency), clock or self._clock
+        period, goes_by = _period_of(1.0 / frequency), clock or self._clock
         timer = self.__keep(RateTimer, None, period, None, goes_by)
         return Rate(self._tftool, timer)
 
@@ -305,6 +306,24 @@ class Node(NodeGraph, NodeParameters):
             return False
         rate.destroy()
         return True
+
+    def _serve_own(
+        self,
+        services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
+        callback_group: CallbackGroup | None = None,
+    ) -> None:
+        """Serve the services that ROS gives every node; of two with one name the first responds."""
+        seat, wanted = self._tftool, list(services)
+        group = callback_group or self._default_callback_group
+
+        def offer() -> None:
+            for below, kind, answer in wanted:
+                full = seat.full(f"~/{below}", is_service=True)
+                if not seat.world.has_service(full):
+                    seat.add(Service, seat, kind, f"~/{below}", full, answer, group)
+
+        # In one go: another program's thread may come between two requests.
+        seat.program.ask(offer)
 
     def __keep(self, make: Callable[..., E], *args: Any) -> E:
         return self._tftool.keep(make, self._tftool, *args)
@@ -374,3 +393,10 @@ def _require_message(kind: object) -> None:
 def _require_service(kind: Any) -> None:
     if not (hasattr(kind, "Request") and hasattr(kind, "Response")):
         raise TypeError(f"expected a service class such as std_srvs.srv.Empty, got {kind!r}")
+
+
+def _period_of(seconds_or_duration: Any) -> int:
+    """Return a timer's period in nanoseconds, from seconds or a Duration."""
+    if isinstance(seconds_or_duration, Duration):
+        return seconds_or_duration.nanoseconds
+    return int(float(seconds_or_duration) * 1_000_000_000)

@@ -494,7 +494,7 @@ def teller(seat: NodeSeat) -> Callable[..., None]:
         if not publisher.get_subscription_count():
             return
         event = kind(
-            stamp=values.time_message(seat.now()),
+            stamp=values.time_message(seat.world.clock.now()),
             node=f"/{names.join(seat.namespace, seat.name)}",
             new_parameters=[one.to_parameter_msg() for one in new],
             changed_parameters=[one.to_parameter_msg() for one in changed],

@@ -123,7 +123,7 @@ class Silence:
 
     def end(self) -> None:
         """Record a sign."""
-        self._last = self._seat.now()
+        self._last = self._seat.world.clock.now()
         if self._timer is None and self._limit is not None:
             self._wait(self._limit)
 
@@ -142,7 +142,7 @@ class Silence:
         if timer.cancelled():
             return
         self._timer = None
-        if self._seat.now() < self._last + limit:
+        if self._seat.world.clock.now() < self._last + limit:
             self._wait(limit)
         else:
             self._told()

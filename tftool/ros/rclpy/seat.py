@@ -10,7 +10,6 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, TypeVar
 
-from tftool.base.stamps import Stamp
 from tftool.ros.host import names
 from tftool.ros.host.program import Program, ProgramNode
 from tftool.ros.rclpy.exceptions import InvalidHandle
@@ -178,10 +177,6 @@ class NodeSeat:
         self.entities.clear()
         self.world.remove(self._node)
 
-    def now(self) -> Stamp:
-        """Return the world's time."""
-        return self.program.clock.now()
-
     def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
         """Return this process's latched messages for a new subscription, with their senders."""
         if full == "tf_static":
@@ -204,7 +199,7 @@ class NodeSeat:
     async def _appears(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
         end = None
         if timeout_sec is not None:
-            end = self.now() + int(timeout_sec * 1e9)
+            end = self.world.clock.now() + int(timeout_sec * 1e9)
         changed = asyncio.Event()
         stop = self.world.watch(changed.set)
         in_time = True

@@ -5,7 +5,7 @@ Requests and responses wait until an executor takes them, as with all entities.
 
 import asyncio
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
 
@@ -15,7 +15,7 @@ from tftool.ros.host import values
 from tftool.ros.rclpy.entities import MOST_WAITING, Requester, WorkQueue
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
-from tftool.ros.rclpy.seat import NodeSeat, seat_of
+from tftool.ros.rclpy.seat import NodeSeat
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 """The parameter by which ROS 2's nodes are told to describe their types; here none does."""
@@ -191,22 +191,3 @@ class Service(_Introspected, WorkQueue):
         for answer in self._open:
             if not answer.done():
                 answer.set_exception(TftoolError(f"the node that served '{self.full}' has left"))
-
-
-def serve_own(
-    node: Any,
-    services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
-    callback_group: Any = None,
-) -> None:
-    """Serve nodes' own services; of two with one name the first responds."""
-    seat, wanted = seat_of(node), list(services)
-    group = callback_group or node.default_callback_group
-
-    def offer() -> None:
-        for below, kind, answer in wanted:
-            full = seat.full(f"~/{below}", is_service=True)
-            if not seat.world.has_service(full):
-                seat.add(Service, seat, kind, f"~/{below}", full, answer, group)
-
-    # In one go: another program's thread may come between two requests.
-    seat.program.ask(offer)

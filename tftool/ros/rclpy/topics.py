@@ -203,7 +203,7 @@ class Subscription(NodeEntity):
     def _accept(self, value: Any, sender: Endpoint | None) -> None:
         # Who offers less than is asked for is not heard at all.
         if sender is None or not conflict(sender.quality, self._quality):
-            self._queue.append((self.seat.now(), value))
+            self._queue.append((self.seat.world.clock.now(), value))
             self.seat.wake()
             if self.event_watch is not None:
                 self.event_watch.message_passed()
@@ -271,7 +271,7 @@ class RosoutPublisher(Publisher):
         """Publish a line (in the loop's thread); `place` is its file, function and number."""
         file, function, line = place
         message = self.msg_type(
-            stamp=values.time_message(self.seat.now()),
+            stamp=values.time_message(self.seat.world.clock.now()),
             level=level,
             name=logger,
             msg=text,
