@@ -115,3 +115,27 @@ def test_the_distribution_is_set_for_programs_and_is_no_sourced_ros(monkeypatch)
 
     assert done.stdout == "jazzy ''\n"
     assert "ROS_DISTRO" not in os.environ
+
+
+def test_a_virtual_environment_beside_a_file_keeps_pythons_own_threads(
+    ros_runtime, tmp_path, monkeypatch
+):
+    packages = tmp_path / ".venv/lib/python3/site-packages"
+    for folder, module in ((packages / "installed", "inner"), (tmp_path / "own", "part")):
+        folder.mkdir(parents=True)
+        (folder / "__init__.py").touch()
+        (folder / f"{module}.py").write_text("import threading\nKIND = threading.Lock.__module__\n")
+    monkeypatch.syspath_prepend(str(packages))
+    file = tmp_path / "node.py"
+    file.write_text(
+        "import rclpy\nimport installed.inner\nimport own.part\nrclpy.init()\n"
+        "node = rclpy.create_node('probe')\n"
+        "node.get_logger().info(f'{installed.inner.KIND} {own.part.KIND}')\n"
+    )
+
+    ros_runtime.start(file)
+    ros_runtime.sleep(1)
+
+    inside, ours = ros_runtime.log("probe")[0].split()
+    assert inside == "_thread"
+    assert ours != "_thread"

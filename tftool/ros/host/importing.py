@@ -24,6 +24,9 @@ from tftool.ros.host.shims import IMPORTING, builtins_for_users
 DISTRIBUTION = "jazzy"
 """The ROS 2 distribution whose behaviour programs meet here: what `ROS_DISTRO` says to them."""
 
+_OURS = Path(__file__).resolve().parents[2]
+"""This package, which may lie below a folder of the user's as well."""
+
 
 def real_ros() -> str:
     """Return the folder of a sourced ROS 2's rclpy; "" without one.
@@ -43,14 +46,14 @@ def real_ros() -> str:
 class _StandInModule(ModuleType):
     """A ROS 2 module made of our names."""
 
-    def __init__(self, name: str, known: Sequence[str]) -> None:
+    def __init__(self, name: str) -> None:
         super().__init__(name, f"{name}, as far as it runs without ROS.")
-        self.__dict__["_known"] = tuple(known)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        sentence = missing_name(self.__name__, name, self._known)
+        known = [one for one in vars(self) if not one.startswith("_")]
+        sentence = missing_name(self.__name__, name, known)
         if _is_import_from(sys._getframe(1)):
             try:
                 # `from package import module` asks for an attribute first.
@@ -74,35 +77,37 @@ class _StandInLoader(Loader):
     """Loader that fills a module with our names."""
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
-        name = spec.name
-        package, _, kind = name.partition(".")
-        if package in INTERFACES.packages():
-            return _StandInModule(name, _names_in(package, kind) if kind else _kinds(package))
-        return _StandInModule(name, [one for one in import_table.table()[name] if one != "*"])
+        return _StandInModule(spec.name)
 
     def exec_module(self, module: ModuleType) -> None:
-        package, _, kind = module.__name__.partition(".")
+        package, _, below = module.__name__.partition(".")
         if package in INTERFACES.packages():
-            for name in _names_in(package, kind):
-                setattr(module, name, INTERFACES.find(package, kind.partition(".")[0], name))
+            for name in _names_in(package, below):
+                setattr(module, name, INTERFACES.find(package, below.partition(".")[0], name))
             return
         for shown, imported in import_table.table()[module.__name__].items():
-            if "/" in imported.module:
-                of, _, sort = imported.module.partition("/")
+            of, _, sort = imported.module.partition("/")
+            if sort:
                 setattr(module, shown, INTERFACES.find(of, sort, imported.name))
                 continue
-            ours = importlib.import_module(f".{imported.module}", "tftool.ros")
-            if shown == "*":
-                for name in vars(ours):
-                    if not name.startswith("_"):
-                        setattr(module, name, getattr(ours, name))
-            else:
-                setattr(module, shown, getattr(ours, imported.name))
+            ours = importlib.import_module(f".{of}", "tftool.ros")
+            given = _defined(ours) if shown == "*" else {shown: getattr(ours, imported.name)}
+            vars(module).update(given)
         if module.__name__ in import_table.WHOLE_PACKAGES:
             # Nodes write rclpy.time.Time() after no more than `import rclpy`.
             for below in import_table.table():
-                if below.startswith(f"{module.__name__}.") and below.count(".") == 1:
+                if below.rpartition(".")[0] == module.__name__:
                     importlib.import_module(below)
+
+
+def _defined(ours: ModuleType) -> dict[str, Any]:
+    """Return the public names that a module of ours defines itself."""
+    return {
+        name: value
+        for name, value in vars(ours).items()
+        if not (name.startswith("_") or isinstance(value, ModuleType))
+        and getattr(value, "__module__", ours.__name__) == ours.__name__
+    }
 
 
 def _names_in(package: str, below: str) -> list[str]:
@@ -110,10 +115,6 @@ def _names_in(package: str, below: str) -> list[str]:
     kind, _, own = below.partition(".")
     names = INTERFACES.names(package, kind) if kind else []
     return [one for one in names if not own or own == f"_{import_table.snake_case(one)}"]
-
-
-def _kinds(package: str) -> list[str]:
-    return [kind for kind in ("msg", "srv", "action") if INTERFACES.names(package, kind)]
 
 
 class _Finder(MetaPathFinder):
@@ -133,14 +134,10 @@ class _Finder(MetaPathFinder):
         if not rest and (imported := self.on_import.pop(package, None)) is not None:
             imported()
         if package in INTERFACES.packages():
-            own = "." in rest and bool(_names_in(package, rest))
-            if rest and not own and rest not in _kinds(package):
-                return None
-            return _spec(fullname, is_package=not own)
+            return _spec(fullname) if not rest or _names_in(package, rest) else None
         known = import_table.table()
         if fullname in known:
-            below = any(name.startswith(f"{fullname}.") for name in known)
-            return _spec(fullname, is_package=below)
+            return _spec(fullname)
         if package in known:
             raise ModuleNotFoundError(missing_module(fullname), name=fullname)
         if self.tested is not None:
@@ -149,7 +146,7 @@ class _Finder(MetaPathFinder):
             return None
         search = list(path) if path is not None else [str(root) for root in self.roots]
         spec = importlib.machinery.PathFinder.find_spec(fullname, search, target)
-        if spec is None or spec.origin is None or not self._is_users(spec.origin):
+        if spec is None or spec.origin is None or not _is_users(Path(spec.origin), self.roots):
             return None
         if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
             spec.loader = _UserLoader(fullname, spec.origin)
@@ -172,12 +169,10 @@ class _Finder(MetaPathFinder):
             return spec
         return None
 
-    def _is_users(self, origin: str) -> bool:
-        return any(Path(origin).is_relative_to(root) for root in self.roots)
 
-
-def _spec(name: str, *, is_package: bool) -> importlib.machinery.ModuleSpec:
-    return importlib.machinery.ModuleSpec(name, _StandInLoader(), is_package=is_package)
+def _spec(name: str) -> importlib.machinery.ModuleSpec:
+    # Every module is a package, so that a wrong name below one is named by our sentence.
+    return importlib.machinery.ModuleSpec(name, _StandInLoader(), is_package=True)
 
 
 class _UserLoader(importlib.machinery.SourceFileLoader):
@@ -315,7 +310,7 @@ def ros_modules() -> Iterator["_Finder"]:
     finally:
         sys.meta_path.remove(_finder)
         for name in set(sys.modules) - loaded:
-            if _is_theirs(name) or _is_below(sys.modules[name], _finder.roots):
+            if _is_theirs(name) or _is_users(_file_of(sys.modules[name]), _finder.roots):
                 del sys.modules[name]
         sys.modules.update(before)
         _finder = None
@@ -326,9 +321,16 @@ def _is_theirs(name: str) -> bool:
     return package in import_table.table() or package in INTERFACES.packages()
 
 
-def _is_below(module: ModuleType, roots: Sequence[Path]) -> bool:
-    origin = getattr(module, "__file__", None)
-    return bool(origin) and any(Path(str(origin)).is_relative_to(root) for root in roots)
+def _file_of(module: ModuleType) -> Path:
+    return Path(getattr(module, "__file__", None) or "")
+
+
+def _is_users(file: Path, roots: Iterable[Path]) -> bool:
+    """Whether a module lies in one of users' folders, and in no environment of Python there."""
+    if file.is_relative_to(_OURS):
+        return False
+    below = (file.relative_to(root) for root in roots if file.is_relative_to(root))
+    return any("site-packages" not in path.parts for path in below)
 
 
 def look_in(root: Path) -> None:
@@ -353,7 +355,8 @@ def import_fresh(module: str, root: Path) -> ModuleType:
     """
     with IMPORTING:
         look_in(root)
-        for name in [n for n, m in list(sys.modules.items()) if _is_below(m, [root])]:
-            del sys.modules[name]
+        for name, imported in list(sys.modules.items()):
+            if _is_users(_file_of(imported), [root]):
+                del sys.modules[name]
         importlib.invalidate_caches()
         return importlib.import_module(module)

@@ -11,8 +11,7 @@ from tftool.ros.host.locks import StateMonitor
 from tftool.ros.host.shims import UserThread
 from tftool.ros.rclpy import core
 from tftool.ros.rclpy.context import Context
-from tftool.ros.rclpy.exceptions import ExternalShutdownException
-from tftool.ros.rclpy.executors import SingleThreadedExecutor
+from tftool.ros.rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from tftool.ros.rclpy.node import Node
 
 

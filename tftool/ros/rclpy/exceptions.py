@@ -19,25 +19,6 @@ class ROSInterruptException(Exception):
         super().__init__("rclpy.shutdown() has been called", *args)
 
 
-class ExternalShutdownException(Exception):
-    """Error for a shutdown while an executor was spinning."""
-
-    def __init__(self, *args: object) -> None:
-        super().__init__("context has been shut down", *args)
-
-
-class ShutdownException(Exception):
-    """Error for an executor that was shut down."""
-
-
-class TimeoutException(Exception):
-    """Error for an executor's wait that exceeded its timeout."""
-
-
-class ConditionReachedException(Exception):
-    """Signal that an executor's condition became true."""
-
-
 class NoTypeSupportImportedException(Exception):
     """Error for a type that is no message, service or action."""
 

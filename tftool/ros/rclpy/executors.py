@@ -16,12 +16,30 @@ from tftool.base.stamps import Stamp, seconds
 from tftool.ros.host import fibers, program
 from tftool.ros.rclpy.context import Context, context_of
 from tftool.ros.rclpy.entities import NodeEntity, Timer, Work
-from tftool.ros.rclpy.exceptions import ExternalShutdownException, ShutdownException
 from tftool.ros.rclpy.futures import Future, Task
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 
 THREADS = 4
 """How many callbacks a MultiThreadedExecutor runs at once unless told; the same everywhere."""
+
+
+class ExternalShutdownException(Exception):
+    """Error for a shutdown while an executor was spinning."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("context has been shut down", *args)
+
+
+class ShutdownException(Exception):
+    """Error for an executor that was shut down."""
+
+
+class TimeoutException(Exception):
+    """Error for an executor's wait that exceeded its timeout."""
+
+
+class ConditionReachedException(Exception):
+    """Signal that an executor's condition became true."""
 
 
 class Executor:

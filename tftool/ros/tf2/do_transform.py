@@ -170,7 +170,7 @@ def from_msg_msg(msg: Any) -> Any:
     return msg
 
 
-def register() -> None:
+def _register() -> None:
     """Register these types with buffers."""
     transforms, conversions = TransformRegistration(), ConvertRegistration()
     for name, function in (
@@ -193,4 +193,4 @@ def register() -> None:
         conversions.add_to_msg(kind, to_msg_msg)
 
 
-register()
+_register()
