@@ -53,6 +53,8 @@ SETTLE = seconds(0.5)
 PATIENCE = 10.0
 """Seconds to wait for a node or a topic that is named."""
 
+_STATUSES = {4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
+
 UNKNOWN = 1
 """Exit status when the named thing does not exist."""
 
@@ -64,10 +66,11 @@ def body(words: Sequence[str], workspace: Workspace, show: Print) -> Callable[[]
         UsageError: If the words are no command, or a type they name is not known.
     """
     asked = ros2_words.parse(words)
+    # A command is the function of its name here: `_topic_list` is `ros2 topic list`.
+    run: Any = globals()[f"_{asked.noun}_{asked.verb}"]
     if asked.noun in ros2_words.SESSIONLESS:
-        text = _FROM_FILES[asked.noun, asked.verb](asked, workspace)
+        text = run(asked, workspace)
         return lambda: _show_lines(text, show)
-    run = _COMMANDS[asked.noun, asked.verb]
     if "values" in asked:
         asked.message = _message(asked)
 
@@ -761,48 +764,17 @@ def _interface_proto(asked: argparse.Namespace, workspace: Workspace) -> str:
     return text if asked.no_quotes else f'"{text}"'
 
 
-_FROM_FILES: dict[tuple[str, str], Callable[[argparse.Namespace, Workspace], str]] = {
-    ("interface", "show"): lambda asked, _: ros2_words.definition(asked.type),
-    ("interface", "list"): _interface_list,
-    ("interface", "package"): lambda asked, _: "\n".join(ros2_words.interfaces(asked.package)),
-    ("interface", "packages"): lambda asked, _: "\n".join(sorted(INTERFACES.packages())),
-    ("interface", "proto"): _interface_proto,
-    ("pkg", "list"): lambda _, workspace: "\n".join(
-        sorted({*workspace.packages, *INTERFACES.packages()})
-    ),
-    ("pkg", "executables"): _pkg_executables,
-    ("pkg", "prefix"): _pkg_prefix,
-    ("pkg", "xml"): _pkg_xml,
-}
+def _interface_show(asked: argparse.Namespace, workspace: Workspace) -> str:
+    return ros2_words.definition(asked.type)
 
-_STATUSES = {4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}
 
-_COMMANDS: dict[tuple[str, str], Callable[[Node, argparse.Namespace, Print], object]] = {
-    ("topic", "list"): _topic_list,
-    ("topic", "echo"): _topic_echo,
-    ("topic", "hz"): _topic_hz,
-    ("topic", "bw"): _topic_bw,
-    ("topic", "delay"): _topic_delay,
-    ("topic", "find"): _topic_find,
-    ("topic", "info"): _topic_info,
-    ("topic", "type"): _topic_type,
-    ("topic", "pub"): _topic_pub,
-    ("service", "list"): _service_list,
-    ("service", "type"): _service_type,
-    ("service", "info"): _service_info,
-    ("service", "find"): _service_find,
-    ("service", "call"): _service_call,
-    ("param", "list"): _param_list,
-    ("param", "get"): _param_get,
-    ("param", "set"): _param_set,
-    ("param", "delete"): _param_delete,
-    ("param", "dump"): _param_dump,
-    ("param", "load"): _param_load,
-    ("param", "describe"): _param_describe,
-    ("node", "list"): _node_list,
-    ("node", "info"): _node_info,
-    ("action", "list"): _action_list,
-    ("action", "type"): _action_type,
-    ("action", "info"): _action_info,
-    ("action", "send_goal"): _action_send_goal,
-}
+def _interface_package(asked: argparse.Namespace, workspace: Workspace) -> str:
+    return "\n".join(ros2_words.interfaces(asked.package))
+
+
+def _interface_packages(asked: argparse.Namespace, workspace: Workspace) -> str:
+    return "\n".join(sorted(INTERFACES.packages()))
+
+
+def _pkg_list(asked: argparse.Namespace, workspace: Workspace) -> str:
+    return "\n".join(sorted({*workspace.packages, *INTERFACES.packages()}))

@@ -139,19 +139,6 @@ def _entities(given: Any, event: Event, context: Any) -> Any:
     return [given] if hasattr(given, "visit") else given
 
 
-def _require_target(handler: str, target: Any) -> None:
-    """Check that a target is an action, or a function that selects actions.
-
-    Raises:
-        TypeError: If it is neither.
-    """
-    if not (target is None or callable(target) or hasattr(target, "visit")):
-        raise TypeError(
-            f"the target_action of {handler} must be an action, or a function that selects "
-            f"actions, not {target!r}"
-        )
-
-
 def _listed(given: Any) -> list[Any]:
     """Return the entities in what a handler was given; none of a function's."""
     found = [given] if hasattr(given, "visit") else given
@@ -194,32 +181,56 @@ def _targets(action: Any, target: Any) -> bool:
     return action is target
 
 
-class OnProcessExit(EventHandler):
+class TargetHandler(EventHandler):
+    """Handler of events of one kind about an action.
+
+    Attributes:
+        event: The kind.
+        target: The action, a function that says whether one is meant, or None for any.
+    """
+
+    event: type[Any]
+
+    def __init__(self, target: Any, entities: Any, **kwargs: Any) -> None:
+        """Handle the events of a target.
+
+        Raises:
+            TypeError: If that is neither an action nor a function that selects actions.
+        """
+        if not (target is None or callable(target) or hasattr(target, "visit")):
+            raise TypeError(
+                f"the target_action of {type(self).__name__} must be an action, or a function that "
+                f"selects actions, not {target!r}"
+            )
+        self.target = target
+        super().__init__(matcher=self._is_meant, entities=entities, **kwargs)
+
+    def _is_meant(self, event: Any) -> bool:
+        return isinstance(event, self.event) and _targets(event.action, self.target)
+
+
+class OnProcessExit(TargetHandler):
     """Handler of the end of a process."""
 
+    event = ProcessExited
+
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
-        _require_target("OnProcessExit", target_action)
-        super().__init__(
-            matcher=lambda e: isinstance(e, ProcessExited) and _targets(e.action, target_action),
-            entities=on_exit,
-            **kwargs,
-        )
+        super().__init__(target_action, on_exit, **kwargs)
 
 
-class OnProcessStart(EventHandler):
+class OnProcessStart(TargetHandler):
     """Handler of the start of a process."""
 
+    event = ProcessStarted
+
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
-        _require_target("OnProcessStart", target_action)
-        super().__init__(
-            matcher=lambda e: isinstance(e, ProcessStarted) and _targets(e.action, target_action),
-            entities=on_start,
-            **kwargs,
-        )
+        super().__init__(target_action, on_start, **kwargs)
 
 
-class OnProcessIO(EventHandler):
+class OnProcessIO(TargetHandler):
     """Handler of a line written by a process."""
+
+    event = ProcessIO
 
     def __init__(
         self,
@@ -230,37 +241,21 @@ class OnProcessIO(EventHandler):
         on_stderr: Any = None,
         **kwargs: Any,
     ) -> None:
-        _require_target("OnProcessIO", target_action)
-
-        def written(event: Event, context: Any) -> Any:
-            given = on_stdout if isinstance(event, ProcessIO) and event.from_stdout else on_stderr
+        def written(event: Any, context: Any) -> Any:
+            given = on_stdout if event.from_stdout else on_stderr
             return given(event) if callable(given) else given
 
-        super().__init__(
-            matcher=lambda e: isinstance(e, ProcessIO) and _targets(e.action, target_action),
-            entities=written,
-            **kwargs,
-        )
+        super().__init__(target_action, written, **kwargs)
         self.entities = [*_listed(on_stdout), *_listed(on_stderr)]
 
 
-class OnExecutionComplete(EventHandler):
-    """Handler of an action's end: what it started has ended, and is not started again.
+class OnExecutionComplete(TargetHandler):
+    """Handler of an action's end: what it started has ended, and is not started again."""
 
-    Attributes:
-        target: The action, something that says whether one is meant, or None for any.
-    """
+    event = ExecutionComplete
 
     def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
-        _require_target("OnExecutionComplete", target_action)
-        self.target = target_action
-        super().__init__(
-            matcher=lambda e: (
-                isinstance(e, ExecutionComplete) and _targets(e.action, target_action)
-            ),
-            entities=on_completion,
-            **kwargs,
-        )
+        super().__init__(target_action, on_completion, **kwargs)
 
 
 class OnShutdown(EventHandler):

@@ -27,29 +27,11 @@ SUCCESS = TransitionCallbackReturn.SUCCESS
 class ManagedEntity:
     """Entity notified of every transition of its node."""
 
-    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Handle the configure transition."""
+    def _succeed(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Handle a transition by doing nothing."""
         return SUCCESS
 
-    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Handle the cleanup transition."""
-        return SUCCESS
-
-    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Handle the shutdown transition."""
-        return SUCCESS
-
-    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Handle the activate transition."""
-        return SUCCESS
-
-    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Handle the deactivate transition."""
-        return SUCCESS
-
-    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Handle an error."""
-        return SUCCESS
+    on_configure = on_cleanup = on_shutdown = on_activate = on_deactivate = on_error = _succeed
 
 
 class SimpleManagedEntity(ManagedEntity):
@@ -114,6 +96,17 @@ def _telling(callback: str) -> Any:
     return tell
 
 
+def _triggering(transition: str, change_of_state: str) -> Any:
+    """Make a node's method that runs a transition."""
+
+    def trigger(self: "LifecycleNodeMixin") -> TransitionCallbackReturn:
+        return change(self, transition)
+
+    trigger.__name__ = f"trigger_{transition}"
+    trigger.__doc__ = f"Change from {change_of_state}; return its callback's result."
+    return trigger
+
+
 class LifecycleNodeMixin(ManagedEntity):
     """Methods of a lifecycle node."""
 
@@ -135,25 +128,11 @@ class LifecycleNodeMixin(ManagedEntity):
         if enable_communication_interface:
             _serve(self, callback_group)
 
-    def trigger_configure(self) -> TransitionCallbackReturn:
-        """Change from unconfigured to inactive."""
-        return change(self, "configure")
-
-    def trigger_cleanup(self) -> TransitionCallbackReturn:
-        """Change from inactive to unconfigured."""
-        return change(self, "cleanup")
-
-    def trigger_activate(self) -> TransitionCallbackReturn:
-        """Change from inactive to active."""
-        return change(self, "activate")
-
-    def trigger_deactivate(self) -> TransitionCallbackReturn:
-        """Change from active to inactive."""
-        return change(self, "deactivate")
-
-    def trigger_shutdown(self) -> TransitionCallbackReturn:
-        """Change to finalized."""
-        return change(self, "shutdown")
+    trigger_configure = _triggering("configure", "unconfigured to inactive")
+    trigger_cleanup = _triggering("cleanup", "inactive to unconfigured")
+    trigger_activate = _triggering("activate", "inactive to active")
+    trigger_deactivate = _triggering("deactivate", "active to inactive")
+    trigger_shutdown = _triggering("shutdown", "any state to finalized")
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
         """Add an entity to notify of every transition."""

@@ -5,6 +5,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from enum import IntEnum
+from functools import total_ordering
 from typing import Any
 
 from tftool.base.stamps import NANOSECONDS
@@ -28,6 +29,7 @@ class ClockType(IntEnum):
     STEADY_TIME = 3
 
 
+@total_ordering
 class Duration:
     """A duration in whole nanoseconds."""
 
@@ -57,15 +59,6 @@ class Duration:
 
     def __lt__(self, other: "Duration") -> bool:
         return self._nanoseconds < _length(other)
-
-    def __le__(self, other: "Duration") -> bool:
-        return self._nanoseconds <= _length(other)
-
-    def __gt__(self, other: "Duration") -> bool:
-        return self._nanoseconds > _length(other)
-
-    def __ge__(self, other: "Duration") -> bool:
-        return self._nanoseconds >= _length(other)
 
     def __add__(self, other: Any) -> "Duration":
         if isinstance(other, Time):
@@ -101,6 +94,7 @@ def _length(other: object) -> int:
 Infinite = Duration(nanoseconds=_RANGE - 1)
 
 
+@total_ordering
 class Time:
     """A time in whole nanoseconds; 0 in a lookup means the latest."""
 
@@ -174,15 +168,6 @@ class Time:
     def __lt__(self, other: object) -> bool:
         return self._nanoseconds < self._alike(other)
 
-    def __le__(self, other: object) -> bool:
-        return self._nanoseconds <= self._alike(other)
-
-    def __gt__(self, other: object) -> bool:
-        return self._nanoseconds > self._alike(other)
-
-    def __ge__(self, other: object) -> bool:
-        return self._nanoseconds >= self._alike(other)
-
     def to_msg(self) -> Any:
         """Return it as a builtin_interfaces Time."""
         return values.time_message(self._nanoseconds)
@@ -234,14 +219,27 @@ class Clock:
     def _sleep(self, duration: int, context: Any) -> bool:
         """Block on the world's clock; return False if something else ended it."""
         _require_started(context)
-        sleep = _Sleep(self._program)
+        return self._block(_Sleep(self._program), duration, context)
+
+    def _block(
+        self,
+        sleep: "_Sleep",
+        duration: int,
+        context: Any,
+        is_over: Callable[[], bool] = lambda: False,
+    ) -> bool:
+        """Block until a sleep ends; return whether program and context go on."""
+
+        def has_ended() -> bool:
+            return context is not None and not context.ok()
+
         stop = None if context is None else context.on_change(sleep.end)
         try:
-            sleep.start(duration, lambda: context is not None and not context.ok())
+            sleep.start(duration, lambda: is_over() or has_ended())
         finally:
             if stop is not None:
                 stop()
-        return not self._program.interrupted and (context is None or context.ok())
+        return not (self._program.interrupted or has_ended())
 
     def create_jump_callback(
         self,
@@ -363,7 +361,7 @@ class ROSClock(Clock):
 
         def is_over() -> bool:
             reached = self._is_overridden and self._override.nanoseconds >= until
-            return bool(is_changed or reached or (context is not None and not context.ok()))
+            return bool(is_changed or reached)
 
         def on_jump(jump: TimeJump) -> None:
             nonlocal is_changed
@@ -372,16 +370,10 @@ class ROSClock(Clock):
                 sleep.end()
 
         threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
-        stop = None if context is None else context.on_change(sleep.end)
-        try:
-            with self.create_jump_callback(threshold, post_callback=on_jump):
-                # Only a jump ends a sleep while a time source gives the time.
-                sleep.start(_FOR_EVER if self._is_overridden else duration, is_over)
-        finally:
-            if stop is not None:
-                stop()
-        is_alive = not self._program.interrupted and (context is None or context.ok())
-        return is_alive and not is_changed
+        with self.create_jump_callback(threshold, post_callback=on_jump):
+            # Only a jump ends a sleep while a time source gives the time.
+            length = _FOR_EVER if self._is_overridden else duration
+            return self._block(sleep, length, context, is_over) and not is_changed
 
     @contextmanager
     def _jumping(self, jump: "TimeJump") -> Iterator[None]:
