@@ -7,7 +7,7 @@ import pytest
 from tests.ros.test_launch import described
 from tftool.base.errors import NodeFailed, UsageError
 from tftool.ros import ros2
-from tftool.ros.host import ros2_words, user_code
+from tftool.ros.host import rosidl_runtime, user_code
 from tftool.ros.host.workspace import Workspace
 from tftool.world.nodes.turtlesim import Turtlesim
 
@@ -222,10 +222,10 @@ def test_messages_are_echoed_in_part(ros_runtime, tmp_path):
 
 
 def test_a_message_of_many_elements_is_cut_as_in_ros_unless_whole(ros_runtime, tmp_path):
-    from tftool.ros.host.ros2_words import Shortening, plain
+    from tftool.ros.host.rosidl_runtime import plain
 
-    assert plain(list(range(5)), Shortening(length=3)) == [0, 1, 2, "..."]
-    assert plain("abcde", Shortening(length=5)) == "abcde"
+    assert plain(list(range(5)), truncate_length=3) == [0, 1, 2, "..."]
+    assert plain("abcde", truncate_length=5) == "abcde"
     assert plain("abcde") == "abcde"
 
 
@@ -392,9 +392,9 @@ def test_wrong_words_are_refused_with_a_sentence(tmp_path, words, told):
 
 
 def test_lists_of_messages_are_filled_element_by_element():
-    polygon = ros2_words.interface("geometry_msgs/Polygon", "msg")()
-    ros2_words.fill(polygon, {"points": [{"x": 1}, {"y": 2.0}]})
+    polygon = rosidl_runtime.interface("geometry_msgs/Polygon", "msg")()
+    rosidl_runtime.fill(polygon, {"points": [{"x": 1}, {"y": 2.0}]})
 
-    assert ros2_words.plain(polygon) == {
+    assert rosidl_runtime.plain(polygon) == {
         "points": [{"x": 1.0, "y": 0.0, "z": 0.0}, {"x": 0.0, "y": 2.0, "z": 0.0}]
     }

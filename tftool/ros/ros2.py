@@ -18,7 +18,7 @@ from tftool.base.near_names import did_you_mean
 from tftool.base.stamps import seconds
 from tftool.messages.classes import INTERFACES
 from tftool.messages.parameter_values import value_of
-from tftool.ros.host import executables, names, program, ros2_words
+from tftool.ros.host import executables, names, program, ros2_words, rosidl_runtime
 from tftool.ros.host.package_files import read_text
 from tftool.ros.host.values import stamp_of
 from tftool.ros.host.workspace import Workspace
@@ -99,12 +99,12 @@ def _message(asked: argparse.Namespace) -> Any:
         UsageError: If it does not fit its type.
     """
     kind = {"topic": "msg", "service": "srv", "action": "action"}[asked.noun]
-    asked.kind = ros2_words.interface(asked.type, kind)
+    asked.kind = rosidl_runtime.interface(asked.type, kind)
     part = {"msg": asked.kind}.get(kind) or getattr(
         asked.kind, "Request" if kind == "srv" else "Goal"
     )
     made = part()
-    ros2_words.fill(made, names.yaml_value(asked.values))
+    rosidl_runtime.fill(made, names.yaml_value(asked.values))
     return made
 
 
@@ -212,7 +212,7 @@ def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None
         profile = _wanted_quality(asked, profile)
     # What a topic carries behind an action or a service is no message of its own file.
     is_derived = "/action/" in name or "/srv/" in name
-    kind = INTERFACES.part(name) if is_derived else ros2_words.interface(name, "msg")
+    kind = INTERFACES.part(name) if is_derived else rosidl_runtime.interface(name, "msg")
 
     def take(message: Any) -> None:
         try:
@@ -228,18 +228,18 @@ def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None
 def _topic_echo(node: Node, asked: argparse.Namespace, show: Print) -> None:
     heard: list[Any] = []
     length = None if asked.full_length else asked.truncate_length
-    short = ros2_words.Shortening(length, asked.no_arr, asked.no_str)
+    short = {"truncate_length": length, "no_arr": asked.no_arr, "no_str": asked.no_str}
 
     def echo(message: Any) -> None:
         heard.append(None)
         if asked.once and len(heard) > 1:
             return
         value = message if asked.field is None else _field(message, asked.field)
-        shown = ros2_words.plain(value, short)
+        shown = rosidl_runtime.plain(value, **short)
         if asked.csv:
-            show(ros2_words.as_csv(shown))
+            show(rosidl_runtime.as_csv(shown))
             return
-        _show_lines(ros2_words.as_yaml(shown, flow_style=asked.flow_style), show)
+        _show_lines(rosidl_runtime.as_yaml(shown, flow_style=asked.flow_style), show)
         show("---")
 
     _heard(node, asked, echo)
@@ -553,7 +553,7 @@ def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
             below = below.setdefault(folder, {})
         below[last] = value
     dumped = {_full(asked.node): {"ros__parameters": whole}}
-    _show_lines(ros2_words.as_yaml(dumped), show)
+    _show_lines(rosidl_runtime.as_yaml(dumped), show)
 
 
 def _param_describe(node: Node, asked: argparse.Namespace, show: Print) -> None:
@@ -670,7 +670,7 @@ def _action_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 def _action_send_goal(node: Node, asked: argparse.Namespace, show: Print) -> int:
     def dump(message: Any) -> None:
-        text = ros2_words.as_yaml(ros2_words.plain(message))
+        text = rosidl_runtime.as_yaml(rosidl_runtime.plain(message))
         _show_lines(textwrap.indent(text, "    "), show)
 
     early: list[Any] = []
@@ -745,31 +745,31 @@ def _interface_list(asked: argparse.Namespace, workspace: Workspace) -> str:
     wanted = [
         kind
         for kind, only in zip(
-            ros2_words.KINDS,
+            rosidl_runtime.KINDS,
             (asked.only_msgs, asked.only_srvs, asked.only_actions),
             strict=True,
         )
         if only
     ]
     lines = []
-    for kind in wanted or ros2_words.KINDS:
-        found = ros2_words.interfaces(kinds=[kind])
-        lines += [f"{ros2_words.KINDS[kind]}:", *(f"    {one}" for one in found)]
+    for kind in wanted or rosidl_runtime.KINDS:
+        found = rosidl_runtime.interfaces(kinds=[kind])
+        lines += [f"{rosidl_runtime.KINDS[kind]}:", *(f"    {one}" for one in found)]
     return "\n".join(lines)
 
 
 def _interface_proto(asked: argparse.Namespace, workspace: Workspace) -> str:
-    shown = ros2_words.plain(ros2_words.prototype(asked.type))
-    text = ros2_words.as_yaml(shown) if shown else ""
+    shown = rosidl_runtime.plain(rosidl_runtime.prototype(asked.type))
+    text = rosidl_runtime.as_yaml(shown) if shown else ""
     return text if asked.no_quotes else f'"{text}"'
 
 
 def _interface_show(asked: argparse.Namespace, workspace: Workspace) -> str:
-    return ros2_words.definition(asked.type)
+    return rosidl_runtime.definition(asked.type)
 
 
 def _interface_package(asked: argparse.Namespace, workspace: Workspace) -> str:
-    return "\n".join(ros2_words.interfaces(asked.package))
+    return "\n".join(rosidl_runtime.interfaces(asked.package))
 
 
 def _interface_packages(asked: argparse.Namespace, workspace: Workspace) -> str:

@@ -234,11 +234,11 @@ launch_testing_ros launch_testing_ros.message_pump: launch_testing.topics: Messa
 launch_testing_ros launch_testing_ros.data_republisher: launch_testing.topics: DataRepublisher
 launch_pytest: launch_testing.fixtures: fixture
 launch_pytest.tools launch_pytest.tools.process: launch_testing.processes: *
-rosidl_runtime_py rosidl_runtime_py.convert: rosidl_runtime: message_to_csv message_to_ordereddict
-    message_to_yaml
-rosidl_runtime_py rosidl_runtime_py.set_message: rosidl_runtime: set_message_fields
-rosidl_runtime_py.convert: rosidl_runtime: get_message_slot_types
-rosidl_runtime_py.utilities: rosidl_runtime: get_action get_interface get_message get_service
+rosidl_runtime_py rosidl_runtime_py.convert: host.rosidl_runtime: message_to_csv
+    message_to_ordereddict message_to_yaml
+rosidl_runtime_py rosidl_runtime_py.set_message: host.rosidl_runtime: set_message_fields
+rosidl_runtime_py.convert: host.rosidl_runtime: get_message_slot_types
+rosidl_runtime_py.utilities: host.rosidl_runtime: get_action get_interface get_message get_service
 ament_index_python ament_index_python.resources: launch.packages: get_resource get_resources
     has_resource
 ament_index_python ament_index_python.packages: launch.packages: get_package_share_directory

@@ -40,30 +40,30 @@ def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bo
         raise InvalidConditionExpressionError(str(error)) from None
 
 
-class IfCondition(Condition):
-    """Condition that a text is true."""
-
-    def __init__(self, predicate_expression: Any) -> None:
-        super().__init__(predicate=lambda c: evaluate_condition_expression(c, predicate_expression))
-        self._expression = predicate_expression
-
-    def describe(self) -> str:
-        """IfCondition('expression')."""
-        return f"{type(self).__name__}({describe(self._expression)})"
-
-
-class UnlessCondition(Condition):
-    """Condition that a text is false."""
+class _TextCondition(Condition):
+    wanted = True
 
     def __init__(self, predicate_expression: Any) -> None:
         super().__init__(
-            predicate=lambda c: not evaluate_condition_expression(c, predicate_expression)
+            predicate=lambda context: (
+                evaluate_condition_expression(context, predicate_expression) is self.wanted
+            )
         )
         self._expression = predicate_expression
 
     def describe(self) -> str:
-        """UnlessCondition('expression')."""
+        """Return its text form: IfCondition('expression')."""
         return f"{type(self).__name__}({describe(self._expression)})"
+
+
+class IfCondition(_TextCondition):
+    """Condition that a text is true."""
+
+
+class UnlessCondition(_TextCondition):
+    """Condition that a text is false."""
+
+    wanted = False
 
 
 class LaunchConfigurationEquals(Condition):

@@ -17,7 +17,6 @@ from tftool.ros.rclpy.time import Duration
 from tftool.ros.tf2.core import BufferCore
 from tftool.ros.tf2.interface import NOW, BufferInterface
 from tftool.ros.tf2.lookup_requests import (
-    FullLookupRequest,
     LookupRequest,
     full_question,
     length,
@@ -100,19 +99,19 @@ class Buffer(BufferCore, BufferInterface):
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._can(asked, timeout, return_debug_tuple)
 
-    def _can(self, asked: LookupRequest | FullLookupRequest, timeout: Any, tell_why: bool) -> Any:
+    def _can(self, asked: LookupRequest, timeout: Any, tell_why: bool) -> Any:
         self._wait(asked, timeout)
         whether, why_not = self._whether(asked)
         return (whether, why_not) if tell_why else bool(whether)
 
-    def _wait(self, asked: LookupRequest | FullLookupRequest, timeout: Any) -> None:
+    def _wait(self, asked: LookupRequest, timeout: Any) -> None:
         """Wait while the answer may still become available, at most for the timeout."""
         limit = length(timeout)
         if limit > 0:
             self._hints.wait()
             self._ask(lambda: self._until(asked, limit))
 
-    async def _until(self, asked: LookupRequest | FullLookupRequest, limit: int) -> None:
+    async def _until(self, asked: LookupRequest, limit: int) -> None:
         clock = self._program.clock
         attempt = asyncio.ensure_future(asked.wait(self._frames, clock))
         try:
@@ -131,7 +130,7 @@ class Buffer(BufferCore, BufferInterface):
         """Do as `wait_for_transform_async`, between two times."""
         return self._promise(full_question(*asked, **named))
 
-    def _promise(self, asked: LookupRequest | FullLookupRequest) -> Future:
+    def _promise(self, asked: LookupRequest) -> Future:
         future = Future(executor=self._program.executor)
         self._hints.wait()
 

@@ -10,7 +10,6 @@ from tftool.ros.host import program, values
 from tftool.ros.rclpy.time import Duration, Time
 from tftool.ros.tf2.lookup_hints import LookupHints
 from tftool.ros.tf2.lookup_requests import (
-    FullLookupRequest,
     LookupRequest,
     full_question,
     length,
@@ -66,26 +65,26 @@ class BufferCore:
 
     # Asking
 
-    def _answer(self, asked: LookupRequest | FullLookupRequest) -> Any:
+    def _answer(self, asked: LookupRequest) -> Any:
         return values.unpack_transform(self._ask(lambda: self._looked_up(asked)))
 
-    def _looked_up(self, asked: LookupRequest | FullLookupRequest) -> TransformStamped:
+    def _looked_up(self, asked: LookupRequest) -> TransformStamped:
         try:
             found = asked.answer(self._frames)
         except TransformException as error:
             self._hints.refuse(asked.target, asked.source, error)
             raise
-        if isinstance(asked, LookupRequest):
+        if asked.fixed is None:
             self._hints.answer(asked.target, asked.source, asked.time)
         return found
 
-    def _whether(self, asked: LookupRequest | FullLookupRequest) -> tuple[int, str]:
+    def _whether(self, asked: LookupRequest) -> tuple[int, str]:
         reason: str = self._ask(lambda: self._why_not(asked))
         if reason:
             self._program.looked_in_vain()
         return int(not reason), reason
 
-    def _why_not(self, asked: LookupRequest | FullLookupRequest) -> str:
+    def _why_not(self, asked: LookupRequest) -> str:
         reason = asked.why_not(self._frames)
         self._hints.wait()
         if reason:

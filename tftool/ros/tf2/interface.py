@@ -15,47 +15,15 @@ class BufferInterface:
     def __init__(self) -> None:
         self.registration = Registration()
 
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
-    ) -> Any:
-        """Return the pose of source in target.
+    def _refuse(self, *asked: Any, **named: Any) -> Any:
+        """Look nothing up.
 
         Raises:
             NotImplementedException: If the class does not implement it.
         """
         raise NotImplementedException
 
-    def lookup_transform_full(
-        self,
-        target_frame: str,
-        target_time: Any,
-        source_frame: str,
-        source_time: Any,
-        fixed_frame: str,
-        timeout: Any = NOW,
-    ) -> Any:
-        """Return the pose of source at one time in target at another, through a fixed frame.
-
-        Raises:
-            NotImplementedException: If the class does not implement it.
-        """
-        raise NotImplementedException
-
-    def can_transform(self, *asked: Any, **named: Any) -> Any:
-        """Return whether a lookup would succeed.
-
-        Raises:
-            NotImplementedException: If the class does not implement it.
-        """
-        raise NotImplementedException
-
-    def can_transform_full(self, *asked: Any, **named: Any) -> Any:
-        """Return whether a lookup between two times would succeed.
-
-        Raises:
-            NotImplementedException: If the class does not implement it.
-        """
-        raise NotImplementedException
+    lookup_transform = lookup_transform_full = can_transform = can_transform_full = _refuse
 
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = NOW, new_type: Any = None

@@ -14,50 +14,44 @@ from tftool.world.clock import Clock
 
 @dataclass(frozen=True, slots=True)
 class LookupRequest:
-    """Lookup of source in target at one time."""
+    """Lookup of source in target at one time, or between two.
+
+    Attributes:
+        target: Frame the answer is expressed in.
+        source: Frame whose pose is asked for.
+        time: The moment, that of the source.
+        target_time: The moment of the target, with a fixed frame.
+        fixed: Frame that connects two moments; None for one.
+    """
 
     target: str
     source: str
     time: Stamp
+    target_time: Stamp = 0
+    fixed: str | None = None
 
     def answer(self, frames: Frames) -> TransformStamped:
         """Return the transform, or raise."""
-        return frames.lookup_transform(self.target, self.source, self.time)
+        if self.fixed is None:
+            return frames.lookup_transform(self.target, self.source, self.time)
+        return frames.lookup_transform_full(*self._full)
 
     def why_not(self, frames: Frames) -> str:
         """Return why it fails; "" if it succeeds."""
-        return frames.why_not(self.target, self.source, self.time)
+        if self.fixed is None:
+            return frames.why_not(self.target, self.source, self.time)
+        return frames.why_not_full(*self._full)
 
     async def wait(self, frames: Frames, clock: Clock) -> None:
         """Return as soon as it succeeds; raise as soon as it never can."""
-        await waiting.wait_for_transform(frames, clock, self.target, self.source, self.time)
-
-
-@dataclass(frozen=True, slots=True)
-class FullLookupRequest:
-    """Lookup of source at one time in target at another, through a fixed frame."""
-
-    target: str
-    target_time: Stamp
-    source: str
-    source_time: Stamp
-    fixed: str
-
-    def answer(self, frames: Frames) -> TransformStamped:
-        """Return the transform, or raise."""
-        return frames.lookup_transform_full(*self._asked)
-
-    def why_not(self, frames: Frames) -> str:
-        """Return why it fails; "" if it succeeds."""
-        return frames.why_not_full(*self._asked)
-
-    async def wait(self, frames: Frames, clock: Clock) -> None:
-        """Return as soon as it succeeds; raise as soon as it never can."""
-        await waiting.wait_for_transform_full(frames, clock, *self._asked)
+        if self.fixed is None:
+            await waiting.wait_for_transform(frames, clock, self.target, self.source, self.time)
+        else:
+            await waiting.wait_for_transform_full(frames, clock, *self._full)
 
     @property
-    def _asked(self) -> tuple[str, Stamp, str, Stamp, str]:
-        return self.target, self.target_time, self.source, self.source_time, self.fixed
+    def _full(self) -> tuple[str, Stamp, str, Stamp, str]:
+        return self.target, self.target_time, self.source, self.time, self.fixed or ""
 
 
 def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
@@ -72,15 +66,15 @@ def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
 
 def full_question(
     target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
-) -> FullLookupRequest:
+) -> LookupRequest:
     """Return the lookup between two times requested by a user's code.
 
     Raises:
         TypeError: If a frame is no text, or a time no time.
     """
     _require_names(target_frame=target_frame, source_frame=source_frame, fixed_frame=fixed_frame)
-    return FullLookupRequest(
-        target_frame, stamp(target_time), source_frame, stamp(source_time), fixed_frame
+    return LookupRequest(
+        target_frame, source_frame, stamp(source_time), stamp(target_time), fixed_frame
     )
 
 

@@ -1,0 +1,269 @@
+"""rosidl_runtime_py, which `ros2` uses too: interfaces by name, messages as mappings and texts."""
+
+import math
+from collections import OrderedDict
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from tftool.base.errors import InputError, UsageError
+from tftool.base.near_names import did_you_mean
+from tftool.messages.classes import INTERFACES, Message
+from tftool.messages.schema import FLOATS
+
+
+def interface(name: str, kind: str) -> Any:
+    """Return the class of an interface, "package/srv/Name" or "package/Name".
+
+    Raises:
+        UsageError: If it is unknown, with the nearest name.
+    """
+    package, _, own = name.strip("/").partition("/")
+    own = own.removeprefix(f"{kind}/")
+    if not own or own not in INTERFACES.names(package, kind):
+        known = [f"{one}/{kind}/{n}" for one in INTERFACES.packages()
+                 for n in INTERFACES.names(one, kind)]  # fmt: skip
+        hint = did_you_mean(f"{package}/{kind}/{own}", known)
+        raise UsageError(f"there is no interface '{name}' of kind {kind}{hint}")
+    try:
+        return INTERFACES.find(package, kind, own)
+    except InputError as error:
+        raise UsageError(str(error)) from None
+
+
+def definition(name: str) -> str:
+    """Return the text of an interface's definition.
+
+    Raises:
+        UsageError: If it is not known.
+    """
+    package, _, own = name.partition("/")
+    kind, _, short = own.rpartition("/")
+    for one in [kind] if kind else ["msg", "srv", "action"]:
+        if short in INTERFACES.names(package, one):
+            return INTERFACES.text(package, one, short)
+    interface(name, kind or "msg")
+    raise UsageError(f"there is no interface '{name}'")
+
+
+KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
+"""The kinds of interfaces, and the headings that `ros2 interface list` gives them."""
+
+
+def interfaces(package: str | None = None, kinds: Sequence[str] = tuple(KINDS)) -> list[str]:
+    """Return the full names of the interfaces of some kinds, of one package or all.
+
+    Raises:
+        UsageError: If there is no such package; a near name is offered.
+    """
+    if package is not None and package not in INTERFACES.packages():
+        hint = did_you_mean(package, INTERFACES.packages())
+        raise UsageError(f"there is no package of interfaces '{package}'{hint}")
+    return [
+        f"{one}/{kind}/{name}"
+        for one in ([package] if package else sorted(INTERFACES.packages()))
+        for kind in kinds
+        for name in sorted(INTERFACES.names(one, kind))
+    ]
+
+
+def prototype(name: str) -> Any:
+    """Return a message, request or goal of an interface with every field at its default.
+
+    Raises:
+        UsageError: If there is no such interface; a near name is offered.
+    """
+    parts = name.strip("/").split("/")
+    kind = parts[1] if len(parts) == 3 else "msg"
+    found = interface(name, kind if kind in KINDS else "msg")
+    part = {"srv": "Request", "action": "Goal"}.get(kind)
+    return (getattr(found, part) if part else found)()
+
+
+def fill(message: Any, values: Any, where: str = "") -> None:
+    """Set a message's fields from parsed YAML.
+
+    Raises:
+        UsageError: If a field is not there, or a value does not fit it; the field is named.
+    """
+    known = [field.name for field in message.fields__]
+    if values is None or values == "":
+        return
+    if not isinstance(values, Mapping):
+        what = f"'{where}'" if where else type(message).__name__
+        raise UsageError(f"{what} takes fields, '{{name: value}}', not {values!r}: {known}")
+    fields = {field.name: field for field in message.fields__}
+    for name, value in values.items():
+        path = f"{where}.{name}" if where else str(name)
+        field = fields.get(name)
+        if field is None:
+            hint = did_you_mean(str(name), known)
+            names = ", ".join(known) or "none"
+            raise UsageError(
+                f"{type(message).__name__} has no field '{path}' (it has {names}){hint}"
+            )
+        current = getattr(message, name)
+        if isinstance(current, Message):
+            fill(current, value, path)
+            continue
+        try:
+            setattr(message, name, _fitting(field, value, path))
+        except (AssertionError, TypeError, ValueError, OverflowError) as error:
+            raise UsageError(f"'{path}' cannot be {value!r}: {error}") from None
+
+
+def _fitting(field: Any, value: Any, path: str) -> Any:
+    if field.size is not None and not isinstance(field.kind, str):
+        if not isinstance(value, list):
+            raise TypeError("it takes a list")
+        made = []
+        for number, one in enumerate(value):
+            element = field.kind()
+            fill(element, one, f"{path}[{number}]")
+            made.append(element)
+        return made
+    if field.kind in FLOATS:
+        if isinstance(value, list):
+            return [float(one) for one in value]
+        return float(value) if type(value) is int else value
+    return value
+
+
+def plain(
+    value: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+) -> Any:
+    """Convert a message for YAML: mappings, lists and single values.
+
+    Args:
+        value: The message, or the value of a field.
+        truncate_length: How many elements of a list, or letters of a text, are shown; None for all.
+        no_arr: Whether a list is replaced by its type and length.
+        no_str: Whether a text is replaced by its length.
+    """
+
+    def inner(one: Any) -> Any:
+        return plain(one, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
+
+    if isinstance(value, Message):
+        types = value.get_fields_and_field_types() if no_arr else {}
+        return {
+            field.name: _summary(getattr(value, field.name), types[field.name])
+            if field.size is not None and no_arr
+            else inner(getattr(value, field.name))
+            for field in value.fields__
+        }
+    if isinstance(value, bytes | bytearray):
+        value = list(value)
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, str):
+        if no_str:
+            return f"<string length: <{len(value)}>>"
+        is_long = truncate_length is not None and len(value) > truncate_length
+        return f"{value[:truncate_length]}..." if is_long else value
+    if isinstance(value, list | tuple):
+        shown = [inner(one) for one in value[:truncate_length]]
+        return shown if len(shown) == len(value) else [*shown, "..."]
+    return value
+
+
+def _summary(value: Any, kind: str) -> str:
+    """Return the type of a list, "double[36]" or "sequence<double>", and its length."""
+    if not kind.startswith("sequence<"):
+        return f"<array type: {kind}>"
+    element = kind.removeprefix("sequence<").removesuffix(">")
+    name, _, bound = element.partition(", ")
+    return f"<sequence type: {name}{bound and f'<{bound}>'}, length: {len(value)}>"
+
+
+def as_yaml(shown: Any, *, flow_style: bool = False) -> str:
+    """Return a value of `plain` as YAML, with its line's end."""
+    import yaml  # Not for a command line alone.
+
+    if not isinstance(shown, dict | list):
+        return f"{shown}\n"
+    text: str = yaml.safe_dump(
+        shown,
+        sort_keys=False,
+        allow_unicode=True,
+        default_flow_style=flow_style,
+        width=math.inf,
+    )
+    return text
+
+
+def as_csv(shown: Any) -> str:
+    """Return the single values in a value of `plain`, separated by commas."""
+    return ",".join(str(value) for value in _single_values(shown))
+
+
+def _single_values(value: Any) -> list[Any]:
+    if isinstance(value, Mapping):
+        value = list(value.values())
+    if isinstance(value, list):
+        return [one for part in value for one in _single_values(part)]
+    return [value]
+
+
+def message_to_ordereddict(msg: Any, **options: Any) -> "OrderedDict[str, Any]":
+    """Return the fields of a message, messages inside it as mappings too.
+
+    Args:
+        msg: The message.
+        options: As for `plain`.
+    """
+    return OrderedDict(plain(msg, **options))
+
+
+def message_to_yaml(msg: Any, *, flow_style: bool = False, **options: Any) -> str:
+    """Return a message as YAML, its fields in the order of the definition.
+
+    Args:
+        msg: The message.
+        flow_style: Whether on one line.
+        options: As for `plain`.
+    """
+    return as_yaml(plain(msg, **options), flow_style=flow_style)
+
+
+def message_to_csv(msg: Any, **options: Any) -> str:
+    """Return the values of a message, separated by commas; `options` as for `plain`."""
+    return as_csv(plain(msg, **options))
+
+
+def get_message_slot_types(msg: Any) -> "OrderedDict[str, str]":
+    """Return the type of each field of a message, by name."""
+    return OrderedDict(msg.get_fields_and_field_types())
+
+
+def set_message_fields(msg: Any, values: Any, **_: Any) -> None:
+    """Set fields of a message from a mapping, as `ros2 topic pub` does.
+
+    Raises:
+        UsageError: If there is no such field, or a value does not fit; the field is named.
+    """
+    fill(msg, values)
+
+
+def get_message(identifier: str) -> Any:
+    """Return the class of a message by "package/msg/Name".
+
+    Raises:
+        UsageError: If there is none; a near name is offered.
+    """
+    return interface(identifier, "msg")
+
+
+def get_service(identifier: str) -> Any:
+    """Return the class of a service by "package/srv/Name"; raises as `get_message` does."""
+    return interface(identifier, "srv")
+
+
+def get_action(identifier: str) -> Any:
+    """Return the class of an action by "package/action/Name"; raises as `get_message` does."""
+    return interface(identifier, "action")
+
+
+def get_interface(identifier: str) -> Any:
+    """Return the class of any interface by its full name; raises as `get_message` does."""
+    parts = identifier.split("/")
+    return interface(identifier, parts[1] if len(parts) == 3 else "msg")
