@@ -39,7 +39,7 @@ from tftool.ros.rclpy.qos import (
     QoSProfile,
     ReliabilityPolicy,
 )
-from tftool.ros.rclpy.serialization import serialize_message
+from tftool.ros.rclpy.topics import serialize_message
 from tftool.ros.rclpy.validation import topic_or_service_is_hidden
 
 Print = Callable[[str], object]

@@ -18,7 +18,7 @@ from tftool.ros.launch import packages
 from tftool.ros.launch.arguments import declared, shown_arguments
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.engine import Launch
-from tftool.ros.launch.files import load_file
+from tftool.ros.launch.frontend import load_file
 from tftool.world.clock import Phase
 from tftool.world.world import World
 

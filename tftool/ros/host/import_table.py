@@ -90,7 +90,7 @@ rclpy.lifecycle rclpy.lifecycle.publisher: rclpy.lifecycle: LifecyclePublisher
 rclpy.lifecycle rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity SimpleManagedEntity
 rclpy.lifecycle: rclpy.lifecycle: Node=LifecycleNode State=LifecycleState
     Publisher=LifecyclePublisher
-rclpy.serialization: rclpy.serialization: serialize_message deserialize_message
+rclpy.serialization: rclpy.topics: serialize_message deserialize_message
 rclpy.signals: rclpy.core: get_current_signal_handlers_options
 rclpy.utilities: rclpy.core: remove_ros_args timeout_sec_to_nsec
 rclpy.expand_topic_name: rclpy.validation: expand_topic_name
@@ -110,7 +110,7 @@ tf2_ros tf2_ros.transform_listener: tf2.broadcasters: TransformListener
 tf2_ros tf2_ros.transform_broadcaster: tf2.broadcasters: TransformBroadcaster
 tf2_ros tf2_ros.static_transform_broadcaster: tf2.broadcasters: StaticTransformBroadcaster
 tf2_ros tf2_ros.static_transform_listener: tf2.broadcasters: StaticTransformListener
-tf2_ros tf2_ros.buffer_interface: tf2.registry: TransformRegistration ConvertRegistration
+tf2_ros tf2_ros.buffer_interface: tf2.interface: TransformRegistration ConvertRegistration
     TypeException convert NotImplementedException
 tf2_ros tf2_ros.transform_broadcaster tf2_ros.static_transform_broadcaster: geometry_msgs/msg:
     TransformStamped
@@ -131,7 +131,7 @@ tf_transformations: tf2.euler: *
 launch launch.launch_description: launch.description: LaunchDescription
 launch launch.launch_description_source: launch.description: LaunchDescriptionSource
 launch launch.launch_context launch.launch_description: launch.context: LaunchContext
-launch launch.action launch.launch_description: launch.action: Action
+launch launch.action launch.launch_description: launch.description: Action
 launch launch.launch_service: launch.service: LaunchService
 launch.logging: launch.logging: get_logger launch_config LaunchConfig reset
 launch.logging.handlers: launch.logging: Handler StreamHandler FileHandler

@@ -11,15 +11,17 @@ import builtins
 import importlib.util
 import io
 import queue
+import selectors
 import sys
 import threading
 import time
+from collections.abc import Callable, Coroutine
 from functools import cache
 from types import ModuleType
 from typing import Any
 
-from tftool.base.stamps import NANOSECONDS, seconds
-from tftool.ros.host import event_loops, locks
+from tftool.base.stamps import NANOSECONDS, Duration, seconds
+from tftool.ros.host import locks
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import Fiber
 from tftool.ros.host.locks import running_program
@@ -154,9 +156,9 @@ def _shims() -> dict[str, ModuleType]:
         "asyncio": _Shim(
             asyncio,
             {
-                "get_event_loop": event_loops.get_event_loop,
-                "new_event_loop": event_loops.new_event_loop,
-                "run": event_loops.run,
+                "get_event_loop": _get_event_loop,
+                "new_event_loop": _new_event_loop,
+                "run": _run_coroutine,
             },
         ),
     }
@@ -207,3 +209,61 @@ def builtins_for_users() -> dict[str, Any]:
         return builtins.__import__(name, globals, locals, fromlist, level)
 
     return {**vars(builtins), "__import__": import_, "print": _print}
+
+
+SLICE: Duration = seconds(0.01)
+"""How long a loop waits at once: by then it sees what came by socket or from another thread."""
+
+
+class _WorldSelector(selectors.DefaultSelector):
+    """Selector that waits for input the way `time.sleep` waits in a user's program."""
+
+    def select(self, timeout: float | None = None) -> Any:
+        ready = super().select(0)
+        owner = running_program()
+        if ready or owner is None or (timeout is not None and timeout <= 0):
+            return ready
+        owner.sleep(SLICE if timeout is None else min(SLICE, seconds(timeout)))
+        if owner.interrupted:
+            raise KeyboardInterrupt
+        return super().select(0)
+
+
+class UserEventLoop(asyncio.SelectorEventLoop):
+    """Event loop of a user's program; its seconds are the world's."""
+
+    def __init__(self) -> None:
+        """Make a loop for the running program; it closes with the program."""
+        super().__init__(_WorldSelector())
+        self._owner = running_program()
+        self._owner.event_loops.append(self)
+
+    def time(self) -> float:
+        """Return seconds since the world began."""
+        return float(self._owner.now() - self._owner.clock.epoch) / NANOSECONDS
+
+
+def _get_event_loop() -> asyncio.AbstractEventLoop:
+    """Return the thread's loop; create one if there is none, as in a process's main thread."""
+    try:
+        return asyncio.get_event_loop()
+    except RuntimeError:
+        if running_program() is None:
+            raise
+    loop = UserEventLoop()
+    asyncio.set_event_loop(loop)
+    return loop
+
+
+def _new_event_loop() -> asyncio.AbstractEventLoop:
+    """Return a loop in the world's time for a user's program, Python's own elsewhere."""
+    return asyncio.new_event_loop() if running_program() is None else UserEventLoop()
+
+
+def _run_coroutine(main: Coroutine[Any, Any, Any], *, debug: bool | None = None) -> Any:
+    """Run a coroutine to its end in a new loop, as `asyncio.run` does."""
+    factory: Callable[[], asyncio.AbstractEventLoop] | None = None
+    if running_program() is not None:
+        factory = UserEventLoop
+    with asyncio.Runner(debug=debug, loop_factory=factory) as runner:
+        return runner.run(main)

@@ -12,8 +12,8 @@ from typing import Any
 from tftool.base.errors import TftoolError, UsageError
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host.names import RosOptions
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import Action
 from tftool.ros.launch.nodes import Node, python_file
 from tftool.ros.launch.parameters import normalize_parameters, read_all
 from tftool.ros.launch.scope import (

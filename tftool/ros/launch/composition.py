@@ -5,9 +5,8 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from tftool.base.errors import UsageError
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionSource
+from tftool.ros.launch.description import Action, LaunchDescription, LaunchDescriptionSource
 from tftool.ros.launch.processes import seconds_of
 from tftool.ros.launch.settings import (
     Pop,

@@ -20,9 +20,9 @@ from tftool.ros.launch.arguments import declared, refuse_unknown
 from tftool.ros.launch.commands import SystemCommand, begin, interrupt, lines_of, run_at_once
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
-from tftool.ros.launch.event_queue import EventQueue
 from tftool.ros.launch.events import (
     Event,
+    EventQueue,
     ExecutionComplete,
     ProcessExited,
     ProcessIO,
@@ -30,7 +30,7 @@ from tftool.ros.launch.events import (
     Shutdown,
     ShutdownProcess,
 )
-from tftool.ros.launch.files import load_file
+from tftool.ros.launch.frontend import load_file
 from tftool.ros.launch.processes import Executable
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.world.clock import SimClock, paced

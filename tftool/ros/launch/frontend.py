@@ -1,12 +1,15 @@
-"""Conversion of XML and YAML elements to actions."""
+"""Loading of launch files: Python, XML or YAML to a description."""
 
 import shlex
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
-from types import MappingProxyType
+from pathlib import Path
+from types import FunctionType, MappingProxyType, ModuleType
 from typing import Any
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import InputError, UsageError
+from tftool.base.near_names import near_names
+from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.launch import (
     components,
@@ -21,8 +24,8 @@ from tftool.ros.launch import (
     settings,
 )
 from tftool.ros.launch.conditions import IfCondition, UnlessCondition
-from tftool.ros.launch.description import LaunchDescriptionSource
-from tftool.ros.launch.elements import Element
+from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionSource
+from tftool.ros.launch.elements import Element, read
 from tftool.ros.launch.parsing import parsed
 from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
@@ -336,3 +339,43 @@ _MEANINGS: dict[str, Callable[[Element], Any]] = {
     "log": lambda e: reactions.LogInfo(msg=_text(e, "message")),
     "shutdown": lambda e: reactions.Shutdown(reason=_optional(e, "reason", "reason not given")),
 }
+
+
+MAKES = "generate_launch_description"
+"""The function that a launch file in Python defines."""
+
+
+def load_file(path: Path) -> LaunchDescription:
+    """Return the description in a launch file.
+
+    Raises:
+        InputError: If it cannot be read, is none, or raises; the user's own line is shown.
+    """
+    if path.suffix in (".xml", ".yaml", ".yml"):
+        return LaunchDescription(actions_of(read(path)))
+    return _from_python(path)
+
+
+def _from_python(path: Path) -> LaunchDescription:
+    code = user_code.compile_file(path)
+    module = ModuleType("launch_file")
+    module.__file__ = str(path.absolute())  # ROS 2's loader makes it so too
+    try:
+        exec(code, module.__dict__)
+        make = module.__dict__.get(MAKES)
+        if make is None:
+            defined = [name for name, one in vars(module).items() if isinstance(one, FunctionType)]
+            near = near_names(MAKES, defined)
+            hint = f"; it has '{near[0]}': name that so" if near else ""
+            raise InputError(f"'{path}' is no launch file: it has no function {MAKES}(){hint}")
+        description = make()
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(f"{path}: {error_sentence(error)}") from error
+    if not isinstance(description, LaunchDescription):
+        raise InputError(
+            f"{path}: generate_launch_description() must return a LaunchDescription, not "
+            f"{type(description).__name__}"
+        )
+    return description

@@ -6,8 +6,8 @@ from typing import Any
 
 from tftool.base.errors import UsageError
 from tftool.messages.classes import INTERFACES
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import Action
 from tftool.ros.launch.events import Event, EventHandler
 from tftool.ros.launch.nodes import Node
 from tftool.ros.launch.processes import ExecuteProcess

@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 from tftool.base.errors import UsageError
 from tftool.ros.host import names
 from tftool.ros.host.names import RosOptions
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.commands import SystemCommand
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import Action
 from tftool.ros.launch.events import OnProcessExit
 from tftool.ros.launch.substitutions import ROS2, is_true, perform
 

@@ -3,8 +3,8 @@
 from typing import Any
 
 from tftool.base.errors import UsageError
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import Action
 from tftool.ros.launch.events import Event, EventHandler, OnExecutionComplete
 from tftool.ros.launch.events import Shutdown as ShutdownEvent
 from tftool.ros.launch.substitutions import perform

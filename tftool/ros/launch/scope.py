@@ -9,8 +9,8 @@ from typing import Any
 from tftool.base.errors import UsageError
 from tftool.ros.host import names
 from tftool.ros.launch import parsing
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import Action
 from tftool.ros.launch.parameters import ParameterFile, normalize_parameters, read_all
 from tftool.ros.launch.substitutions import Substitution, SubstitutionFailure, perform
 from tftool.ros.launch.utilities import normalize_to_list_of_substitutions

@@ -7,7 +7,7 @@ from typing import Any
 
 from tftool.base.stamps import as_seconds
 from tftool.ros.host import program
-from tftool.ros.host.event_loops import SLICE
+from tftool.ros.host.shims import SLICE
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.engine import Launch

@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from tftool.base.errors import UsageError
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import Action
 from tftool.ros.launch.substitutions import describe, is_true, perform
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from tftool.base.stamps import seconds
 from tftool.ros.host import program
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import Action
 from tftool.ros.launch.events import (
     Event,
     OnProcessExit,

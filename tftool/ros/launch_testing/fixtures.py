@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from tftool.ros.host import program
-from tftool.ros.host.event_loops import UserEventLoop
+from tftool.ros.host.shims import UserEventLoop
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.service import LaunchService
 from tftool.ros.launch_testing.description import ReadyToTest, ready_actions

@@ -10,7 +10,7 @@ from typing import Any
 
 from tftool.base.stamps import as_seconds, seconds
 from tftool.ros.host import program
-from tftool.ros.host.event_loops import SLICE
+from tftool.ros.host.shims import SLICE
 
 Condition = Callable[[Any, Any], Any]
 """Says of an action, and of a user's function, whether the wait is over."""

@@ -1,4 +1,4 @@
-"""Publishers and subscriptions."""
+"""Publishers and subscriptions, and messages as ROS 2's bytes."""
 
 import inspect
 from collections import deque
@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any, TypedDict
 
 from tftool.messages.classes import INTERFACES, Message
+from tftool.messages.codec import codec
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work
 from tftool.ros.rclpy.exceptions import InvalidHandle
@@ -17,9 +18,28 @@ from tftool.ros.rclpy.qos import (
 )
 from tftool.ros.rclpy.qos_events import EndpointWatch, Silence
 from tftool.ros.rclpy.seat import NodeSeat
-from tftool.ros.rclpy.serialization import deserialize_message, serialize_message
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 from tftool.world.world import TransformMessage
+
+
+def serialize_message(message: Any) -> bytes:
+    """Return the bytes of a message.
+
+    Raises:
+        TypeError: If it is no message.
+    """
+    if not isinstance(message, Message):
+        raise TypeError(f"expected a message, got {type(message).__name__}")
+    return codec(type(message)).encode(message)
+
+
+def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
+    """Return the message of some bytes.
+
+    Raises:
+        MalformedMessage: If they are not one of that type.
+    """
+    return codec(message_type).decode(bytes(serialized_message))
 
 
 class Publisher(NodeEntity):

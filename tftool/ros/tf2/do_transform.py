@@ -11,7 +11,7 @@ from typing import Any
 from tftool.geometry import quantities as carry
 from tftool.geometry.rigid import Transform, Vector3, transform
 from tftool.messages.classes import INTERFACES, duplicate
-from tftool.ros.tf2.registry import ConvertRegistration, TransformRegistration
+from tftool.ros.tf2.interface import ConvertRegistration, TransformRegistration
 
 _FLOATS = {7: "f4", 8: "f8"}
 """How numpy writes a PointField's FLOAT32 and FLOAT64."""
