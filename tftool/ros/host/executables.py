@@ -13,7 +13,7 @@ from tftool.base.near_names import did_you_mean
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.notation import static_arguments
 from tftool.ros.host import importing, user_code
-from tftool.ros.host.missing_names import undeclared
+from tftool.ros.host.error_text import undeclared
 from tftool.ros.host.names import RosOptions, expand, join, named_twice
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace, missing_package

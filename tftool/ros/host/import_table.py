@@ -42,16 +42,16 @@ rclpy.event_handler: rclpy.qos_events: QoSPublisherEventType QoSSubscriptionEven
     QoSRequestedIncompatibleQoSInfo=QoSIncompatibleInfo QoSOfferedDeadlineMissedInfo=QoSCountInfo
     QoSRequestedDeadlineMissedInfo=QoSCountInfo QoSLivelinessLostInfo=QoSCountInfo
     QoSMessageLostInfo=QoSCountInfo
-rclpy.qos_overriding_options: rclpy.qos_overriding_options: QoSOverridingOptions QosCallbackResult
+rclpy.qos_overriding_options: rclpy.qos: QoSOverridingOptions QosCallbackResult
     InvalidQosOverridesError _declare_qos_parameters _get_qos_policy_parameter
 rclpy.qos_overriding_options rclpy.qos: rclpy.qos: QoSPolicyKind
 rclpy.service_introspection rclpy.service rclpy.client: rclpy.services: ServiceIntrospectionState
 rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME
-rclpy.type_support: rclpy.type_support: check_for_type_support check_is_valid_msg_type
+rclpy.type_support: rclpy.core: check_for_type_support check_is_valid_msg_type
     check_is_valid_srv_type
 rclpy.type_description_service: rclpy.services: START_TYPE_DESCRIPTION_SERVICE_PARAM
-rclpy.type_hash: rclpy.endpoints: TypeHash
-rclpy.topic_endpoint_info: rclpy.endpoints: TopicEndpointInfo TopicEndpointTypeEnum
+rclpy.type_hash: rclpy.node_graph: TypeHash
+rclpy.topic_endpoint_info: rclpy.node_graph: TopicEndpointInfo TopicEndpointTypeEnum
 rclpy.wait_for_message: rclpy.core: wait_for_message
 rclpy.client: rclpy.services: Client
 rclpy.service: rclpy.services: Service
@@ -68,7 +68,7 @@ rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger SkipFirst
 rclpy.parameter: rclpy.parameters: parameter_value_to_python get_parameter_value
     parameter_dict_from_yaml_file PARAMETER_SEPARATOR_STRING
 rclpy.parameter_client: rclpy.parameter_client: AsyncParameterClient
-rclpy.parameter_event_handler: rclpy.parameter_events: ParameterEventHandler ParameterCallbackHandle
+rclpy.parameter_event_handler: rclpy.parameter_client: ParameterEventHandler ParameterCallbackHandle
     ParameterEventCallbackHandle
 rclpy.exceptions: rclpy.exceptions: *
 rclpy.qos tf2_ros: rclpy.qos: QoSProfile HistoryPolicy DurabilityPolicy
@@ -105,13 +105,12 @@ tf2_py tf2_ros: tf2.core: BufferCore
 tf2_py tf2_ros: .base.errors: TransformException LookupException ConnectivityException
     TimeoutException ExtrapolationException InvalidArgumentException
 tf2_ros tf2_ros.buffer: tf2.buffer: Buffer
-tf2_ros tf2_ros.buffer_interface: tf2.interface: BufferInterface
+tf2_ros tf2_ros.buffer_interface: tf2.interface: BufferInterface TransformRegistration
+    ConvertRegistration TypeException convert NotImplementedException
 tf2_ros tf2_ros.transform_listener: tf2.broadcasters: TransformListener
 tf2_ros tf2_ros.transform_broadcaster: tf2.broadcasters: TransformBroadcaster
 tf2_ros tf2_ros.static_transform_broadcaster: tf2.broadcasters: StaticTransformBroadcaster
 tf2_ros tf2_ros.static_transform_listener: tf2.broadcasters: StaticTransformListener
-tf2_ros tf2_ros.buffer_interface: tf2.interface: TransformRegistration ConvertRegistration
-    TypeException convert NotImplementedException
 tf2_ros tf2_ros.transform_broadcaster tf2_ros.static_transform_broadcaster: geometry_msgs/msg:
     TransformStamped
 tf2_ros tf2_ros.transform_broadcaster tf2_ros.static_transform_broadcaster
@@ -142,14 +141,12 @@ launch launch.substitution: launch.substitutions: Substitution
 launch launch.some_substitutions_type: launch.substitutions: SomeSubstitutionsType
 launch launch.launch_description_entity launch.launch_description: launch.description:
     LaunchDescriptionEntity
-launch.actions launch.launch_description: launch.settings: DeclareLaunchArgument
-launch.actions: launch.settings: SetLaunchConfiguration UnsetLaunchConfiguration
+launch.actions launch.launch_description: launch.actions: DeclareLaunchArgument
+launch.actions: launch.actions: SetLaunchConfiguration UnsetLaunchConfiguration
     ResetLaunchConfigurations SetEnvironmentVariable AppendEnvironmentVariable PushEnvironment
     PopEnvironment ResetEnvironment UnsetEnvironmentVariable PushLaunchConfigurations=Push
-    PopLaunchConfigurations=Pop
-launch.actions: launch.composition: OpaqueFunction GroupAction IncludeLaunchDescription TimerAction
-launch.actions: launch.reactions: LogInfo RegisterEventHandler UnregisterEventHandler EmitEvent
-    Shutdown
+    PopLaunchConfigurations=Pop OpaqueFunction GroupAction IncludeLaunchDescription TimerAction
+    LogInfo RegisterEventHandler UnregisterEventHandler EmitEvent Shutdown
 launch.actions: launch.processes: ExecuteProcess ExecuteLocal=ExecuteProcess
 launch.conditions: launch.conditions: IfCondition UnlessCondition LaunchConfigurationEquals
     LaunchConfigurationNotEquals InvalidConditionExpressionError evaluate_condition_expression
@@ -179,11 +176,11 @@ launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptio
 launch_ros.actions: launch.nodes: Node
 launch_ros.actions: launch.scope: PushRosNamespace PushROSNamespace=PushRosNamespace SetRemap
     SetParameter SetUseSimTime SetParametersFromFile
-launch_ros.actions: launch.settings: SetROSLogDir=SetLogFolder
+launch_ros.actions: launch.actions: SetROSLogDir=SetLogFolder RosTimer=TimerAction
+    ROSTimer=TimerAction
 launch_ros.actions: launch.components: ComposableNodeContainer LoadComposableNodes
 launch_ros.actions.load_composable_nodes: launch.components: get_composable_node_load_request
 launch_ros.descriptions launch_ros.descriptions.composable_node: launch.components: ComposableNode
-launch_ros.actions: launch.composition: RosTimer=TimerAction ROSTimer=TimerAction
 launch_ros.actions: launch.lifecycle: LifecycleNode LifecycleTransition
 launch_ros.events launch_ros.events.matchers: launch.lifecycle: matches_node_name
 launch_ros.events.lifecycle: launch.lifecycle: ChangeState StateTransition

@@ -18,7 +18,7 @@ from typing import Any
 from tftool.base.errors import UsageError
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import fibers, import_table
-from tftool.ros.host.missing_names import missing_module, missing_name
+from tftool.ros.host.error_text import missing_module, missing_name
 from tftool.ros.host.shims import IMPORTING, builtins_for_users
 
 DISTRIBUTION = "jazzy"

@@ -7,10 +7,9 @@ from typing import Any
 
 from tftool.base.errors import TftoolError, UsageError
 from tftool.base.near_names import near_names
-from tftool.ros.launch.composition import IncludeLaunchDescription
+from tftool.ros.launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionEntity
-from tftool.ros.launch.settings import DeclareLaunchArgument
 from tftool.ros.launch.substitutions import perform
 
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from tftool.base.errors import UsageError
+from tftool.ros.host.error_text import near_keyword
 from tftool.ros.host.fibers import user_line
-from tftool.ros.host.missing_names import near_keyword
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.events import ExecutionComplete
 from tftool.ros.launch.substitutions import perform

@@ -12,16 +12,14 @@ from tftool.base.near_names import near_names
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.launch import (
+    actions,
     components,
-    composition,
     exposing,
     lifecycle,
     nodes,
     parameters,
     processes,
-    reactions,
     scope,
-    settings,
 )
 from tftool.ros.launch.conditions import IfCondition, UnlessCondition
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionSource
@@ -112,7 +110,7 @@ def _pair(first: str, second: str) -> Callable[[Element], tuple[Any, Any]]:
 
 def _arg(element: Element) -> Any:
     choices = _each(element, lambda child: child.need("value"), "choice")
-    return settings.DeclareLaunchArgument(
+    return actions.DeclareLaunchArgument(
         str(element.need("name")),
         default_value=_optional(element, "default"),
         description=element.get("description"),
@@ -128,7 +126,7 @@ def _startable(element: Element) -> dict[str, Any]:
     if on_exit not in (None, "shutdown"):
         raise element.refusal(f"on_exit may be 'shutdown', not '{on_exit}'", "", ())
     return {
-        "on_exit": reactions.Shutdown(reason=f"{element.tag} ended") if on_exit else None,
+        "on_exit": actions.Shutdown(reason=f"{element.tag} ended") if on_exit else None,
         "output": element.get("output", "log"),
         "respawn": _optional(element, "respawn", "false"),
         "respawn_delay": _optional(element, "respawn_delay"),
@@ -262,12 +260,12 @@ def _value(text: Any, element: Element) -> list[Any]:
 def _include(element: Element) -> Any:
     arguments = _each(element, _pair("name", "value"), "arg", "let")
     source = LaunchDescriptionSource(None, _text(element, "file"))
-    return composition.IncludeLaunchDescription(source, launch_arguments=arguments)
+    return actions.IncludeLaunchDescription(source, launch_arguments=arguments)
 
 
 def _group(element: Element) -> Any:
     kept = dict(_each(element, _kept, "keep"))
-    return composition.GroupAction(
+    return actions.GroupAction(
         actions_of(child for child in element.all_inside() if child.tag != "keep"),
         scoped=_flag(element, "scoped", "true"),
         forwarding=_flag(element, "forwarding", "true"),
@@ -280,7 +278,7 @@ def _kept(child: Element) -> tuple[str, Any]:
 
 
 def _reset(element: Element) -> Any:
-    return settings.ResetLaunchConfigurations(dict(_each(element, _kept, "keep")))
+    return actions.ResetLaunchConfigurations(dict(_each(element, _kept, "keep")))
 
 
 def _executable(element: Element) -> Any:
@@ -295,13 +293,13 @@ def _executable(element: Element) -> Any:
 
 
 def _timer(element: Element) -> Any:
-    return composition.TimerAction(
+    return actions.TimerAction(
         period=_text(element, "period"), actions=actions_of(element.all_inside())
     )
 
 
 def _append_env(element: Element) -> Any:
-    return settings.AppendEnvironmentVariable(
+    return actions.AppendEnvironmentVariable(
         _text(element, "name"),
         _text(element, "value"),
         prepend=_flag(element, "prepend", "false"),
@@ -311,7 +309,7 @@ def _append_env(element: Element) -> Any:
 
 _MEANINGS: dict[str, Callable[[Element], Any]] = {
     "arg": _arg,
-    "let": lambda e: settings.SetLaunchConfiguration(_text(e, "name"), _text(e, "value")),
+    "let": lambda e: actions.SetLaunchConfiguration(_text(e, "name"), _text(e, "value")),
     "node": _node,
     "lifecycle_node": _lifecycle_node,
     "node_container": _node_container,
@@ -319,9 +317,9 @@ _MEANINGS: dict[str, Callable[[Element], Any]] = {
     "include": _include,
     "group": _group,
     "push_ros_namespace": lambda e: scope.PushRosNamespace(_text(e, "namespace")),
-    "set_env": lambda e: settings.SetEnvironmentVariable(_text(e, "name"), _text(e, "value")),
-    "set_ros_log_dir": lambda e: settings.SetLogFolder(_text(e, "new_log_dir")),
-    "unset_env": lambda e: settings.UnsetEnvironmentVariable(_text(e, "name")),
+    "set_env": lambda e: actions.SetEnvironmentVariable(_text(e, "name"), _text(e, "value")),
+    "set_ros_log_dir": lambda e: actions.SetLogFolder(_text(e, "new_log_dir")),
+    "unset_env": lambda e: actions.UnsetEnvironmentVariable(_text(e, "name")),
     "append_env": _append_env,
     "set_parameter": lambda e: scope.SetParameter(_text(e, "name"), _text(e, "value")),
     "set_parameters_from_file": lambda e: scope.SetParametersFromFile(
@@ -331,13 +329,13 @@ _MEANINGS: dict[str, Callable[[Element], Any]] = {
     "set_remap": lambda e: scope.SetRemap(_text(e, "from"), _text(e, "to")),
     "executable": _executable,
     "reset": _reset,
-    "push_env": lambda e: settings.PushEnvironment(),
-    "pop_env": lambda e: settings.PopEnvironment(),
-    "reset_env": lambda e: settings.ResetEnvironment(),
+    "push_env": lambda e: actions.PushEnvironment(),
+    "pop_env": lambda e: actions.PopEnvironment(),
+    "reset_env": lambda e: actions.ResetEnvironment(),
     "timer": _timer,
     "ros_timer": _timer,
-    "log": lambda e: reactions.LogInfo(msg=_text(e, "message")),
-    "shutdown": lambda e: reactions.Shutdown(reason=_optional(e, "reason", "reason not given")),
+    "log": lambda e: actions.LogInfo(msg=_text(e, "message")),
+    "shutdown": lambda e: actions.Shutdown(reason=_optional(e, "reason", "reason not given")),
 }
 
 

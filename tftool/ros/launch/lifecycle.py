@@ -6,12 +6,12 @@ from typing import Any
 
 from tftool.base.errors import UsageError
 from tftool.messages.classes import INTERFACES
+from tftool.ros.launch.actions import EmitEvent, RegisterEventHandler
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import Action
 from tftool.ros.launch.events import Event, EventHandler
 from tftool.ros.launch.nodes import Node
 from tftool.ros.launch.processes import ExecuteProcess
-from tftool.ros.launch.reactions import EmitEvent, RegisterEventHandler
 from tftool.ros.launch.scope import make_namespace_absolute, namespace_in
 from tftool.ros.launch.substitutions import perform
 

@@ -13,10 +13,9 @@ from typing import Any, cast
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import seconds
 from tftool.ros.host import program, user_code
-from tftool.ros.launch.composition import IncludeLaunchDescription
+from tftool.ros.launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.events import OnProcessExit, OnProcessIO, OnProcessStart
-from tftool.ros.launch.reactions import RegisterEventHandler
 from tftool.ros.launch.service import LaunchService
 from tftool.ros.launch_testing.description import READY_WITHIN, ready_actions
 from tftool.ros.launch_testing.records import IoHandler, ProcInfoHandler

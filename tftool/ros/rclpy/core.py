@@ -1,4 +1,4 @@
-"""Functions of rclpy itself, and of its modules utilities, signals and wait_for_message."""
+"""Functions of rclpy itself, and of its modules utilities, signals, type_support and others."""
 
 import sys
 from collections.abc import Sequence
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, List, Optional  # noqa: UP035
 from tftool.ros.host import names, program
 from tftool.ros.rclpy import logging
 from tftool.ros.rclpy.context import Context, context_of
+from tftool.ros.rclpy.exceptions import NoTypeSupportImportedException
 from tftool.ros.rclpy.executors import Executor, SingleThreadedExecutor, executor_of, wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node import Node
@@ -213,3 +214,44 @@ def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
 def get_rmw_implementation_identifier() -> str:
     """Return the middleware's name: messages stay in this process."""
     return "tftool"
+
+
+def check_for_type_support(msg_or_srv_type: Any) -> None:
+    """Check that it is an interface.
+
+    Raises:
+        AttributeError: If it is nothing like one.
+        NoTypeSupportImportedException: If it is one that nothing is known of.
+    """
+    if _is_message(msg_or_srv_type) or _has(msg_or_srv_type, "Request", "Goal"):
+        return
+    _ = type(msg_or_srv_type)._TYPE_SUPPORT
+    raise NoTypeSupportImportedException
+
+
+def check_is_valid_msg_type(msg_type: Any) -> None:
+    """Check that it is a message type.
+
+    Raises:
+        RuntimeError: If it is another's.
+    """
+    if not _is_message(msg_type):
+        raise RuntimeError(f"The message type provided is not valid ({msg_type})")
+
+
+def check_is_valid_srv_type(srv_type: Any) -> None:
+    """Check that it is a service type.
+
+    Raises:
+        RuntimeError: If it is another's.
+    """
+    if not _has(srv_type, "Request"):
+        raise RuntimeError(f"The service type provided is not valid ({srv_type})")
+
+
+def _is_message(kind: Any) -> bool:
+    return isinstance(kind, type) and hasattr(kind, "get_fields_and_field_types")
+
+
+def _has(kind: Any, *parts: str) -> bool:
+    return isinstance(kind, type) and any(_is_message(getattr(kind, part, None)) for part in parts)

@@ -22,9 +22,8 @@ from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
 from tftool.ros.rclpy.node_graph import NodeGraph
 from tftool.ros.rclpy.node_parameters import NodeParameters, ServedParameters, teller
-from tftool.ros.rclpy.qos import QoSProfile, profile_of
+from tftool.ros.rclpy.qos import QoSProfile, declare_overrides, profile_of
 from tftool.ros.rclpy.qos_events import EndpointWatch
-from tftool.ros.rclpy.qos_overriding_options import declare_overrides
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.services import Client, Service
 from tftool.ros.rclpy.time import Clock, Duration, Rate, ROSClock

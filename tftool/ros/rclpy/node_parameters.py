@@ -8,7 +8,7 @@ from typing import Any
 from tftool.messages.classes import INTERFACES
 from tftool.messages.parameter_values import list_result, value_of
 from tftool.ros.host import names, values
-from tftool.ros.host.missing_names import undeclared
+from tftool.ros.host.error_text import undeclared
 from tftool.ros.rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
