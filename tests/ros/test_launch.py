@@ -6,7 +6,7 @@ from tests.ros.tutorial import TUTORIAL, Launched, launch
 from tftool.base.errors import InputError, NodeFailed, UsageError
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
-from tftool.ros.running import show_arguments
+from tftool.ros.launch.arguments import show_arguments
 
 HEAD = """
 import launch, launch.actions, launch.conditions, launch.event_handlers, launch.events

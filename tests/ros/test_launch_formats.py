@@ -10,7 +10,7 @@ from tests.ros.tutorial import TUTORIAL, launch
 from tftool.base.errors import InputError, NodeFailed, TftoolError
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
-from tftool.ros.running import show_arguments
+from tftool.ros.launch.arguments import show_arguments
 
 FILES = Path(__file__).parent / "launch_files"
 FORMATS = ["py", "xml", "yaml"]

@@ -11,7 +11,7 @@ from tests.ros.tutorial import TUTORIAL, launch
 from tftool.base.errors import TftoolError
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
-from tftool.ros.running import show_arguments
+from tftool.ros.launch.arguments import show_arguments
 
 FILES = Path(__file__).parent / "launch_files"
 # Without the command of the system: who knows what would be left of its name.

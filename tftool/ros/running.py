@@ -5,20 +5,14 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from tftool.base.errors import InputError, NodeFailed, UsageError
+from tftool.base.errors import NodeFailed, UsageError
 from tftool.base.stamps import Duration
-from tftool.ros.host import executables, importing, names, program, user_code
+from tftool.ros.host import executables, names, program, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import StuckError
-from tftool.ros.host.importing import ros_free
 from tftool.ros.host.installation import faults_about
 from tftool.ros.host.program import Program
-from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch import packages
-from tftool.ros.launch.arguments import declared, shown_arguments
-from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.engine import Launch
-from tftool.ros.launch.frontend import load_file
+from tftool.ros.host.workspace import Workspace, file_of, is_file
 from tftool.world.clock import Phase
 from tftool.world.world import World
 
@@ -30,13 +24,6 @@ TURTLE_PACKAGES = ("turtlesim", "turtlesim_msgs", *executables.TURTLE_TF_PACKAGE
 
 TURTLE_TOPICS = frozenset(("turtle1/cmd_vel", "turtle1/pose", "turtle1/color_sensor"))
 """Topics by which a program that imports nothing of turtlesim still means its first turtle."""
-
-FILES = (".py", ".xml", ".yaml", ".yml")
-
-
-def is_file(word: str) -> bool:
-    """Whether a word of the command line is a file, rather than a package."""
-    return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
 
 
 def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
@@ -51,24 +38,12 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
     if is_file(target):
         if ".launch." in Path(target).name:
             raise UsageError(f"'{target}' is a launch file: 'tftool launch {target}' runs it")
-        user_code.compile_file(_file(workspace, target))
+        user_code.compile_file(file_of(workspace, target))
     else:
         _need_executable(workspace, target, rest)
         executables.check(workspace, target, rest[0])
         words = rest[1:]
     names.parse(words)
-
-
-def _file(workspace: Workspace, word: str) -> Path:
-    """Return the file that a word names.
-
-    Raises:
-        InputError: If there is none, with the path of one of that name in a package.
-    """
-    path = Path(word)
-    if not path.exists() and (near := workspace.file_named(path)) is not None:
-        raise InputError(f"cannot read '{word}': No such file or directory; did you mean '{near}'?")
-    return path
 
 
 def _need_executable(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
@@ -111,7 +86,7 @@ def start_program(
     """
     package: str | None = None
     if is_file(target):
-        path = _file(workspace, target)
+        path = file_of(workspace, target)
         executable, called, words, argv = str(path), path.stem, rest, [target, *rest]
     else:
         _need_executable(workspace, target, rest)
@@ -174,58 +149,6 @@ def driven_turtle(words: Sequence[str]) -> str:
             f"'{topic}' is not a topic of a turtle: give --remap turtle1/cmd_vel:=turtle2/cmd_vel"
         )
     return turtle
-
-
-def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
-    """Return the launch file named by the first word or two; and the remaining words.
-
-    Raises:
-        UsageError: If there is none, with those of the package.
-        InputError: If a file is named that is not there, but in a package.
-    """
-    first, *rest = words
-    if is_file(first):
-        return _file(workspace, first), rest
-    folder = workspace.share(first)
-    if not rest or ":=" in rest[0]:
-        raise UsageError(f"which launch file of package '{first}'? {_listed(folder)}")
-    for below in ("launch", "."):
-        path = folder / below / rest[0]
-        if path.is_file():
-            # Where its author knows it, which is what its errors name.
-            return path.resolve(), rest[1:]
-    raise UsageError(f"package '{first}' has no launch file '{rest[0]}'. {_listed(folder)}")
-
-
-def _listed(folder: Path) -> str:
-    found = sorted(one.name for one in (folder / "launch").glob("*") if one.suffix in FILES)
-    return f"It has {', '.join(found)}." if found else "It has none in its folder 'launch'."
-
-
-def arguments_of(words: Sequence[str]) -> dict[str, str]:
-    """Return the `name:=value` words.
-
-    Raises:
-        UsageError: If one is something else.
-    """
-    given = {}
-    for word in words:
-        name, found, value = word.partition(":=")
-        if not found or not name:
-            raise UsageError(f"'{word}' is no launch argument: write name:=value")
-        given[name] = value
-    return given
-
-
-def show_arguments(path: Path, workspace: Workspace) -> str:
-    """Print the arguments of a launch file.
-
-    Raises:
-        InputError: If it cannot be read.
-    """
-    context = LaunchContext(workspace, load_file)
-    context.enter_file(path)
-    return shown_arguments(declared(load_file(path), context))
 
 
 class TurtlesOnDemand:
@@ -327,6 +250,3 @@ class ProgramFailed(NodeFailed):
     def __init__(self, name: str, error: BaseException) -> None:
         super().__init__(name, error)
         self.args = (f"'{name}' failed: {error_sentence(error)}",)
-
-
-__all__ = ["Launch", "Workspace", "importing", "packages", "ros_free"]

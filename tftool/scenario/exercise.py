@@ -15,6 +15,7 @@ from tftool.base.near_names import did_you_mean
 from tftool.ros import running
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch.arguments import arguments_of, find_launch_file
 from tftool.ros.launch.engine import Launch
 from tftool.scenario.play import Play, StandIn, Watch
 from tftool.scenario.scenario import Scenario, Verdict
@@ -122,6 +123,6 @@ class Exercise:
             if level == "ERROR":
                 failures.append(f"{who}: {text}")
 
-        path, rest = running.find_launch_file(self.workspace, self.launch)
-        arguments = running.arguments_of(rest)
+        path, rest = find_launch_file(self.workspace, self.launch)
+        arguments = arguments_of(rest)
         Launch(world, path, workspace=self.workspace, arguments=arguments, say=say)

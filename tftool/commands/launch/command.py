@@ -13,6 +13,7 @@ from tftool.commands.shared.programs import tell_log, workspace_here
 from tftool.ros import running
 from tftool.ros.host.importing import ros_free
 from tftool.ros.launch import packages
+from tftool.ros.launch.arguments import arguments_of, find_launch_file, show_arguments
 from tftool.ros.launch.engine import Launch
 
 
@@ -33,12 +34,12 @@ def run(
     workspace = workspace_here(verbose=verbose)
     with ros_free(force=force):
         packages.use(workspace)
-        path, rest = running.find_launch_file(workspace, words)
+        path, rest = find_launch_file(workspace, words)
         if unfound := running.tell_unfound(workspace, path):
             notice(visible(unfound))
-        arguments = running.arguments_of(rest)
+        arguments = arguments_of(rest)
         if show_args:
-            sys.stdout.write(visible_lines(running.show_arguments(path, workspace)) + "\n")
+            sys.stdout.write(visible_lines(show_arguments(path, workspace)) + "\n")
             return ExitStatus.DONE
         if connection.mode is Mode.JOIN and not simulated:
             session = open_session(connection, head_start=0)

@@ -17,9 +17,10 @@ from tftool.commands.shared.programs import workspace_here
 from tftool.ros import ros2 as ros2_command
 from tftool.ros import running
 from tftool.ros.host import user_code
+from tftool.ros.host.importing import ros_free
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch_testing.runner import run_tests
+from tftool.ros.launch import packages
 
 _ELSEWHERE = {
     "run": "run",
@@ -120,12 +121,16 @@ def _run_launch_tests(connection: Connection, words: list[str]) -> int:
     """
     if not words or ":=" in words[0] or words[0].startswith("-"):
         raise UsageError("'ros2 test' needs a file of launch tests, then name:=value arguments")
+    # Tests beside a launch load both; other commands do without.
+    from tftool.ros.launch.arguments import arguments_of
+    from tftool.ros.launch_testing.runner import run_tests
+
     path, arguments = Path(words[0]), words[1:]
     user_code.compile_file(path)
-    running.arguments_of(arguments)
+    arguments_of(arguments)
     workspace = workspace_here(verbose=False)
-    with running.ros_free():
-        running.packages.use(workspace)
+    with ros_free():
+        packages.use(workspace)
         session = open_empty_session(connection)
         world = session.world
         ending = running.Ending(world)

@@ -237,3 +237,23 @@ def _add_interfaces(package: Package) -> None:
     }
     if texts:
         INTERFACES.add(package.name, texts)
+
+
+FILES = (".py", ".xml", ".yaml", ".yml")
+
+
+def is_file(word: str) -> bool:
+    """Whether a word of the command line is a file, rather than a package."""
+    return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
+
+
+def file_of(workspace: Workspace, word: str) -> Path:
+    """Return the file that a word names.
+
+    Raises:
+        InputError: If there is none, with the path of one of that name in a package.
+    """
+    path = Path(word)
+    if not path.exists() and (near := workspace.file_named(path)) is not None:
+        raise InputError(f"cannot read '{word}': No such file or directory; did you mean '{near}'?")
+    return path

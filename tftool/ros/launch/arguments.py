@@ -1,4 +1,4 @@
-"""Arguments of launch files: declarations, checks, and their display."""
+"""Launch files and their arguments: what words name, declarations, checks, and their display."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -7,9 +7,11 @@ from typing import Any
 
 from tftool.base.errors import TftoolError, UsageError
 from tftool.base.near_names import near_names
+from tftool.ros.host.workspace import FILES, Workspace, file_of, is_file
 from tftool.ros.launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionEntity
+from tftool.ros.launch.frontend import load_file
 from tftool.ros.launch.substitutions import perform
 
 
@@ -91,3 +93,55 @@ def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
         if default is not None:
             lines.append(f"        (default: {default})")
     return "\n".join(lines)
+
+
+def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
+    """Return the launch file named by the first word or two; and the remaining words.
+
+    Raises:
+        UsageError: If there is none, with those of the package.
+        InputError: If a file is named that is not there, but in a package.
+    """
+    first, *rest = words
+    if is_file(first):
+        return file_of(workspace, first), rest
+    folder = workspace.share(first)
+    if not rest or ":=" in rest[0]:
+        raise UsageError(f"which launch file of package '{first}'? {_listed(folder)}")
+    for below in ("launch", "."):
+        path = folder / below / rest[0]
+        if path.is_file():
+            # Where its author knows it, which is what its errors name.
+            return path.resolve(), rest[1:]
+    raise UsageError(f"package '{first}' has no launch file '{rest[0]}'. {_listed(folder)}")
+
+
+def _listed(folder: Path) -> str:
+    found = sorted(one.name for one in (folder / "launch").glob("*") if one.suffix in FILES)
+    return f"It has {', '.join(found)}." if found else "It has none in its folder 'launch'."
+
+
+def arguments_of(words: Sequence[str]) -> dict[str, str]:
+    """Return the `name:=value` words.
+
+    Raises:
+        UsageError: If one is something else.
+    """
+    given = {}
+    for word in words:
+        name, found, value = word.partition(":=")
+        if not found or not name:
+            raise UsageError(f"'{word}' is no launch argument: write name:=value")
+        given[name] = value
+    return given
+
+
+def show_arguments(path: Path, workspace: Workspace) -> str:
+    """Print the arguments of a launch file.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
+    context = LaunchContext(workspace, load_file)
+    context.enter_file(path)
+    return shown_arguments(declared(load_file(path), context))
