@@ -7,6 +7,7 @@ import tempfile
 import weakref
 from collections.abc import Iterator, Mapping
 from itertools import chain
+from operator import attrgetter
 from pathlib import Path, PurePosixPath
 
 from tftool.base.errors import InputError, UsageError
@@ -83,7 +84,7 @@ class Workspace:
         self.skipped: list[str] = []
         self._shares: dict[str, ShareFolder] = {}
         for root in self._roots():
-            for folder in _folders(root, _DEPTH):
+            for folder in (Path(one) for one, is_marked in _folders(root, _DEPTH) if is_marked):
                 try:
                     package = read_package(folder)
                 except (InputError, OSError) as error:
@@ -136,7 +137,7 @@ class Workspace:
     def folder_without_mark(self, name: str) -> Path | None:
         """Return a folder of that name with Python files that only lacks a package.xml."""
         for root in self._roots():
-            for folder in _folders(root, _DEPTH):
+            for folder in (Path(one) for one, _ in _folders(root, _DEPTH)):
                 if folder.name == name and any(
                     chain(folder.glob("*.py"), folder.glob(f"{name}/*.py"))
                 ):
@@ -207,22 +208,33 @@ def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ())
     return f"there is no package '{name}' {where}; {hint}{skipped}"
 
 
-def _folders(root: Path, depth: int) -> Iterator[Path]:
-    yield root
-    if depth == 0:
-        return
-    try:
-        below = sorted(one for one in root.iterdir() if one.is_dir())
-    except OSError:
-        return
-    for folder in below:
-        if folder.name in _SKIPPED or folder.name.startswith("."):
-            continue
-        if not folder.is_symlink():
-            yield from _folders(folder, depth - 1)
-        elif any((folder / mark).is_file() for mark in MARKS):
+def _folders(root: Path, depth: int) -> Iterator[tuple[str, bool]]:
+    """Yield a folder and those below it, each with whether it has the mark of a package.
+
+    A home folder has many thousands: what the listing of the parent tells is not asked again.
+    """
+    waiting = [(str(root), depth)]
+    while waiting:
+        folder, depth = waiting.pop()
+        try:
+            with os.scandir(folder) as found:
+                entries = sorted(found, key=attrgetter("name"), reverse=True)
+        except OSError:
+            entries = []
+        names = {one.name for one in entries}
+        yield folder, not names.isdisjoint(MARKS) and "COLCON_IGNORE" not in names
+        for one in entries if depth else ():
+            if one.name in _SKIPPED or one.name.startswith(".") or not _is_folder(one):
+                continue
             # A package linked into a workspace; where other links lead is not looked at.
-            yield folder
+            waiting.append((one.path, 0 if one.is_symlink() else depth - 1))
+
+
+def _is_folder(entry: "os.DirEntry[str]") -> bool:
+    try:
+        return entry.is_dir()
+    except OSError:  # a link to itself, say
+        return False
 
 
 def _add_interfaces(package: Package) -> None:
