@@ -88,27 +88,21 @@ def service_fixture(scope: Any) -> Any:
     return launch_service
 
 
-def context_fixture(scope: Any) -> Any:
-    """Return the fixture `launch_context` for a scope."""
+def _part_of_service(name: str, part: str) -> Callable[[Any], Any]:
+    """Return a maker of the fixture that gives one attribute of the launch service."""
 
-    @pytest.fixture(scope=scope, name="launch_context")
-    def launch_context(launch_service: LaunchedService) -> Any:
-        """Return the context of the launch."""
-        return launch_service.context
+    def make(scope: Any) -> Any:
+        @pytest.fixture(scope=scope, name=name)
+        def given(launch_service: LaunchedService) -> Any:
+            return getattr(launch_service, part)
 
-    return launch_context
+        return given
+
+    return make
 
 
-def loop_fixture(scope: Any) -> Any:
-    """Return the fixture `event_loop` for a scope."""
-
-    @pytest.fixture(scope=scope, name="event_loop")
-    def event_loop(launch_service: LaunchedService) -> Any:
-        """Return the loop in which the tests' coroutines run."""
-        return launch_service.event_loop
-
-    return event_loop
-
+context_fixture = _part_of_service("launch_context", "context")
+loop_fixture = _part_of_service("event_loop", "event_loop")
 
 SHARED = {
     "launch_service": service_fixture,

@@ -101,17 +101,17 @@ class ActionClient(Requester):
         self.full = seat.full(action_name)
         seat.keep(lambda: self)
 
+    def is_served(self) -> bool:
+        """Whether a server is available (in the loop's thread)."""
+        return self.full in self.seat.world.actions()
+
     def server_is_ready(self) -> bool:
         """Whether a server of the action is available."""
-        world = self.seat.world
-        ready = bool(self.seat.program.ask(lambda: self.full in world.actions()))
-        if not ready:
-            self.seat.program.looked_in_vain()
-        return ready
+        return self.look_for_server()
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is available; return whether one is."""
-        return self.seat.wait_until(lambda: self.full in self.seat.world.actions(), timeout_sec)
+        return self.seat.wait_until(self.is_served, timeout_sec)
 
     def send_goal_async(
         self,
@@ -139,7 +139,7 @@ class ActionClient(Requester):
 
         async def send() -> None:
             world = self.seat.world
-            if self.full not in world.actions():
+            if not self.is_served():
                 return
             try:
                 handle = world.send_goal(self.full, copy, on_feedback, goal_id=bytes(goal_id.uuid))

@@ -9,7 +9,13 @@ from tftool.ros.host import names, program
 from tftool.ros.rclpy import logging
 from tftool.ros.rclpy.context import Context, context_of
 from tftool.ros.rclpy.exceptions import NoTypeSupportImportedException
-from tftool.ros.rclpy.executors import Executor, SingleThreadedExecutor, executor_of, wait_for
+from tftool.ros.rclpy.executors import (
+    Executor,
+    SingleThreadedExecutor,
+    executor_of,
+    serving,
+    wait_for,
+)
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.node_parameters import unused_parameters
@@ -101,13 +107,9 @@ def get_default_context() -> Context:
 def spin(node: Node, executor: Executor | None = None) -> None:
     """Execute a node's callbacks until shutdown."""
     chosen = executor or get_global_executor()
-    added = chosen.add_node(node)
-    warn_of_unused(node)
-    try:
+    with serving(chosen, node):
+        warn_of_unused(node)
         chosen.spin()
-    finally:
-        if added:
-            chosen.remove_node(node)
 
 
 def spin_once(
@@ -115,12 +117,8 @@ def spin_once(
 ) -> None:
     """Wait for one callback of a node, and execute it."""
     chosen = executor or get_global_executor()
-    added = chosen.add_node(node)
-    try:
+    with serving(chosen, node):
         chosen.spin_once(timeout_sec)
-    finally:
-        if added:
-            chosen.remove_node(node)
 
 
 def spin_until_future_complete(
@@ -134,12 +132,8 @@ def spin_until_future_complete(
     Unlike in ROS 2 this may be called inside a callback.
     """
     chosen = executor or node.executor or get_global_executor()
-    added = chosen.add_node(node)
-    try:
+    with serving(chosen, node):
         chosen.spin_until_future_complete(future, timeout_sec)
-    finally:
-        if added:
-            chosen.remove_node(node)
 
 
 def warn_of_unused(node: Node) -> None:

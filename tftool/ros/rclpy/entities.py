@@ -113,6 +113,17 @@ class Requester(WorkQueue):
         super().__init__(seat, group)
         self._asking: set[asyncio.Task[None]] = set()
 
+    def is_served(self) -> bool:
+        """Whether a server is available (in the loop's thread)."""
+        raise NotImplementedError
+
+    def look_for_server(self) -> bool:
+        """Return whether a server is available now."""
+        ready = bool(self.seat.program.ask(self.is_served))
+        if not ready:
+            self.seat.program.looked_in_vain()
+        return ready
+
     def ask(self, question: Coroutine[Any, Any, None]) -> None:
         """Send a request in the loop's thread; it is cancelled with this entity."""
 

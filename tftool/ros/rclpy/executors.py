@@ -9,6 +9,7 @@ import asyncio
 import inspect
 from collections import deque
 from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import Any
 
@@ -76,18 +77,7 @@ class Executor:
 
     def add_node(self, node: Any) -> bool:
         """Add a node; return False if it was added before."""
-        return self.serve(seat_of(node))
-
-    def remove_node(self, node: Any) -> None:
-        """Remove a node."""
-        self.leave(seat_of(node))
-
-    def get_nodes(self) -> list[Any]:
-        """Return its nodes."""
-        return [seat.ros_node for seat in self._seats]
-
-    def serve(self, seat: NodeSeat) -> bool:
-        """Add a node's entities; return False if they were added before."""
+        seat = seat_of(node)
         if seat in self._seats:
             return False
 
@@ -100,8 +90,9 @@ class Executor:
         self._program.ask(add)
         return True
 
-    def leave(self, seat: NodeSeat) -> None:
-        """Remove a node's entities."""
+    def remove_node(self, node: Any) -> None:
+        """Remove a node."""
+        seat = seat_of(node)
 
         def remove() -> None:
             if seat in self._seats:
@@ -113,6 +104,10 @@ class Executor:
 
         self._program.ask(remove)
 
+    def get_nodes(self) -> list[Any]:
+        """Return its nodes."""
+        return [seat.ros_node for seat in self._seats]
+
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Remove all nodes."""
         if not self._over:
@@ -120,7 +115,7 @@ class Executor:
             self._leave_context()
             self._wake_from_anywhere()
         for seat in list(self._seats):
-            self.leave(seat)
+            self.remove_node(seat.ros_node)
         return True
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
@@ -433,17 +428,24 @@ def executor_of(owner: "program.Program") -> Executor:
     return executor
 
 
+@contextmanager
+def serving(executor: Any, node: Any) -> Iterator[None]:
+    """Let an executor serve a node inside this block, and after it if it did before."""
+    added = executor.add_node(node)
+    try:
+        yield
+    finally:
+        if added:
+            executor.remove_node(node)
+
+
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
     """Block until a future is done, executing the node's callbacks if no executor does."""
     executor = seat.executor or executor_of(seat.program)
     if seat.executor is None and executor.context is not seat.context:
-        with SingleThreadedExecutor(context=seat.context) as temporary:
-            temporary.serve(seat)
-            temporary.spin_until_future_complete(future, timeout_sec)
+        with SingleThreadedExecutor(context=seat.context) as executor:
+            executor.add_node(seat.ros_node)
+            executor.spin_until_future_complete(future, timeout_sec)
         return
-    added = executor.serve(seat)
-    try:
+    with serving(executor, seat.ros_node):
         executor.spin_until_future_complete(future, timeout_sec)
-    finally:
-        if added:
-            executor.leave(seat)

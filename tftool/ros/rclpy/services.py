@@ -51,16 +51,17 @@ class Client(_Introspected, Requester):
         """The service's full name."""
         return f"/{self.full}"
 
+    def is_served(self) -> bool:
+        """Whether a server is available (in the loop's thread)."""
+        return self.seat.world.has_service(self.full)
+
     def service_is_ready(self) -> bool:
         """Whether a server is available."""
-        ready = bool(self.seat.program.ask(lambda: self.seat.world.has_service(self.full)))
-        if not ready:
-            self.seat.program.looked_in_vain()
-        return ready
+        return self.look_for_server()
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is available; return whether one is."""
-        return self.seat.wait_until(lambda: self.seat.world.has_service(self.full), timeout_sec)
+        return self.seat.wait_until(self.is_served, timeout_sec)
 
     def call_async(self, request: Any) -> Future:
         """Send a request; the response arrives while an executor spins.
@@ -98,7 +99,7 @@ class Client(_Introspected, Requester):
     async def _call(self, request: Any, future: Future) -> None:
         world = self.seat.world
         # As in ROS 2, a request that no server takes yet is not kept: it stays unanswered.
-        if not world.has_service(self.full):
+        if not self.is_served():
             return
         try:
             answer = await world.call(self.full, duplicate(request))
