@@ -273,3 +273,13 @@ def test_a_launch_file_that_is_run_as_a_node_names_the_command_for_it(tmp_path):
 
     with pytest.raises(UsageError, match=r"x\.launch\.py' is a launch file: 'tftool launch x"):
         check_program(Workspace(tmp_path), "x.launch.py", [])
+
+
+def test_every_tag_of_the_table_belongs_to_an_action_or_a_substitution():
+    from tftool.ros.host.import_table import tagged
+    from tftool.ros.launch.description import Action
+    from tftool.ros.launch.substitutions import Substitution
+
+    assert {"node", "set_env", "$var", "$find-pkg-share"} <= tagged().keys()
+    for tag, name in tagged().items():
+        assert issubclass(name.load(), Substitution if tag.startswith("$") else Action), tag

@@ -1,17 +1,23 @@
 """Table of ROS 2's modules and names provided here, and where they are implemented.
 
 An entry is "their modules: our module: the names", a name alone or `theirs=ours`; "*" stands for
-every public name that our module defines. A module of ours with a slash is a package of interfaces;
-one with a dot in front is a module of tftool outside of `tftool.ros`. The classes of some modules
-are found in modules of their own below them as well, as in ROS 2: `launch.actions.execute_process`.
-Packages of interfaces (geometry_msgs and so on) need no entry: they follow from their definitions.
+every public name that our module defines. Angle brackets hold the tags of an action in XML and YAML
+launch files, or of a substitution, `$(tag …)`. A module of ours with a slash is a package of
+interfaces; one with a dot in front is a module of tftool outside of `tftool.ros`. The classes of
+some modules are found in modules of their own below them as well, as in ROS 2:
+`launch.actions.execute_process`. Packages of interfaces (geometry_msgs and so on) need no entry:
+they follow from their definitions.
 """
 
+import importlib
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import product
+from typing import Any
+
+from tftool.messages.classes import INTERFACES
 
 _TABLE = """
 rclpy: rclpy.core: init spin spin_once spin_until_future_complete create_node get_global_executor
@@ -141,13 +147,15 @@ launch launch.substitution: launch.substitutions: Substitution
 launch launch.some_substitutions_type: launch.substitutions: SomeSubstitutionsType
 launch launch.launch_description_entity launch.launch_description: launch.description:
     LaunchDescriptionEntity
-launch.actions launch.launch_description: launch.actions: DeclareLaunchArgument
-launch.actions: launch.actions: SetLaunchConfiguration UnsetLaunchConfiguration
-    ResetLaunchConfigurations SetEnvironmentVariable AppendEnvironmentVariable PushEnvironment
-    PopEnvironment ResetEnvironment UnsetEnvironmentVariable PushLaunchConfigurations=Push
-    PopLaunchConfigurations=Pop OpaqueFunction GroupAction IncludeLaunchDescription TimerAction
-    LogInfo RegisterEventHandler UnregisterEventHandler EmitEvent Shutdown
-launch.actions: launch.processes: ExecuteProcess ExecuteLocal=ExecuteProcess
+launch.actions launch.launch_description: launch.actions: DeclareLaunchArgument<arg>
+launch.actions: launch.actions: SetLaunchConfiguration<let> UnsetLaunchConfiguration
+    ResetLaunchConfigurations<reset> SetEnvironmentVariable<set_env>
+    AppendEnvironmentVariable<append_env> PushEnvironment<push_env> PopEnvironment<pop_env>
+    ResetEnvironment<reset_env> UnsetEnvironmentVariable<unset_env> PushLaunchConfigurations=Push
+    PopLaunchConfigurations=Pop OpaqueFunction GroupAction<group> IncludeLaunchDescription<include>
+    TimerAction<timer> LogInfo<log> RegisterEventHandler UnregisterEventHandler EmitEvent
+    Shutdown<shutdown>
+launch.actions: launch.processes: ExecuteProcess<executable> ExecuteLocal=ExecuteProcess
 launch.conditions: launch.conditions: IfCondition UnlessCondition LaunchConfigurationEquals
     LaunchConfigurationNotEquals InvalidConditionExpressionError evaluate_condition_expression
 launch.event_handlers: launch.events: OnProcessExit OnProcessStart OnShutdown OnExecutionComplete
@@ -161,11 +169,14 @@ launch.frontend launch.frontend.expose: launch.exposing: expose_action expose_su
 launch.frontend.parse_substitution: launch.exposing: parse_substitution parse_if_substitutions
 launch.launch_description_sources: launch.description: PythonLaunchDescriptionSource
     AnyLaunchDescriptionSource FrontendLaunchDescriptionSource
-launch.substitutions: launch.substitutions: TextSubstitution LaunchConfiguration EnvironmentVariable
-    PathJoinSubstitution StringJoinSubstitution PythonExpression ThisLaunchFile ThisLaunchFileDir
-    AnonName FindExecutable Command SubstitutionFailure LocalSubstitution FileContent LaunchLogDir
-launch.substitutions: launch.logic: EqualsSubstitution NotEqualsSubstitution AndSubstitution
-    OrSubstitution NotSubstitution AnySubstitution AllSubstitution IfElseSubstitution
+launch.substitutions: launch.substitutions: TextSubstitution LaunchConfiguration<$var>
+    EnvironmentVariable<$env> PathJoinSubstitution StringJoinSubstitution PythonExpression<$eval>
+    ThisLaunchFile<$filename> ThisLaunchFileDir<$dirname> AnonName<$anon> FindExecutable<$find-exec>
+    Command<$command> SubstitutionFailure LocalSubstitution FileContent<$file-content>
+    LaunchLogDir<$log_dir,$launch_log_dir>
+launch.substitutions: launch.logic: EqualsSubstitution<$equals> NotEqualsSubstitution<$not-equals>
+    AndSubstitution<$and> OrSubstitution<$or> NotSubstitution<$not> AnySubstitution<$any>
+    AllSubstitution<$all> IfElseSubstitution<$if>
 launch.utilities: launch.utilities: perform_substitutions normalize_to_list_of_substitutions
     normalize_to_list_of_entities
 launch.utilities launch.utilities.ensure_argument_type_impl: launch.utilities: ensure_argument_type
@@ -173,23 +184,25 @@ launch.utilities launch.utilities.class_tools_impl: launch.utilities: is_a is_a_
     isclassinstance
 launch_xml.launch_description_sources: launch.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptionSource
-launch_ros.actions: launch.nodes: Node
-launch_ros.actions: launch.scope: PushRosNamespace PushROSNamespace=PushRosNamespace SetRemap
-    SetParameter SetUseSimTime SetParametersFromFile
-launch_ros.actions: launch.actions: SetROSLogDir=SetLogFolder RosTimer=TimerAction
-    ROSTimer=TimerAction
-launch_ros.actions: launch.components: ComposableNodeContainer LoadComposableNodes
+launch_ros.actions: launch.nodes: Node<node>
+launch_ros.actions: launch.scope: PushRosNamespace<push_ros_namespace>
+    PushROSNamespace=PushRosNamespace SetRemap<set_remap> SetParameter<set_parameter>
+    SetUseSimTime<set_use_sim_time> SetParametersFromFile<set_parameters_from_file>
+launch_ros.actions: launch.actions: SetROSLogDir=SetLogFolder<set_ros_log_dir>
+    RosTimer=TimerAction<ros_timer> ROSTimer=TimerAction
+launch_ros.actions: launch.components: ComposableNodeContainer<node_container>
+    LoadComposableNodes<load_composable_node>
 launch_ros.actions.load_composable_nodes: launch.components: get_composable_node_load_request
 launch_ros.descriptions launch_ros.descriptions.composable_node: launch.components: ComposableNode
-launch_ros.actions: launch.lifecycle: LifecycleNode LifecycleTransition
+launch_ros.actions: launch.lifecycle: LifecycleNode<lifecycle_node> LifecycleTransition
 launch_ros.events launch_ros.events.matchers: launch.lifecycle: matches_node_name
 launch_ros.events.lifecycle: launch.lifecycle: ChangeState StateTransition
 launch_ros.event_handlers: launch.lifecycle: OnStateTransition
-launch_ros.substitutions: launch.substitutions: ExecutableInPackage FindPackage
+launch_ros.substitutions: launch.substitutions: ExecutableInPackage<$exec-in-pkg> FindPackage
 launch_ros.substitutions launch_ros.substitutions.find_package: launch.substitutions:
-    FindPackageShare FindPackagePrefix
+    FindPackageShare<$find-pkg-share> FindPackagePrefix<$find-pkg-prefix>
 launch_ros.substitutions launch_ros.substitutions.parameter: launch.scope:
-    Parameter=ParameterSubstitution
+    Parameter=ParameterSubstitution<$param>
 launch_ros.parameter_descriptions launch_ros.descriptions: launch.parameters: ParameterValue
     ParameterFile Parameter=ParameterDescription
 launch_ros.utilities: launch.scope: is_namespace_absolute is_root_namespace make_namespace_absolute
@@ -275,10 +288,22 @@ class ImportedName:
     Attributes:
         module: Our module, below `tftool.ros`; or "package/kind" of an interface.
         name: Its name there; "*" means every public name that it defines.
+        tags: Tags in XML and YAML launch files; those of substitutions begin with "$".
     """
 
     module: str
     name: str
+    tags: Sequence[str] = ()
+
+    def load(self) -> Any:
+        """Return the object itself."""
+        package, _, kind = self.module.partition("/")
+        if kind:
+            return INTERFACES.find(package, kind, self.name)
+        return getattr(importlib.import_module(f".{package}", "tftool.ros"), self.name)
+
+
+_ENTRY = re.compile(r"(?P<shown>\w+|\*)(?:=(?P<real>\w+))?(?:<(?P<tags>[^>]*)>)?")
 
 
 @cache
@@ -288,8 +313,9 @@ def table() -> Mapping[str, Mapping[str, ImportedName]]:
     for entry in re.split(r"\n(?! )", _TABLE.strip()):
         modules, ours, names = (part.split() for part in entry.split(":"))
         for theirs, name in product(modules, names):
-            shown, _, real = name.partition("=")
-            found.setdefault(theirs, {})[shown] = ImportedName(ours[0], real or shown)
+            shown, real, tags = _ENTRY.fullmatch(name).groups()  # type: ignore[union-attr]
+            made = ImportedName(ours[0], real or shown, tags.split(",") if tags else ())
+            found.setdefault(theirs, {})[shown] = made
     for module in _WITH_MODULES_OF_CLASSES:
         for name, imported in list(found[module].items()):
             if name[0].isupper():
@@ -300,3 +326,10 @@ def table() -> Mapping[str, Mapping[str, ImportedName]]:
             found.setdefault(parent, {})
             parent = parent.rpartition(".")[0]
     return found
+
+
+@cache
+def tagged() -> Mapping[str, ImportedName]:
+    """Return the names that XML and YAML launch files know, by tag: "node", or "$var"."""
+    names = (one for names in table().values() for one in names.values())
+    return {tag: one for one in names for tag in one.tags}

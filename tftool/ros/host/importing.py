@@ -86,13 +86,11 @@ class _StandInLoader(Loader):
                 setattr(module, name, INTERFACES.find(package, below.partition(".")[0], name))
             return
         for shown, imported in import_table.table()[module.__name__].items():
-            of, _, sort = imported.module.partition("/")
-            if sort:
-                setattr(module, shown, INTERFACES.find(of, sort, imported.name))
-                continue
-            ours = importlib.import_module(f".{of}", "tftool.ros")
-            given = _defined(ours) if shown == "*" else {shown: getattr(ours, imported.name)}
-            vars(module).update(given)
+            if shown == "*":
+                ours = importlib.import_module(f".{imported.module}", "tftool.ros")
+                vars(module).update(_defined(ours))
+            else:
+                setattr(module, shown, imported.load())
         if module.__name__ in import_table.WHOLE_PACKAGES:
             # Nodes write rclpy.time.Time() after no more than `import rclpy`.
             for below in import_table.table():

@@ -172,7 +172,7 @@ def expose_substitution(name: str) -> Callable[[T], T]:
             kind, settings = read(list(words))
             return kind(**settings)
 
-        parsing.SUBSTITUTIONS[name] = make
+        parsing.EXPOSED[name] = make
         return exposed
 
     return expose

@@ -1,5 +1,6 @@
 """Loading of launch files: Python, XML or YAML to a description."""
 
+import inspect
 import shlex
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
@@ -11,6 +12,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.near_names import near_names
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
+from tftool.ros.host.import_table import tagged
 from tftool.ros.launch import (
     actions,
     components,
@@ -39,12 +41,15 @@ def actions_of(elements: Iterable[Element]) -> list[Any]:
 
 def _action(element: Element) -> Any:
     tag = element.tag.replace("-", "_")
-    make = _MEANINGS.get(tag)
+    make = _READERS.get(tag)
     if (exposed := exposing.ACTIONS.get(tag)) is not None:
         make = partial(_exposed, exposed)
+    elif make is None and tag in tagged():
+        make = partial(_plain, tagged()[tag].load())
     if make is None:
         what = f"there is no '{element.tag}' in a launch file"
-        raise element.refusal(what, element.tag, _MEANINGS)
+        known = [one for one in tagged() if not one.startswith("$")]
+        raise element.refusal(what, element.tag, known)
     condition = _condition(element)
     made = make(element)
     element.finish()
@@ -307,36 +312,34 @@ def _append_env(element: Element) -> Any:
     )
 
 
-_MEANINGS: dict[str, Callable[[Element], Any]] = {
+_READERS: dict[str, Callable[[Element], Any]] = {
     "arg": _arg,
-    "let": lambda e: actions.SetLaunchConfiguration(_text(e, "name"), _text(e, "value")),
     "node": _node,
     "lifecycle_node": _lifecycle_node,
     "node_container": _node_container,
     "load_composable_node": _load_composable_node,
     "include": _include,
     "group": _group,
-    "push_ros_namespace": lambda e: scope.PushRosNamespace(_text(e, "namespace")),
-    "set_env": lambda e: actions.SetEnvironmentVariable(_text(e, "name"), _text(e, "value")),
-    "set_ros_log_dir": lambda e: actions.SetLogFolder(_text(e, "new_log_dir")),
-    "unset_env": lambda e: actions.UnsetEnvironmentVariable(_text(e, "name")),
     "append_env": _append_env,
-    "set_parameter": lambda e: scope.SetParameter(_text(e, "name"), _text(e, "value")),
-    "set_parameters_from_file": lambda e: scope.SetParametersFromFile(
-        _text(e, "filename"), _optional(e, "node_name")
-    ),
-    "set_use_sim_time": lambda e: scope.SetUseSimTime(_text(e, "value")),
     "set_remap": lambda e: scope.SetRemap(_text(e, "from"), _text(e, "to")),
     "executable": _executable,
     "reset": _reset,
-    "push_env": lambda e: actions.PushEnvironment(),
-    "pop_env": lambda e: actions.PopEnvironment(),
-    "reset_env": lambda e: actions.ResetEnvironment(),
     "timer": _timer,
     "ros_timer": _timer,
     "log": lambda e: actions.LogInfo(msg=_text(e, "message")),
-    "shutdown": lambda e: actions.Shutdown(reason=_optional(e, "reason", "reason not given")),
 }
+"""Readers of the elements that are more than the arguments of their class."""
+
+
+def _plain(kind: Any, element: Element) -> Any:
+    """Return an action whose arguments are the attributes of its element."""
+    given: dict[str, Any] = {}
+    for one in inspect.signature(kind).parameters.values():
+        if one.kind is not one.VAR_KEYWORD and one.name != "condition":
+            needed = one.default is one.empty
+            value = _text(element, one.name) if needed else _optional(element, one.name)
+            given |= {} if value is None else {one.name: value}
+    return kind(**given)
 
 
 MAKES = "generate_launch_description"

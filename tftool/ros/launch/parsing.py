@@ -1,13 +1,15 @@
 """Parser of texts in XML and YAML launch files: `$(var name)`, `$(find-pkg-share pkg)`, nested."""
 
+import inspect
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 from tftool.base.errors import InputError
 from tftool.base.near_names import near_names
-from tftool.ros.launch import logic, substitutions
+from tftool.ros.host.import_table import tagged
 from tftool.ros.launch.elements import DEEPEST
-from tftool.ros.launch.substitutions import TextSubstitution
+from tftool.ros.launch.substitutions import PythonExpression, TextSubstitution
 
 
 def parsed(text: Any, where: str) -> list[Any]:
@@ -86,9 +88,12 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     if not words or not words[0] or not isinstance(words[0][0], TextSubstitution):
         raise InputError(f"{where}: '$()' in '{text}' names nothing")
     name = words[0][0].text
-    make = SUBSTITUTIONS.get(name)
+    make, imported = EXPOSED.get(name), tagged().get(f"${name}")
+    if make is None and imported is not None:
+        make = partial(_made, imported.load())
     if make is None:
-        near = near_names(name, SUBSTITUTIONS)
+        known = (tag.removeprefix("$") for tag in tagged() if tag.startswith("$"))
+        near = near_names(name, [*known, *EXPOSED])
         hint = f"; did you mean '$({near[0]} …)'?" if near else ""
         raise InputError(f"{where}: '$({name} …)' is not known{hint}")
     try:
@@ -97,43 +102,20 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
         raise InputError(f"{where}: '$({name} …)' has the wrong number of words") from None
 
 
-SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
-    "var": lambda name, default=None: substitutions.LaunchConfiguration(name, default=default),
-    "env": lambda name, default=None: substitutions.EnvironmentVariable(
-        name, default_value=default
-    ),
-    "find-pkg-share": substitutions.FindPackageShare,
-    "find-pkg-prefix": substitutions.FindPackageShare,
-    "dirname": substitutions.ThisLaunchFileDir,
-    "filename": substitutions.ThisLaunchFile,
-    "log_dir": substitutions.LaunchLogDir,
-    "launch_log_dir": substitutions.LaunchLogDir,
-    "eval": lambda *words: _expression(words),
-    "command": lambda command, on_stderr="fail": substitutions.Command(
-        command, on_stderr=on_stderr
-    ),
-    "file-content": substitutions.FileContent,
-    "exec-in-pkg": substitutions.ExecutableInPackage,
-    "anon": substitutions.AnonName,
-    "not": logic.NotSubstitution,
-    "and": logic.AndSubstitution,
-    "or": logic.OrSubstitution,
-    "equals": logic.EqualsSubstitution,
-    "not-equals": logic.NotEqualsSubstitution,
-    "any": lambda *words: logic.AnySubstitution(*words),
-    "all": lambda *words: logic.AllSubstitution(*words),
-    "if": logic.IfElseSubstitution,
-    "find-exec": lambda name: substitutions.FindExecutable(name=name),
-}
+def _made(kind: Any, *words: list[Any]) -> Any:
+    """Make a substitution of a class; words are its arguments in order, by name where necessary."""
+    pairs = zip(inspect.signature(kind).parameters.values(), words, strict=False)
+    named = {one.name: word for one, word in pairs if one.kind is one.KEYWORD_ONLY}
+    return kind(*words[: len(words) - len(named)], **named)
 
 
-def _expression(words: tuple[list[Any], ...]) -> substitutions.PythonExpression:
+def _expression(*words: list[Any]) -> PythonExpression:
     """Return `$(eval …)`: an expression; of two in quotes, the second lists modules."""
     if len(words) == 2 and all(isinstance(word, _Quoted) for word in words):
         plain = "".join(part.text for part in words[1] if isinstance(part, TextSubstitution))
         modules = [name.strip() for name in plain.split(",") if name.strip()]
-        return substitutions.PythonExpression(words[0], modules)
-    return substitutions.PythonExpression(_spaced(words))
+        return PythonExpression(words[0], modules)
+    return PythonExpression(_spaced(words))
 
 
 def _spaced(words: Iterable[list[Any]]) -> list[Any]:
@@ -141,3 +123,7 @@ def _spaced(words: Iterable[list[Any]]) -> list[Any]:
     for word in words:
         joined += [TextSubstitution(text=" "), *word] if joined else word
     return joined
+
+
+EXPOSED: dict[str, Callable[..., Any]] = {"eval": _expression}
+"""Makers of substitutions that are more than an object of their class, and of users' own."""

@@ -8,7 +8,6 @@ from typing import Any
 
 from tftool.base.errors import UsageError
 from tftool.ros.host import names
-from tftool.ros.launch import parsing
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import Action
 from tftool.ros.launch.parameters import ParameterFile, normalize_parameters, read_all
@@ -222,8 +221,3 @@ class ParameterSubstitution(Substitution):
         if self.default is None:
             raise SubstitutionFailure(f"no SetParameter of this scope sets a parameter '{name}'")
         return perform(context, self.default)
-
-
-parsing.SUBSTITUTIONS["param"] = lambda name, default=None: ParameterSubstitution(
-    name, default=default
-)
