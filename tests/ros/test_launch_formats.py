@@ -277,9 +277,10 @@ def test_a_launch_file_that_is_run_as_a_node_names_the_command_for_it(tmp_path):
 
 def test_every_tag_of_the_table_belongs_to_an_action_or_a_substitution():
     from tftool.ros.host.import_table import tagged
+    from tftool.ros.host.importing import load
     from tftool.ros.launch.description import Action
     from tftool.ros.launch.substitutions import Substitution
 
     assert {"node", "set_env", "$var", "$find-pkg-share"} <= tagged().keys()
     for tag, name in tagged().items():
-        assert issubclass(name.load(), Substitution if tag.startswith("$") else Action), tag
+        assert issubclass(load(name), Substitution if tag.startswith("$") else Action), tag

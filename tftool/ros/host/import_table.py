@@ -9,15 +9,11 @@ some modules are found in modules of their own below them as well, as in ROS 2:
 they follow from their definitions.
 """
 
-import importlib
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import product
-from typing import Any
-
-from tftool.messages.classes import INTERFACES
 
 _TABLE = """
 rclpy: rclpy.core: init spin spin_once spin_until_future_complete create_node get_global_executor
@@ -294,13 +290,6 @@ class ImportedName:
     module: str
     name: str
     tags: Sequence[str] = ()
-
-    def load(self) -> Any:
-        """Return the object itself."""
-        package, _, kind = self.module.partition("/")
-        if kind:
-            return INTERFACES.find(package, kind, self.name)
-        return getattr(importlib.import_module(f".{package}", "tftool.ros"), self.name)
 
 
 _ENTRY = re.compile(r"(?P<shown>\w+|\*)(?:=(?P<real>\w+))?(?:<(?P<tags>[^>]*)>)?")

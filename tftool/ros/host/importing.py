@@ -90,12 +90,20 @@ class _StandInLoader(Loader):
                 ours = importlib.import_module(f".{imported.module}", "tftool.ros")
                 vars(module).update(_defined(ours))
             else:
-                setattr(module, shown, imported.load())
+                setattr(module, shown, load(imported))
         if module.__name__ in import_table.WHOLE_PACKAGES:
             # Nodes write rclpy.time.Time() after no more than `import rclpy`.
             for below in import_table.table():
                 if below.rpartition(".")[0] == module.__name__:
                     importlib.import_module(below)
+
+
+def load(imported: import_table.ImportedName) -> Any:
+    """Return what an entry of the table names."""
+    package, _, kind = imported.module.partition("/")
+    if kind:
+        return INTERFACES.find(package, kind, imported.name)
+    return getattr(importlib.import_module(f".{package}", "tftool.ros"), imported.name)
 
 
 def _defined(ours: ModuleType) -> dict[str, Any]:

@@ -190,6 +190,21 @@ class Workspace:
         return self._shares[name].path
 
 
+_current: list[Workspace] = []
+
+
+def use(searched: Workspace) -> None:
+    """Search this workspace from now on."""
+    _current[:] = [searched]
+
+
+def current() -> Workspace:
+    """Return the workspace that is searched: the one around this folder unless told."""
+    if not _current:
+        _current.append(Workspace(Path.cwd()))
+    return _current[0]
+
+
 def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ()) -> str:
     """Return a sentence about an unknown package, with the known ones."""
     known = [*workspace.packages, *ours]

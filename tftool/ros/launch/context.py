@@ -9,8 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from tftool.base.errors import UsageError
-from tftool.ros.host.workspace import Workspace
-from tftool.ros.launch import packages
+from tftool.ros.host.workspace import Workspace, current
 
 DEEPEST = 50
 """How many launch files may include each other in a row."""
@@ -61,7 +60,7 @@ class LaunchContext:
     def workspace(self) -> Workspace:
         """Return the folder where packages are searched: the command's unless another was given."""
         if self._workspace is None:
-            self._workspace = packages.workspace()
+            self._workspace = current()
         return self._workspace
 
     @property

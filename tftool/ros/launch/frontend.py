@@ -13,6 +13,7 @@ from tftool.base.near_names import near_names
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.import_table import tagged
+from tftool.ros.host.importing import load
 from tftool.ros.launch import (
     actions,
     components,
@@ -45,7 +46,7 @@ def _action(element: Element) -> Any:
     if (exposed := exposing.ACTIONS.get(tag)) is not None:
         make = partial(_exposed, exposed)
     elif make is None and tag in tagged():
-        make = partial(_plain, tagged()[tag].load())
+        make = partial(_plain, load(tagged()[tag]))
     if make is None:
         what = f"there is no '{element.tag}' in a launch file"
         known = [one for one in tagged() if not one.startswith("$")]

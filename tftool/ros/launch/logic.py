@@ -1,8 +1,7 @@
 """launch's substitutions for truth values, and choices by them."""
 
 import math
-from collections.abc import Iterable
-from typing import Any
+from typing import Any, ClassVar
 
 from tftool.base.errors import UsageError
 from tftool.ros.launch.context import LaunchContext
@@ -23,18 +22,11 @@ def _holds(context: LaunchContext, value: Any) -> bool:
         raise SubstitutionFailure(str(error)) from None
 
 
-def _truths(context: LaunchContext, values: Iterable[Any]) -> list[bool]:
-    """Return the truth of each text; as in ROS 2 all are evaluated."""
-    return [_holds(context, value) for value in values]
+class EqualsSubstitution(Substitution):
+    """Whether two texts are equal; numbers compare as numbers, truths as truths."""
 
-
-class _Logic(Substitution):
     def __init__(self, left: Any, right: Any) -> None:
         self.left, self.right = left, right
-
-
-class EqualsSubstitution(_Logic):
-    """Whether two texts are equal; numbers compare as numbers, truths as truths."""
 
     def perform(self, context: LaunchContext) -> str:
         """'true' or 'false'."""
@@ -56,22 +48,47 @@ class NotEqualsSubstitution(EqualsSubstitution):
         return str(super().perform(context) == "false").lower()
 
 
-class AndSubstitution(_Logic):
+class _Several(Substitution):
+    """Judgement of several truths."""
+
+    judge: ClassVar[Any]
+
+    def __init__(self, *args: Any) -> None:
+        self.args = args
+
+    def perform(self, context: LaunchContext) -> str:
+        """'true' or 'false'; as in ROS 2 all are evaluated."""
+        return str(self.judge([_holds(context, value) for value in self.args])).lower()
+
+
+class AnySubstitution(_Several):
+    """Whether one of several is true."""
+
+    judge = any
+
+
+class AllSubstitution(_Several):
+    """Whether all of several are true."""
+
+    judge = all
+
+
+class _Both(_Several):
+    def __init__(self, left: Any, right: Any) -> None:
+        super().__init__(left, right)
+        self.left, self.right = left, right
+
+
+class AndSubstitution(_Both):
     """Whether both are true."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        both = all(_truths(context, (self.left, self.right)))
-        return str(both).lower()
+    judge = all
 
 
-class OrSubstitution(_Logic):
+class OrSubstitution(_Both):
     """Whether one is true."""
 
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        one = any(_truths(context, (self.left, self.right)))
-        return str(one).lower()
+    judge = any
 
 
 class NotSubstitution(Substitution):
@@ -105,22 +122,3 @@ class IfElseSubstitution(Substitution):
             context, {"on": "true", "yes": "true", "off": "false", "no": "false"}.get(word, word)
         )
         return perform(context, self.if_value if chosen else self.else_value)
-
-
-class AnySubstitution(Substitution):
-    """Whether one of several is true."""
-
-    def __init__(self, *args: Any) -> None:
-        self.args = args
-
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        return str(any(_truths(context, self.args))).lower()
-
-
-class AllSubstitution(AnySubstitution):
-    """Whether all of several are true."""
-
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        return str(all(_truths(context, self.args))).lower()

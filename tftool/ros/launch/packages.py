@@ -3,7 +3,9 @@
 from pathlib import Path
 
 from tftool.base.errors import UsageError
-from tftool.ros.host.workspace import Workspace
+from tftool.ros.host.workspace import current, use
+
+__all__ = ["use"]
 
 
 class PackageNotFoundError(KeyError):
@@ -13,21 +15,6 @@ class PackageNotFoundError(KeyError):
         return str(self.args[0]) if self.args else ""
 
 
-_current: list[Workspace] = []
-
-
-def use(searched: Workspace) -> None:
-    """Search this workspace from now on."""
-    _current[:] = [searched]
-
-
-def workspace() -> Workspace:
-    """Return the workspace that is searched: the one around this folder unless told."""
-    if not _current:
-        _current.append(Workspace(Path.cwd()))
-    return _current[0]
-
-
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
     """Return a package's share directory: in a workspace, its sources.
 
@@ -35,7 +22,7 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
         PackageNotFoundError: If there is no such package.
     """
     try:
-        return str(workspace().share(package_name))
+        return str(current().share(package_name))
     except UsageError as error:
         raise PackageNotFoundError(str(error)) from None
 
@@ -52,7 +39,7 @@ def get_package_prefix(package_name: str) -> str:
 
 def get_packages_with_prefixes() -> dict[str, str]:
     """Return every package and its folder."""
-    return {name: str(package.path) for name, package in workspace().packages.items()}
+    return {name: str(package.path) for name, package in current().packages.items()}
 
 
 def get_resources(resource_type: str) -> dict[str, str]:

@@ -8,6 +8,7 @@ from typing import Any
 from tftool.base.errors import InputError
 from tftool.base.near_names import near_names
 from tftool.ros.host.import_table import tagged
+from tftool.ros.host.importing import load
 from tftool.ros.launch.elements import DEEPEST
 from tftool.ros.launch.substitutions import PythonExpression, TextSubstitution
 
@@ -90,7 +91,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     name = words[0][0].text
     make, imported = EXPOSED.get(name), tagged().get(f"${name}")
     if make is None and imported is not None:
-        make = partial(_made, imported.load())
+        make = partial(_made, load(imported))
     if make is None:
         known = (tag.removeprefix("$") for tag in tagged() if tag.startswith("$"))
         near = near_names(name, [*known, *EXPOSED])
