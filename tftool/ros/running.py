@@ -236,7 +236,7 @@ def status_of(program: Program) -> int:
     """
     # One that ended because we asked it to has done what it should.
     is_stuck = isinstance(program.failure, StuckError)
-    if not program.status or (program.interrupted and not is_stuck):
+    if not program.status or (program.fiber.interrupted and not is_stuck):
         return 0
     failure = program.failure
     if failure is None or isinstance(failure, SystemExit):

@@ -207,11 +207,12 @@ class NodeGraph:
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """Return every service, with its type if known."""
-        return self.__look(lambda: _listed(self.__served(lambda node: True)))
+        return self.__look(lambda: _listed(self.__served()))
 
-    def __served(self, by: Callable[[str], bool]) -> Iterator[tuple[str, str]]:
+    def __served(self, by: str | None = None) -> Iterator[tuple[str, str]]:
+        """Yield services with their types: all, or those of one node."""
         for name, offer in self._tftool.world.services().items():
-            if by(offer.node):
+            if by in (None, offer.node):
                 yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
@@ -222,12 +223,13 @@ class NodeGraph:
     def count_clients(self, service_name: str) -> int:
         """Count the ROS nodes of this process with a client of a service."""
         full = self._tftool.full(service_name, is_service=True)
-        return self.__look(
-            lambda: sum(client.full == full for client in self.__clients(lambda node: True))
-        )
+        return self.__look(lambda: sum(name == full for name, _ in self.__called()))
 
-    def __clients(self, of: Callable[[str], bool]) -> Iterator[Client]:
-        return (one for one in _entities(self._tftool, of) if isinstance(one, Client))
+    def __called(self, by: str | None = None) -> Iterator[tuple[str, str]]:
+        """Yield the services of this process's clients: of all, or of one node's."""
+        for one in _entities(self._tftool, by):
+            if isinstance(one, Client):
+                yield one.full, one.srv_type.interface__
 
     # One node's
 
@@ -235,41 +237,25 @@ class NodeGraph:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Return the topics that a ROS node publishes."""
-        return _of_node(
-            self._tftool, node_name, node_namespace, lambda full: self.__held(full, PUBLISHER)
-        )
+        return _of_node(self._tftool, node_name, node_namespace, self.__held, PUBLISHER)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """Return the topics to which a ROS node subscribes."""
-        return _of_node(
-            self._tftool, node_name, node_namespace, lambda full: self.__held(full, SUBSCRIPTION)
-        )
+        return _of_node(self._tftool, node_name, node_namespace, self.__held, SUBSCRIPTION)
 
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
         """Return the services of a node."""
-        return _of_node(
-            self._tftool,
-            node_name,
-            node_namespace,
-            lambda full: self.__served(lambda node: node == full),
-        )
+        return _of_node(self._tftool, node_name, node_namespace, self.__served)
 
     def get_client_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
         """Return the services that a ROS node of this process calls."""
-
-        def asked(full: str) -> Iterator[tuple[str, str]]:
-            return (
-                (one.full, one.srv_type.interface__)
-                for one in self.__clients(lambda node: node == full)
-            )
-
-        return _of_node(self._tftool, node_name, node_namespace, asked)
+        return _of_node(self._tftool, node_name, node_namespace, self.__called)
 
     def __held(self, node: str, role: Role) -> Iterator[tuple[str, str]]:
         endpoints = self._tftool.world.endpoints
@@ -282,7 +268,7 @@ class NodeGraph:
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
     """Return every served action with its type."""
     seat = seat_of(node)
-    return _ask(seat, lambda: _listed(_served_actions(seat, lambda server: True)))
+    return _ask(seat, lambda: _listed(_served_actions(None, seat)))
 
 
 def get_action_server_names_and_types_by_node(
@@ -294,12 +280,7 @@ def get_action_server_names_and_types_by_node(
         NodeNameNonExistentError: If there is no such node.
     """
     seat = seat_of(node)
-    return _of_node(
-        seat,
-        remote_node_name,
-        remote_node_namespace,
-        lambda full: _served_actions(seat, lambda server: server == full),
-    )
+    return _of_node(seat, remote_node_name, remote_node_namespace, _served_actions, seat)
 
 
 def get_action_client_names_and_types_by_node(
@@ -311,13 +292,7 @@ def get_action_client_names_and_types_by_node(
         NodeNameNonExistentError: If there is no such node.
     """
     seat = seat_of(node)
-
-    def asked(full: str) -> Iterator[tuple[str, str]]:
-        for one in _entities(seat, lambda authority: authority == full):
-            if isinstance(one, ActionClient):
-                yield one.full, one.type_.interface__
-
-    return _of_node(seat, remote_node_name, remote_node_namespace, asked)
+    return _of_node(seat, remote_node_name, remote_node_namespace, _sought_actions, seat)
 
 
 def _ask(seat: NodeSeat, question: Callable[[], T]) -> T:
@@ -330,25 +305,32 @@ def _node_names(seat: NodeSeat) -> list[str]:
     return [*(one.name for one in seat.world.nodes if one.is_shown), *seat.world.far_nodes]
 
 
-def _entities(seat: NodeSeat, of: Callable[[str], bool]) -> Iterator[Any]:
-    """Return the entities of this process's ROS nodes whose full names `of` accepts."""
+def _entities(seat: NodeSeat, by: str | None) -> Iterator[Any]:
+    """Return the entities of this process's ROS nodes, or of the one with a full name."""
     for program in seat.world.nodes:
         for other in program.nodes if isinstance(program, Program) else ():
-            if of(other.authority):
+            if by in (None, other.authority):
                 yield from other.entities
 
 
-def _served_actions(seat: NodeSeat, by: Callable[[str], bool]) -> Iterator[tuple[str, str]]:
+def _served_actions(by: str | None, seat: NodeSeat) -> Iterator[tuple[str, str]]:
     for name, offer in seat.world.actions().items():
-        if by(offer.node):
+        if by in (None, offer.node):
             yield name, interface_name(offer.kind)
+
+
+def _sought_actions(by: str, seat: NodeSeat) -> Iterator[tuple[str, str]]:
+    for one in _entities(seat, by):
+        if isinstance(one, ActionClient):
+            yield one.full, one.type_.interface__
 
 
 def _of_node(
     seat: NodeSeat,
     name: str,
     namespace: str,
-    find: Callable[[str], Iterable[tuple[str, str]]],
+    find: Callable[..., Iterable[tuple[str, str]]],
+    *args: Any,
 ) -> NamesAndTypes:
     """Return what `find` returns for a node, by its full name."""
     full = f"{namespace.strip('/')}/{name}".strip("/")
@@ -356,7 +338,7 @@ def _of_node(
     def found() -> NamesAndTypes:
         if full not in _node_names(seat):
             raise NodeNameNonExistentError(f"there is no node '/{full}'")
-        return _listed(find(full))
+        return _listed(find(full, *args))
 
     return _ask(seat, found)
 
