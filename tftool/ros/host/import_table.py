@@ -269,7 +269,7 @@ WHOLE_PACKAGES = (
     "rclpy", "launch", "launch_ros", "tf2_ros", "message_filters",
     "launch_testing", "launch_testing_ros", "launch_pytest",
 )  # fmt: skip
-"""Packages whose modules are there after no more than `import launch`."""
+"""Packages whose modules are attributes after no more than `import launch`."""
 
 
 def snake_case(name: str) -> str:

@@ -52,12 +52,16 @@ class _StandInModule(ModuleType):
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
+        below = f"{self.__name__}.{name}"
+        if self.__name__ in import_table.WHOLE_PACKAGES and below in import_table.table():
+            # Nodes write rclpy.time.Time() after no more than `import rclpy`.
+            return importlib.import_module(below)
         known = [one for one in vars(self) if not one.startswith("_")]
         sentence = missing_name(self.__name__, name, known)
         if _is_import_from(sys._getframe(1)):
             try:
                 # `from package import module` asks for an attribute first.
-                return importlib.import_module(f"{self.__name__}.{name}")
+                return importlib.import_module(below)
             except ImportError:
                 raise ImportError(sentence, name=self.__name__) from None
         raise AttributeError(sentence)
@@ -91,11 +95,6 @@ class _StandInLoader(Loader):
                 vars(module).update(_defined(ours))
             else:
                 setattr(module, shown, load(imported))
-        if module.__name__ in import_table.WHOLE_PACKAGES:
-            # Nodes write rclpy.time.Time() after no more than `import rclpy`.
-            for below in import_table.table():
-                if below.rpartition(".")[0] == module.__name__:
-                    importlib.import_module(below)
 
 
 def load(imported: import_table.ImportedName) -> Any:
