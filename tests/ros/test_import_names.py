@@ -139,3 +139,21 @@ def test_a_virtual_environment_beside_a_file_keeps_pythons_own_threads(
     inside, ours = ros_runtime.log("probe")[0].split()
     assert inside == "_thread"
     assert ours != "_thread"
+
+
+def test_names_of_a_package_are_loaded_when_they_are_used(ros_runtime):
+    import sys
+
+    import rclpy
+    import sensor_msgs.msg
+
+    assert "Imu" not in vars(sensor_msgs.msg)
+    assert {"Imu", "LaserScan"} <= set(dir(sensor_msgs.msg))
+    assert sensor_msgs.msg.Imu is sensor_msgs.msg.Imu
+    everything = {}
+    exec("from sensor_msgs.msg import *", everything)
+    assert everything["Imu"] is sensor_msgs.msg.Imu
+    assert rclpy.time.Time(seconds=1).nanoseconds == 10**9
+    assert "rclpy.time_source" not in sys.modules
+    with pytest.raises(AttributeError, match="did you mean 'LaserScan'"):
+        _ = sensor_msgs.msg.LaserScann

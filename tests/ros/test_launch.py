@@ -17,7 +17,7 @@ for module in (launch, launch.actions, launch.conditions, launch.event_handlers,
                launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions,
                launch_ros.substitutions, launch_ros.event_handlers, launch_ros.events,
                launch_ros.events.lifecycle):
-    globals().update({k: v for k, v in vars(module).items() if not k.startswith('_')})
+    globals().update({k: getattr(module, k) for k in dir(module) if not k.startswith('_')})
 """
 
 

@@ -7,8 +7,9 @@ import importlib
 import importlib.machinery
 import os
 import sys
+import threading
 from collections import UserList
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib.abc import Loader, MetaPathFinder
 from pathlib import Path
@@ -43,20 +44,40 @@ def real_ros() -> str:
     return "" if spec is None or not spec.origin else spec.origin
 
 
+_LOADING = threading.RLock()
+"""Held while a name is loaded: of an interface, two threads at once would make two classes."""
+
+
 class _StandInModule(ModuleType):
-    """A ROS 2 module made of our names."""
+    """A ROS 2 module made of our names; each is loaded when a program first uses it."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name, f"{name}, as far as it runs without ROS.")
 
+    def __dir__(self) -> list[str]:
+        return sorted({*vars(self), *_entries(self.__name__), *self._modules()} - {"*"})
+
+    def _modules(self) -> list[str]:
+        """Return the modules that are attributes before a program has imported them."""
+        if self.__name__ not in import_table.WHOLE_PACKAGES:
+            return []
+        parts = (name.rpartition(".") for name in import_table.table())
+        return [name for package, _, name in parts if package == self.__name__]
+
     def __getattr__(self, name: str) -> Any:
+        entries = _entries(self.__name__)
+        if name in entries:
+            with _LOADING:
+                return vars(self).setdefault(name, load(entries[name]))
+        known = [one for one in dir(self) if not one.startswith("_")]
+        if name == "__all__":
+            return known
         if name.startswith("__"):
             raise AttributeError(name)
         below = f"{self.__name__}.{name}"
-        if self.__name__ in import_table.WHOLE_PACKAGES and below in import_table.table():
+        if name in self._modules():
             # Nodes write rclpy.time.Time() after no more than `import rclpy`.
             return importlib.import_module(below)
-        known = [one for one in vars(self) if not one.startswith("_")]
         sentence = missing_name(self.__name__, name, known)
         if _is_import_from(sys._getframe(1)):
             try:
@@ -65,6 +86,15 @@ class _StandInModule(ModuleType):
             except ImportError:
                 raise ImportError(sentence, name=self.__name__) from None
         raise AttributeError(sentence)
+
+
+def _entries(module: str) -> Mapping[str, import_table.ImportedName]:
+    """Return the names of a ROS 2 module, or of one of an interface package."""
+    package, _, below = module.partition(".")
+    if package not in INTERFACES.packages():
+        return import_table.table()[module]
+    place = f"{package}/{below.partition('.')[0]}"
+    return {one: import_table.ImportedName(place, one) for one in _names_in(package, below)}
 
 
 def _is_import_from(frame: Any) -> bool:
@@ -84,17 +114,9 @@ class _StandInLoader(Loader):
         return _StandInModule(spec.name)
 
     def exec_module(self, module: ModuleType) -> None:
-        package, _, below = module.__name__.partition(".")
-        if package in INTERFACES.packages():
-            for name in _names_in(package, below):
-                setattr(module, name, INTERFACES.find(package, below.partition(".")[0], name))
-            return
-        for shown, imported in import_table.table()[module.__name__].items():
-            if shown == "*":
-                ours = importlib.import_module(f".{imported.module}", "tftool.ros")
-                vars(module).update(_defined(ours))
-            else:
-                setattr(module, shown, load(imported))
+        if (whole := _entries(module.__name__).get("*")) is not None:
+            ours = importlib.import_module(f".{whole.module}", "tftool.ros")
+            vars(module).update(_defined(ours))
 
 
 def load(imported: import_table.ImportedName) -> Any:
