@@ -1,5 +1,6 @@
 """Many recordings at once: by one process, by several, by a cluster of Dask workers."""
 
+import gc
 import json
 import os
 import shutil
@@ -10,6 +11,7 @@ from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
+from threading import enumerate as enumerate_threads
 
 import pytest
 
@@ -292,6 +294,19 @@ def cluster(tmp_path):
     made = DaskCluster(tmp_path)
     yield made
     made.stop()
+
+
+def test_a_refused_scheduler_leaves_no_thread_behind(tftool, fleet, tmp_path):
+    pytest.importorskip("distributed", reason="the extra 'fleet'")
+    output = tmp_path / "found.jsonl"
+    # The collection of garbage would end the thread later: it must have ended before.
+    gc.disable()
+    try:
+        result = tftool("doctor", fleet, "-o", output, "--scheduler", "nothing")
+        assert "is no address of a Dask scheduler" in result.err
+        assert "IO loop" not in [thread.name for thread in enumerate_threads()]
+    finally:
+        gc.enable()
 
 
 def test_a_cluster_goes_on_when_one_of_its_workers_is_killed(tftool, fleet, tmp_path, cluster):

@@ -34,20 +34,22 @@ def connected(address: str) -> Iterator[Executor]:
         ) from None
     # Its log of workers that come and go is of no use to a user who waits for findings.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    # Made apart from its constructor, so that it can be closed if that fails. Garbage collection
+    # would close it otherwise; within the construction of the next client, that waits for ever for
+    # the lock which this construction holds.
+    client: Any = object.__new__(distributed.Client)
     try:
-        client: Any = distributed.Client(  # type: ignore[no-untyped-call]
-            address, timeout=ANSWERS_WITHIN, set_as_default=False
-        )
-    except (OSError, TimeoutError) as error:
-        raise InputError(
-            f"No Dask scheduler answers at '{visible(address)}': start one with 'dask scheduler' "
-            "and workers with 'dask worker'."
-        ) from error
-    except ValueError as error:
-        raise UsageError(
-            f"'{visible(address)}' is no address of a Dask scheduler: write tcp://HOST:8786."
-        ) from error
-    try:
+        try:
+            client.__init__(address, timeout=ANSWERS_WITHIN, set_as_default=False)
+        except (OSError, TimeoutError) as error:
+            raise InputError(
+                f"No Dask scheduler answers at '{visible(address)}': start one with "
+                "'dask scheduler' and workers with 'dask worker'."
+            ) from error
+        except ValueError as error:
+            raise UsageError(
+                f"'{visible(address)}' is no address of a Dask scheduler: write tcp://HOST:8786."
+            ) from error
         yield client.get_executor()
     finally:
         client.close()
