@@ -329,3 +329,28 @@ def test_a_recording_that_goes_on_without_transforms_names_both_lengths(tftool, 
     assert asked.status == 2
     assert "end at 2 s (messages were received for 9.9 s): 5 s is after their end" in asked.err
     assert "MCAP, 9.9 s (its transforms end at 2.0 s)" in judged.out
+
+
+@pytest.mark.parametrize("late", [(), (1_000_000_000,)], ids=["in order", "one sample late"])
+def test_a_monitored_chain_is_as_old_as_its_slowest_link(tftool, tmp_path, late):
+    run, origin = tmp_path / "run.mcap", 1_000_000_000_000
+    # The link map -> odom arrives 20 ms late every 100 ms, and is missing from 4.1 to 7.9 s.
+    slow = [
+        (stamp, stamp + 20_000_000, "map", "odom") for stamp in range(0, 10 * SECOND, SECOND // 10)
+    ]
+    sent = [one for one in slow if not 4 * SECOND < one[0] < 8 * SECOND]
+    sent += [(now, now, "odom", "base") for now in range(0, 1002 * SECOND // 100, SECOND // 50)]
+    sent += [(stamp, stamp + SECOND // 2, "odom", "base") for stamp in late]
+    with write_recording(run) as recording:
+        for stamp, log, parent, child in sorted(sent, key=lambda one: one[1]):
+            pose = TransformStamped(origin + stamp, parent, child, Transform())
+            recording.transforms([pose], log_time=origin + log)
+
+    result = tftool("monitor", "map", "base", run, "--cache-time", "1", "--json")
+
+    # Every half second from 20 ms on. From 5.52 to 7.52 s the cache of a second has no common time;
+    # at 5.02 s it has, as tf2 prunes by the stamp before the newest one, 5 s.
+    ages = [0.02] * 8 + [0.52, 1.02] + [0.02] * 4
+    delay = json.loads(result.out)["net_delay"]
+    assert delay["average"] == pytest.approx(sum(ages) / len(ages))
+    assert delay["max"] == pytest.approx(1.02)

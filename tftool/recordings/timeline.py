@@ -173,6 +173,27 @@ class Timeline:
         plain[self.rows(0, len(self)).places[np.array(odd, dtype=np.bool_)[self._edges]]] = False
         return plain
 
+    def arrivals_of(self, link: set[str]) -> tuple[Stamps, Stamps] | None:
+        """Return when the transforms between two frames arrive, and their stamps, both increasing.
+
+        Args:
+            link: The names of the two frames.
+
+        Returns:
+            Nanoseconds, shape (n,) each; empty for a static link. None if a buffer may refuse or
+            reorder some of the transforms, or if the child also has another parent or publisher.
+        """
+        edges = [edge for edge in self._transforms.edges if {edge.parent, edge.child} == link]
+        known = [edge for edge in self._transforms.edges if edge.child in link]
+        if len(edges) != 1 or sum(edge.child == edges[0].child for edge in known) != 1:
+            return None
+        edge = edges[0]
+        if edge.static:
+            return _NOTHING, _NOTHING
+        moments = self._moments_read[edge.messages]
+        is_ordered = edge.kept == len(edge) and bool(np.all(np.diff(moments) >= 0))
+        return (moments, edge.stamps) if is_ordered else None
+
     def rows(self, first: int, last: int) -> "TimelineRows":
         """Return the transforms of the messages from `first` up to, not including, `last`."""
         begin, end = int(self._firsts[first]), int(self._firsts[last])

@@ -1,5 +1,7 @@
 """Report of `monitor` on a recording, as if its messages arrived in a session."""
 
+from itertools import pairwise
+
 import numpy as np
 from rich.console import Console
 
@@ -13,6 +15,7 @@ from tftool.commands.monitor.traffic_monitor import ASK_EVERY, ReportStyle, Traf
 from tftool.commands.shared.notices import name_frames
 from tftool.commands.shared.pairs import FramePair
 from tftool.frames.frames import Frames
+from tftool.recordings.contract import Stamps
 from tftool.recordings.timeline import Due, Timeline
 
 LEAST_AT_ONCE = 64
@@ -54,15 +57,14 @@ def report_recording(
     console = Console()
     reported, measured, end = began, began, began + lasting
     while reported < end:
-        due, measuring = min(reported + period, end), measured + ASK_EVERY
-        # Of two that are due at one moment, the one with the longer period goes first.
-        is_report = report.chain is None or (due, -period) < (measuring, -ASK_EVERY)
-        now = due if is_report else measuring
+        now = min(reported + period, end)
+        if report.chain is not None:
+            # Of two that are due at one moment, the one with the longer period goes first.
+            last = now - 1 if period > ASK_EVERY else now
+            moments = np.arange(measured + ASK_EVERY, last + 1, ASK_EVERY)
+            measured += len(moments) * ASK_EVERY
+            arrivals.measure(report, moments)
         arrivals.receive_until(now, report.traffic)
-        if not is_report:
-            measured = now
-            report.measure(arrivals.buffer, now)
-            continue
         reported = now
         if report.style is not ReportStyle.TABLE:
             report.write(now)
@@ -127,6 +129,42 @@ class Arrivals:
             name_frames(self.buffer.frames(), pair, "so far")
             raise
         return moment
+
+    def measure(self, report: TrafficReport, moments: Stamps) -> None:
+        """Record the age of the newest answer of a report's chain at each of these moments.
+
+        Lookups need the messages received up to each moment, and receiving a few hundred at a
+        time takes twice as long as receiving all. The arrival times alone give the same ages
+        wherever every link has one publisher whose stamps increase.
+
+        Args:
+            report: The report to fill.
+            moments: Nanoseconds, shape (n,), increasing.
+        """
+        assert report.chain is not None
+        frames = report.chain.frames
+        links = [self._timeline.arrivals_of({*pair}) for pair in pairwise(frames)]
+        if None in links:
+            for moment in moments.tolist():
+                self.receive_until(moment, report.traffic)
+                report.measure(self.buffer, moment)
+            return
+        newest, oldest = [], []
+        for link in links:
+            if link is None or not len(link[0]):
+                continue
+            arrivals, stamps = link
+            last = np.searchsorted(arrivals, moments, side="right") - 1
+            newest.append(stamps[last])
+            # The buffer prunes by the stamp that was the newest one before an insertion.
+            kept = stamps[np.maximum(last - 1, 0)] - self.buffer.cache_time
+            oldest.append(stamps[np.searchsorted(stamps, kept)])
+        if not newest:
+            return
+        common = np.min(newest, axis=0)
+        answered = (common >= np.max(oldest, axis=0)) & (common != 0)
+        for delay in ((moments - common)[answered] / NANOSECONDS).tolist():
+            report.chain.delay.add(delay)
 
     def _receive_many(self, first: int, last: int, traffic: Traffic) -> None:
         """Receive plain messages in bulk: first by frame, then by publisher."""
