@@ -1,4 +1,4 @@
-"""Points, paths, clouds and scans beside the frames, in a file and from a server."""
+"""Points, paths, clouds, scans and markers beside the frames, in a file and from a server."""
 
 import asyncio
 import importlib.util
@@ -19,7 +19,8 @@ from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.messages.classes import INTERFACES
 from tftool.messages.turtle_messages import PointStamped, point_stamped
-from tftool.screens.browser.displays import cloud, path, point, scan
+from tftool.screens.browser.displays import cloud, markers, path, point, scan
+from tftool.screens.browser.displays.shapes import Arrival
 from tftool.screens.browser.live_messages import LiveDisplays
 from tftool.screens.browser.recorded_messages import Limits, recorded_tracks
 from tftool.world.clock import SimClock
@@ -76,6 +77,31 @@ def point_of(recording, x, y, at=0.0, frame="sensor"):
     return message
 
 
+def marker_of(recording, number, kind, *, at=0.0, frame="world", x=0.0, color=(1, 0, 0, 1), **more):
+    """A marker of the namespace `test`, 10 cm large."""
+    message = stamped(recording.new_message("visualization_msgs/msg/Marker"), at, frame)
+    message.ns, message.id, message.type = "test", number, kind
+    message.pose.position.x, message.pose.orientation.w = x, 1.0
+    message.scale.x = message.scale.y = message.scale.z = 0.1
+    message.color.r, message.color.g, message.color.b, message.color.a = map(float, color)
+    for x, y, z in more.pop("points", ()):
+        place = recording.new_message("geometry_msgs/msg/Point")
+        place.x, place.y, place.z = float(x), float(y), float(z)
+        message.points.append(place)
+    for name, value in more.items():
+        setattr(message, name, value)
+    return message
+
+
+def markers_of(recording, *several):
+    message = recording.new_message(markers.TYPE)
+    message.markers = list(several)
+    return message
+
+
+CUBE, SPHERE, ARROW, LIST, WORDS, DELETE, DELETE_ALL = 1, 2, 0, 7, 9, 2, 3
+
+
 @pytest.fixture
 def run(tmp_path):
     """A robot that drives along x at 1 m/s for 4 s, its sensor a metre above it, at 10 Hz."""
@@ -101,31 +127,115 @@ def run(tmp_path):
 
 def test_a_cloud_gives_its_finite_points_whatever_lies_between(run, tmp_path):
     with tftool.write_recording(tmp_path / "other.mcap") as recording:
-        drawn = cloud.draw(cloud_of(recording, POINTS, 1.5), 200_000)
-        thinned = cloud.draw(cloud_of(recording, np.zeros((10_001, 3))), 1000)
+        drawn = cloud.draw(cloud_of(recording, POINTS, 1.5), Arrival(0))
+        thinned = cloud.draw(cloud_of(recording, np.zeros((10_001, 3))), Arrival(0, most=1000))
         short = cloud_of(recording, POINTS)
         short.data = short.data[:-1]
         nameless = cloud_of(recording, POINTS)
         nameless.fields.pop()
         with pytest.raises(tftool.InputError, match="fewer bytes"):
-            cloud.draw(short, 10)
+            cloud.draw(short, Arrival(0))
         with pytest.raises(tftool.InputError, match="no field 'z'"):
-            cloud.draw(nameless, 10)
+            cloud.draw(nameless, Arrival(0))
 
-    assert drawn.places.tolist() == [[1.0, 2.0, 3.0], [-1.0, 0.5, 0.25]]
-    assert (drawn.stamp, drawn.frame) == (EPOCH + seconds(1.5), "sensor")
-    assert 500 < len(thinned.places) <= 1000
+    assert drawn.shapes[0].places.tolist() == [[1.0, 2.0, 3.0], [-1.0, 0.5, 0.25]]
+    assert (drawn.stamp, drawn.shapes[0].frame) == (EPOCH + seconds(1.5), "sensor")
+    assert 500 < thinned.count <= 1000
 
 
 def test_a_scan_gives_where_its_rays_hit_and_a_path_its_places_in_order(run, tmp_path):
     with tftool.write_recording(tmp_path / "other.mcap") as recording:
-        hits = scan.draw(scan_of(recording, [1.0, 2.0, float("inf"), 0.1]), 10)
-        line = path.draw(path_of(recording, [(0, 0), (1, 0), (1, 2)]), 10)
-        ball = point.draw(point_of(recording, 4.0, 5.0), 10)
+        hits = scan.draw(scan_of(recording, [1.0, 2.0, float("inf"), 0.1]), Arrival(0))
+        line = path.draw(path_of(recording, [(0, 0), (1, 0), (1, 2)]), Arrival(0))
+        ball = point.draw(point_of(recording, 4.0, 5.0), Arrival(0))
 
-    np.testing.assert_allclose(hits.places, [[1, 0, 0], [0, 2, 0]], atol=1e-6)
-    assert line.places.tolist() == [[0, 0, 0], [1, 0, 0], [1, 2, 0]]
-    assert ball.places.tolist() == [[4, 5, 0]]
+    np.testing.assert_allclose(hits.shapes[0].places, [[1, 0, 0], [0, 2, 0]], atol=1e-6)
+    assert line.shapes[0].places.tolist() == [[0, 0, 0], [1, 0, 0], [1, 2, 0]]
+    assert ball.shapes[0].places.tolist() == [[4, 5, 0]]
+
+
+def keys(drawn):
+    return [shape.key for shape in drawn.shapes]
+
+
+def test_markers_are_added_replaced_and_deleted_by_namespace_and_number():
+    def after(before, *several):
+        return markers.draw(markers_of(CLASSES, *several), Arrival(EPOCH, before=before))
+
+    first = after(None, marker_of(CLASSES, 1, CUBE), marker_of(CLASSES, 2, SPHERE, ns="other"))
+    moved = after(first, marker_of(CLASSES, 1, CUBE, x=5.0, at=1.0))
+    fewer = after(moved, marker_of(CLASSES, 2, CUBE, ns="other", action=DELETE))
+    named = after(moved, marker_of(CLASSES, 0, CUBE, action=DELETE_ALL))
+    none = after(moved, marker_of(CLASSES, 0, CUBE, ns="", action=DELETE_ALL))
+
+    single = markers.draw(marker_of(CLASSES, 7, CUBE), Arrival(EPOCH, before=first))
+
+    assert keys(first) == ["test/1", "other/2"]
+    assert keys(single) == ["test/1", "other/2", "test/7"]
+    assert keys(moved) == ["other/2", "test/1"]
+    assert moved.shapes[1].places.tolist() == [[5.0, 0.0, 0.0]]
+    assert moved.stamp == EPOCH + seconds(1)
+    assert (keys(fewer), keys(named), keys(none)) == (["test/1"], ["other/2"], [])
+
+
+def test_a_marker_with_a_lifetime_ends_and_one_that_cannot_be_drawn_is_named():
+    brief = marker_of(CLASSES, 1, CUBE)
+    brief.lifetime.sec = 2
+    first = markers.draw(markers_of(CLASSES, brief), Arrival(EPOCH))
+    later = markers_of(CLASSES, marker_of(CLASSES, 2, CUBE, at=2.0), marker_of(CLASSES, 3, 10))
+    second = markers.draw(later, Arrival(EPOCH, before=first))
+
+    assert [shape.until for shape in first.shapes] == [EPOCH + seconds(2)]
+    assert keys(second) == ["test/2"]
+    assert second.faults == ("no drawing for markers of type 10",)
+
+
+def test_an_arrow_points_from_its_first_place_to_its_second():
+    scale = CLASSES.new_message("geometry_msgs/msg/Vector3")
+    scale.x, scale.y, scale.z = 0.1, 0.2, 0.5
+    for end, along in (((0, 0, 2), (0, 0, 1)), ((0, 2, 0), (0, 1, 0)), ((0, 0, -2), (0, 0, -1))):
+        arrow = marker_of(CLASSES, 1, ARROW, points=[(0, 0, 0), end], scale=scale)
+        shaft, head = markers.draw(markers_of(CLASSES, arrow), Arrival(0)).shapes
+        for shape, middle in ((shaft, 0.75), (head, 1.75)):
+            np.testing.assert_allclose(shape.places, [np.multiply(middle, along)], atol=1e-6)
+            upright = Transform((0.0, 0.0, 0.0), shape.turn).rotate((0.0, 0.0, 1.0))
+            np.testing.assert_allclose(upright, along, atol=1e-9)
+        np.testing.assert_allclose(shaft.size, (0.1, 0.1, 1.5))
+        np.testing.assert_allclose(head.size, (0.2, 0.2, 0.5))
+
+    # Without places it points along x of its pose.
+    scale.x = 1.0
+    shaft, head = markers.draw(
+        markers_of(CLASSES, marker_of(CLASSES, 1, ARROW, scale=scale)), Arrival(0)
+    ).shapes
+    assert shaft.places[0][0] < 0.5 < head.places[0][0] < 1.0
+    forward = Transform((0.0, 0.0, 0.0), head.turn).rotate((0.0, 0.0, 1.0))
+    np.testing.assert_allclose(forward, (1.0, 0.0, 0.0), atol=1e-9)
+
+
+def test_a_list_of_spheres_has_a_colour_for_each_in_the_pose_of_the_marker():
+    colors = [CLASSES.new_message("std_msgs/msg/ColorRGBA") for _ in range(2)]
+    colors[0].g, colors[1].b, colors[1].a = 1.0, 1.0, 0.5
+    several = marker_of(CLASSES, 1, LIST, x=3.0, points=[(0, 0, 0), (1, 2, 0)], colors=colors)
+    (shape,) = markers.draw(markers_of(CLASSES, several), Arrival(0)).shapes
+
+    assert (shape.kind, shape.places.tolist()) == ("sphere", [[3.0, 0.0, 0.0], [4.0, 2.0, 0.0]])
+    assert shape.colors.tolist() == [[0, 255, 0, 0], [0, 0, 255, 128]]
+
+
+def test_no_marker_of_a_session_is_lost_between_two_rounds():
+    world = World(SimClock())
+    displays = LiveDisplays(world)
+    world.broadcast([TransformStamped(0, "world", "robot", Transform())], "test", static=True)
+    publisher = world.publisher("test", "marks", INTERFACES.message(markers.TYPE))
+    for number in range(3):
+        one = marker_of(CLASSES, number, CUBE, x=float(number))
+        one.header.stamp.sec = one.header.stamp.nanosec = 0
+        publisher.publish(markers_of(CLASSES, one))
+
+    assert set(displays.round()) == {"marks"}
+    (kept,) = displays.latest(100)
+    assert [keys(message) for message in kept.messages] == [["test/0", "test/1", "test/2"]]
 
 
 def test_of_many_messages_so_many_are_drawn_as_have_room(run):
@@ -172,6 +282,50 @@ needs_browser = pytest.mark.skipif(
     ),
     reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
 )
+
+
+@needs_browser
+def test_markers_are_drawn_with_their_frames_colours_and_lifetimes(chromium, tmp_path):
+    from tests.screens.browser.test_file import opened
+
+    file = tmp_path / "marked.mcap"
+    with tftool.write_recording(file) as recording:
+        for tick in range(41):
+            at = tick / 10
+            pose = TransformStamped(
+                EPOCH + seconds(at), "world", "robot", Transform((at, 0.0, 0.0))
+            )
+            recording.transforms([pose], EPOCH + seconds(at))
+        brief = marker_of(recording, 4, SPHERE, at=1.0)
+        brief.lifetime.sec = 1
+        messages = {
+            1.0: [
+                marker_of(recording, 1, CUBE, at=1.0, frame="robot", x=0.5),
+                marker_of(recording, 2, WORDS, at=1.0, text="here <b>\nit is"),
+                marker_of(recording, 3, 4, at=1.0, points=[(0, 0, 0), (1, 0, 0)]),
+                brief,
+            ],
+            3.0: [marker_of(recording, 1, CUBE, at=3.0, action=DELETE)],
+        }
+        for at, several in messages.items():
+            recording.message("/marks", markers_of(recording, *several), EPOCH + seconds(at))
+    page_file = tmp_path / "marked.html"
+    assert main(["view", str(file), "-o", str(page_file)]) == 0
+    page = opened(chromium, page_file, "fixed=world")
+
+    page.scrub(1.5)
+    page.until(lambda: len(page.said("tftool.displays()")["/marks"]["kinds"]) == 4)
+    seen = page.said("tftool.displays()")["/marks"]
+    assert sorted(seen["kinds"]) == ["box", "line", "sphere", "words"]
+    # Placed where the robot was at 1 s.
+    assert [round(number, 3) for number in seen["first"]] == [1.5, 0.0, 0.0]
+    page.scrub(2.5)
+    page.until(
+        lambda: page.said("tftool.displays()")["/marks"]["kinds"] == ["box", "words", "line"]
+    )
+    page.scrub(3.5)
+    page.until(lambda: page.said("tftool.displays()")["/marks"]["kinds"] == ["words", "line"])
+    assert page.complaints() == []
 
 
 @needs_browser
@@ -257,8 +411,10 @@ def test_what_is_kept_of_a_session_is_the_last_message_of_each_topic_thinned_out
 
     for _ in range(2):  # told to pages meanwhile, or not
         kept = {track.topic: track for track in displays.latest(300)}
-        assert [one.places.tolist() for one in kept["/goal"].messages] == [[[2.0, 0.0, 0.0]]]
-        assert [len(one.places) for one in kept["/cloud"].messages] == [250]
+        assert [one.shapes[0].places.tolist() for one in kept["/goal"].messages] == [
+            [[2.0, 0.0, 0.0]]
+        ]
+        assert [one.count for one in kept["/cloud"].messages] == [250]
         for _ in range(8):
             displays.round()
     assert b'"count":1000' in displays.blocks["cloud"]

@@ -1,21 +1,24 @@
 """Drawable messages of a running session: the last of each topic."""
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from tftool.base.errors import InputError, TftoolError, TransformException
+from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.messages.classes import INTERFACES
-from tftool.screens.browser.displays.shapes import DrawnMessage, thinned
+from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, Shape
 from tftool.screens.browser.packing import PackedBlock
 from tftool.screens.browser.recorded_messages import (
+    ACCUMULATED,
     DISPLAYS,
     MOST_TOPICS,
-    Draw,
     DrawnTopic,
     Limits,
     pack_tracks,
+    place,
 )
 from tftool.world.endpoints import PUBLISHER, USUAL, Endpoint, Quality
 from tftool.world.world import World
@@ -26,7 +29,8 @@ PATIENCE: Final = 5
 MOST_BYTES: Final = 6_000_000
 """Bytes of a round, but for the last message of it: a cloud of 200 000 points has 4.8 MB."""
 
-_MOST_FAULTS: Final = 10
+MOST_HELD: Final = 1000
+"""Messages of one topic that wait to be drawn; the oldest is dropped for a further one."""
 
 
 @dataclass(slots=True)
@@ -35,10 +39,10 @@ class _HeardTopic:
 
     Attributes:
         drawn: Its drawing on the page; its one message is the last one.
-        draw: How its messages are drawn.
         quality: Quality of service of its subscription.
         stop: Ends the subscription.
-        newest: The last message, until it is drawn.
+        held: Messages that are not drawn yet, and when each arrived; the last one only, unless
+            each changes what the ones before it showed.
         waiting: The message that was drawn, until it can be placed.
         rounds: For how many rounds it has waited.
         is_news: Whether a fault was not reported to the page yet.
@@ -46,10 +50,9 @@ class _HeardTopic:
     """
 
     drawn: DrawnTopic
-    draw: Draw
     quality: Quality
     stop: Callable[[], None]
-    newest: Any = None
+    held: deque[tuple[Stamp, Any]]
     waiting: DrawnMessage | None = None
     rounds: int = 0
     is_news: bool = False
@@ -86,7 +89,7 @@ class LiveDisplays:
         for one in self._heard.values():
             self._draw(one)
             last = [one.waiting] if one.waiting is not None else one.drawn.messages
-            kept = [replace(each, places=thinned(each.places, most)) for each in last]
+            kept = [each.thinned(most) for each in last]
             found.append(replace(one.drawn, messages=kept, faults=dict(one.drawn.faults)))
         return found
 
@@ -127,9 +130,11 @@ class LiveDisplays:
         if known is None:
             if len(self._heard) >= MOST_TOPICS:
                 return
-            kind, draw = DISPLAYS[type_name]
-            track = DrawnTopic(f"/{topic}", type_name, kind)
-            known = self._heard[topic] = _HeardTopic(track, draw, quality, _nothing)
+            track = DrawnTopic(f"/{topic}", type_name)
+            held: deque[tuple[Stamp, Any]] = deque(
+                maxlen=MOST_HELD if type_name in ACCUMULATED else 1
+            )
+            known = self._heard[topic] = _HeardTopic(track, quality, _nothing, held)
         elif known.quality == quality or known.drawn.type != type_name:
             return
         heard = known
@@ -138,7 +143,7 @@ class LiveDisplays:
         heard.stop()
 
         def take(message: Any) -> None:
-            heard.newest = message
+            heard.held.append((self._world.clock.now(), message))
             heard.drawn.count += 1
 
         try:
@@ -155,24 +160,33 @@ class LiveDisplays:
         self._draw(one)
         if one.waiting is not None:
             one.rounds += 1
-            if one.rounds > PATIENCE or _is_known(one.waiting, self._world.buffer):
-                one.drawn.messages = [one.waiting]
+            buffer = self._world.buffer
+            shapes = one.waiting.shapes
+            # The buffer may have pruned the transforms of shapes that were placed before.
+            new = [shape for shape in shapes if shape.placement is None]
+            if one.rounds > PATIENCE or all(_is_known(shape, buffer) for shape in new):
+                placed = tuple(place(shape, buffer) for shape in shapes)
+                one.drawn.messages = [replace(one.waiting, shapes=placed)]
                 one.waiting = None
                 return True
         return one.is_news
 
     def _draw(self, one: _HeardTopic) -> None:
-        """Draw a topic's newest message, unless one waits to be placed."""
-        if one.waiting is not None or one.newest is None:
+        """Draw a topic's new messages, unless one waits to be placed."""
+        if one.waiting is not None or not one.held:
             return
-        message, one.newest = one.newest, None
         one.rounds = 0
-        try:
-            one.waiting = one.draw(message, self._limits.points)
-        except (InputError, ValueError, TypeError) as error:
-            faults = one.drawn.faults
-            if str(error) in faults or len(faults) < _MOST_FAULTS:
-                faults[str(error)] = faults.get(str(error), 0) + 1
+        last = one.drawn.messages[-1] if one.drawn.messages else None
+        while one.held:
+            stamp, message = one.held.popleft()
+            try:
+                arrival = Arrival(stamp, self._limits.points, last)
+                last = one.waiting = DISPLAYS[one.drawn.type](message, arrival)
+                faults = last.faults
+            except (InputError, ValueError, TypeError) as error:
+                faults = (str(error),)
+            for fault in faults:
+                one.drawn.note(fault)
                 one.is_news = True
 
     def _packed(self, one: _HeardTopic) -> bytes:
@@ -183,18 +197,18 @@ class LiveDisplays:
         return block.plain({"tracks": tracks})
 
 
-def _is_known(one: DrawnMessage, buffer: Buffer) -> bool:
-    """Whether the pose of a message's frame at its stamp is known."""
-    root, frames = one.frame, buffer.frames()
-    if root not in frames:
-        return False
+def _is_known(shape: Shape, buffer: Buffer) -> bool:
+    """Whether the pose of a shape's frame at its stamp is known."""
+    root, frames = shape.frame, buffer.frames()
+    if root not in frames or shape.stamp is None:
+        return root in frames
     try:
         for _ in range(len(frames)):
             parent = buffer.parent(root)
             if parent is None:
                 break
             root = parent
-        buffer.lookup_transform(root, one.frame, one.stamp)
+        buffer.lookup_transform(root, shape.frame, shape.stamp)
     except TransformException:
         return False
     return True

@@ -1,7 +1,7 @@
 """Drawable messages of a recording, topic by topic and within limits."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
@@ -10,23 +10,28 @@ from tftool.base.errors import InputError, TransformException
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.recordings.recording import Recording, open_recording
-from tftool.screens.browser.displays import cloud, path, point, scan
-from tftool.screens.browser.displays.shapes import MOST_POINTS, DrawnMessage
+from tftool.screens.browser.displays import cloud, markers, path, point, scan
+from tftool.screens.browser.displays.shapes import MOST_POINTS, Arrival, DrawnMessage, Shape
 from tftool.screens.browser.packing import PackedBlock
 from tftool.screens.browser.protocol import since
 
-Draw = Callable[[Any, int], DrawnMessage]
+Draw = Callable[[Any, Arrival], DrawnMessage]
 
-DISPLAYS: Final[dict[str, tuple[str, Draw]]] = {
-    one.TYPE: (one.KIND, one.draw) for one in (point, path, cloud, scan)
-}
-"""By the type of a message: what kind of shape it becomes, and how."""
+DISPLAYS: Final[dict[str, Draw]] = {
+    one.TYPE: one.draw for one in (point, path, cloud, scan, markers)
+} | {markers.SINGLE: markers.draw}
+"""By the type of a message: how it is drawn."""
+
+ACCUMULATED: Final = {markers.TYPE, markers.SINGLE}
+"""Types whose messages change what the ones before them showed: every message is drawn."""
 
 MOST_TOPICS: Final = 40
 """Topics that are drawn."""
 
+_MOST_FAULTS: Final = 10
+
 MILLIMETRE: Final = 1e-3
-"""To what the places of points are rounded."""
+"""To what the places of clouds are rounded; those of other shapes to a hundredth of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +59,6 @@ class DrawnTopic:
     Attributes:
         topic: Its name.
         type: Type of its messages.
-        kind: Shape of the drawing: "ball", "line" or "points".
         messages: In the order of their stamps.
         count: How many were recorded.
         faults: Faults of messages, each with its count.
@@ -62,10 +66,14 @@ class DrawnTopic:
 
     topic: str
     type: str
-    kind: str
     messages: list[DrawnMessage] = field(default_factory=list)
     count: int = 0
     faults: dict[str, int] = field(default_factory=dict)
+
+    def note(self, fault: str) -> None:
+        """Count a fault; of many different ones the first."""
+        if fault in self.faults or len(self.faults) < _MOST_FAULTS:
+            self.faults[fault] = self.faults.get(fault, 0) + 1
 
 
 def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
@@ -74,9 +82,8 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
     for topic in recording.topics:
         name = topic.type.replace("/msg/", "/").replace("/", "/msg/", 1)
         if name in DISPLAYS and topic.count and len(found) < MOST_TOPICS:
-            kind, draw = DISPLAYS[name]
-            track = DrawnTopic(topic.name, name, kind, count=topic.count)
-            _fill(track, recording, draw, limits)
+            track = DrawnTopic(topic.name, name, count=topic.count)
+            _fill(track, recording, limits)
             found.append(track)
     return found
 
@@ -87,23 +94,28 @@ def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
         return recorded_tracks(recording, limits)
 
 
-def _fill(track: DrawnTopic, recording: Recording, draw: Draw, limits: Limits) -> None:
-    every = 0
+def _fill(track: DrawnTopic, recording: Recording, limits: Limits) -> None:
+    draw, every = DISPLAYS[track.type], 0
+    last = None
     try:
-        for place, (_, message) in enumerate(recording.messages(track.topic)):
+        for place, (received, message) in enumerate(recording.messages(track.topic)):
             # The first message says how large they are.
-            if every and place % every:
+            is_kept = not every or place % every == 0
+            if not is_kept and track.type not in ACCUMULATED:
                 continue
             try:
-                one = draw(message, limits.points)
+                last = draw(message, Arrival(received, limits.points, last))
             except (InputError, ValueError, TypeError) as error:
-                track.faults[str(error)] = track.faults.get(str(error), 0) + 1
+                track.note(str(error))
                 every = every or 1
                 continue
-            every = every or max(1, -(-track.count * max(1, len(one.places)) // limits.all_points))
-            track.messages.append(one)
+            for fault in last.faults:
+                track.note(fault)
+            every = every or max(1, -(-track.count * max(1, last.count) // limits.all_points))
+            if is_kept:
+                track.messages.append(last)
     except InputError as error:
-        track.faults[str(error)] = track.faults.get(str(error), 0) + 1
+        track.note(str(error))
     track.messages.sort(key=lambda one: one.stamp)
 
 
@@ -118,7 +130,6 @@ def pack_tracks(
         {
             "topic": track.topic,
             "type": track.type,
-            "kind": track.kind,
             "count": track.count,
             "faults": [f"{text} ({count} messages)" for text, count in track.faults.items()],
             "messages": [_packed(block, one, buffer, epoch) for one in track.messages],
@@ -128,28 +139,48 @@ def pack_tracks(
 
 
 def _packed(block: PackedBlock, one: DrawnMessage, buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
-    wholes = np.rint(one.places.astype(np.float64) / MILLIMETRE).astype(np.int64)
-    root, pose = _placed(one, buffer)
     return {
         "stamp": since(epoch, one.stamp),
-        "frame": one.frame,
-        "root": root,
-        "pose": pose,
-        "count": len(wholes),
-        "places": [block.wholes(wholes[:, axis], MILLIMETRE) for axis in range(3)],
+        "shapes": [_packed_shape(block, shape, buffer, epoch) for shape in one.shapes],
     }
 
 
-def _placed(one: DrawnMessage, buffer: Buffer) -> tuple[str | None, list[float] | None]:
-    """Return the root above a message's frame at its stamp, and the frame's pose in it."""
-    root: str = one.frame
+def _packed_shape(block: PackedBlock, shape: Shape, buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
+    step = MILLIMETRE if shape.kind == "points" else MILLIMETRE / 100.0
+    places = np.rint(shape.places.astype(np.float64) / step).astype(np.int64)
+    root, pose = place(shape, buffer).placement or (None, None)
+    packed: dict[str, Any] = {
+        "kind": shape.kind,
+        "frame": shape.frame,
+        "root": root,
+        "pose": pose,
+        "count": len(places),
+        "places": [block.wholes(places[:, axis], step) for axis in range(3)],
+    }
+    if shape.colors is not None:
+        shares = shape.colors.astype(np.int64)
+        packed["colors"] = [block.wholes(shares[:, part]) for part in range(4)]
+        packed |= {"turn": [*shape.turn], "size": [*shape.size], "text": shape.text}
+    if shape.until is not None:
+        packed["until"] = since(epoch, shape.until)
+    return packed
+
+
+def place(shape: Shape, buffer: Buffer) -> Shape:
+    """Return the shape with the pose of its frame at its stamp, looked up once."""
+    if shape.placement is not None:
+        return shape
+    unknown = replace(shape, placement=(None, None))
+    if shape.stamp is None:
+        return unknown
+    root: str = shape.frame
     try:
         for _ in range(len(buffer.frames())):
-            parent = buffer.parent(root, one.stamp)
+            parent = buffer.parent(root, shape.stamp)
             if parent is None:
                 break
             root = parent
-        pose = buffer.lookup_transform(root, one.frame, one.stamp).transform
+        pose = buffer.lookup_transform(root, shape.frame, shape.stamp).transform
     except TransformException:
-        return None, None
-    return root, [*pose.translation, *pose.rotation]
+        return unknown
+    return replace(shape, placement=(root, [*pose.translation, *pose.rotation]))

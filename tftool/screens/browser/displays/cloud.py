@@ -5,15 +5,14 @@ from typing import Any, Final
 import numpy as np
 
 from tftool.base.errors import InputError
-from tftool.screens.browser.displays.shapes import DrawnMessage, drawn
+from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, drawn
 
 TYPE: Final = "sensor_msgs/msg/PointCloud2"
-KIND: Final = "points"
 
 _FORMATS: Final = {7: "f4", 8: "f8"}
 
 
-def draw(message: Any, most: int) -> DrawnMessage:
+def draw(message: Any, arrival: Arrival) -> DrawnMessage:
     """Return the points.
 
     Raises:
@@ -39,4 +38,4 @@ def draw(message: Any, most: int) -> DrawnMessage:
     )
     points = np.ndarray((height, width), kind, data, strides=(row, step)).reshape(-1)
     places = np.stack([points[name] for name in "xyz"], axis=1)
-    return drawn(message.header, places, most)
+    return drawn("points", message.header, places, arrival.most)

@@ -4,13 +4,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from tftool.screens.browser.displays.shapes import DrawnMessage, drawn
+from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, drawn
 
 TYPE: Final = "geometry_msgs/msg/PointStamped"
-KIND: Final = "ball"
 
 
-def draw(message: Any, most: int) -> DrawnMessage:
+def draw(message: Any, arrival: Arrival) -> DrawnMessage:
     """Return the position."""
     point = message.point
-    return drawn(message.header, np.array([(point.x, point.y, point.z)]), most)
+    return drawn("ball", message.header, np.array([(point.x, point.y, point.z)]), arrival.most)

@@ -4,17 +4,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from tftool.screens.browser.displays.shapes import DrawnMessage, drawn
+from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, drawn
 
 TYPE: Final = "sensor_msgs/msg/LaserScan"
-KIND: Final = "points"
 
 
-def draw(message: Any, most: int) -> DrawnMessage:
+def draw(message: Any, arrival: Arrival) -> DrawnMessage:
     """Return the ends of rays that hit something: ranges from its minimum to its maximum."""
     ranges = np.asarray(message.ranges, dtype=np.float64)
     angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
     hit = (ranges >= message.range_min) & (ranges <= message.range_max)
     ranges, angles = ranges[hit], angles[hit]
     places = np.stack((ranges * np.cos(angles), ranges * np.sin(angles), 0.0 * ranges), axis=1)
-    return drawn(message.header, places, most)
+    return drawn("points", message.header, places, arrival.most)

@@ -1,18 +1,61 @@
-"""Result of every display: positions in one frame at one time."""
+"""Result of every display: shapes, each in a frame of its own."""
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from tftool.base.stamps import NANOSECONDS, Stamp
+from tftool.geometry.rigid import Quaternion, Vector3
 
 Places = npt.NDArray[np.float32]
-"""Metres in the frame of the message, shape (n, 3)."""
+"""Metres in the frame of the shape, shape (n, 3)."""
 
-MOST_POINTS = 200_000
-"""Points of one message that are drawn; of more, every second one, or every third."""
+MOST_POINTS: Final = 200_000
+"""Points of one shape that are drawn; of more, every second one, or every third."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shape:
+    """One shape of a message.
+
+    Attributes:
+        kind: How the page draws it: the name of a function in `page/displays/`.
+        frame: Frame of its positions.
+        stamp: When its frame is looked up, nanoseconds, 0 for the latest; None if the shape moves
+            with its frame.
+        places: Positions, all finite.
+        colors: Red, green, blue and opacity of each position, 0 to 255, shape (n, 4); None for
+            the colour of the topic.
+        turn: Orientation of what is drawn at each position.
+        size: Extent of what is drawn at each position, metres along its own axes.
+        text: Its words.
+        key: Its name within its topic; a later shape of the same name replaces it.
+        until: When it disappears, nanoseconds; None for never.
+        placement: Root above its frame at its stamp, and the frame's pose in it: translation and
+            rotation; None each if unknown. None before the lookup.
+    """
+
+    kind: str
+    frame: str
+    stamp: Stamp | None
+    places: Places
+    colors: npt.NDArray[np.uint8] | None = None
+    turn: Quaternion = Quaternion(0.0, 0.0, 0.0, 1.0)  # noqa: RUF009 - is frozen
+    size: Vector3 = Vector3(1.0, 1.0, 1.0)  # noqa: RUF009 - is frozen
+    text: str = ""
+    key: str = ""
+    until: Stamp | None = None
+    placement: tuple[str | None, list[float] | None] | None = None
+
+    def thinned(self, most: int) -> "Shape":
+        """Return the shape with at most `most` positions if it is a cloud of points or a line."""
+        if self.kind not in ("points", "line") or len(self.places) <= most:
+            return self
+        every = -(-len(self.places) // most)
+        colors = None if self.colors is None else self.colors[::every]
+        return replace(self, places=self.places[::every], colors=colors)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -21,24 +64,54 @@ class DrawnMessage:
 
     Attributes:
         stamp: Its moment, nanoseconds.
-        frame: Frame of its positions.
-        places: Their positions, all finite.
+        shapes: Everything its topic shows from then on.
+        faults: Reasons why parts of the message are not drawn.
     """
 
     stamp: Stamp
-    frame: str
-    places: Places
+    shapes: tuple[Shape, ...]
+    faults: tuple[str, ...] = ()
+
+    @property
+    def count(self) -> int:
+        """Number of positions of all shapes."""
+        return sum(len(shape.places) for shape in self.shapes)
+
+    def thinned(self, most: int) -> "DrawnMessage":
+        """Return the message with at most `most` positions in each cloud of points or line."""
+        return replace(self, shapes=tuple(shape.thinned(most) for shape in self.shapes))
 
 
-def thinned(places: Places, most: int) -> Places:
-    """Return at most `most` positions: all, every second, every third, and so on."""
-    return places[:: max(1, -(-len(places) // most))]
+@dataclass(frozen=True, slots=True)
+class Arrival:
+    """Facts about a message that a display may use besides it.
+
+    Attributes:
+        stamp: When the message arrived, nanoseconds.
+        most: How many positions of a cloud of points are drawn.
+        before: The message that the topic showed until now; None before the first.
+    """
+
+    stamp: Stamp
+    most: int = MOST_POINTS
+    before: DrawnMessage | None = None
 
 
-def drawn(header: Any, places: npt.NDArray[Any], most: int = MOST_POINTS) -> DrawnMessage:
-    """Return the finite positions, thinned to at most `most`."""
+def drawn(kind: str, header: Any, places: npt.NDArray[Any], most: int) -> DrawnMessage:
+    """Return a message of one shape: the finite positions, points thinned to at most `most`."""
     places = np.asarray(places, dtype=np.float32).reshape(-1, 3)
     places = places[np.isfinite(places).all(axis=1)]
-    places = thinned(places, most)
-    stamp = header.stamp.sec * NANOSECONDS + header.stamp.nanosec
-    return DrawnMessage(stamp, header.frame_id.removeprefix("/"), places)
+    stamp = stamp_of(header)
+    return DrawnMessage(stamp, (Shape(kind, frame_of(header), stamp, places).thinned(most),))
+
+
+def stamp_of(header: Any) -> Stamp:
+    """Return the nanoseconds of a header."""
+    stamp: Stamp = header.stamp.sec * NANOSECONDS + header.stamp.nanosec
+    return stamp
+
+
+def frame_of(header: Any) -> str:
+    """Return the frame of a header, without the leading slash of tf 1."""
+    frame: str = header.frame_id
+    return frame.removeprefix("/")

@@ -1,13 +1,14 @@
 // @ts-check
-// Points, paths, clouds and scans in the picture, and the switches for them.
+// Points, paths, clouds, scans and markers in the picture, and the switches for them.
 import { Group, Quaternion, Vector3 } from "three";
 import { ball } from "./displays/ball.js";
-import { line } from "./displays/line.js";
+import { line, segments } from "./displays/line.js";
+import { box, cone, cylinder, sphere, triangles, words } from "./displays/markers.js";
 import { points } from "./displays/points.js";
 import { compose } from "./maths.js";
 import { $ } from "./panels.js";
 
-const SHAPES = { ball, line, points };
+const SHAPES = { ball, box, cone, cylinder, line, points, segments, sphere, triangles, words };
 const COLORS = ["#00a2c7", "#d6409f", "#f76b15", "#8e4ec6", "#46a758", "#c2a400"];
 
 export class Displays {
@@ -21,7 +22,7 @@ export class Displays {
     this.toggle = toggle;
     this.group = new Group();
     scene.add(this.group);
-    /** @type {Map<string, { message: import("./tracks.js").Message, shape: any, trouble: string }>} */
+    /** @type {Map<string, { message: import("./tracks.js").Message, parts: any[], trouble: string }>} */
     this.shown = new Map();
     /** @type {Map<string, HTMLElement>} */
     this.switches = new Map();
@@ -29,39 +30,45 @@ export class Displays {
 
   /**
    * Put every topic's message where it was.
-   * @param {number | null} moment
+   * @param {number | null} moment null for the present
    * @param {import("./model.js").Model} model solved for the fixed frame
    * @param {Set<string>} undrawn topics that are switched off
    */
   place(moment, model, undrawn) {
-    for (const [topic, { shape }] of this.shown) if (!this.tracks.topics.has(topic)) this.drop(topic, shape);
+    for (const topic of [...this.shown.keys()]) if (!this.tracks.topics.has(topic)) this.drop(topic);
+    const now = moment ?? model.poses?.now ?? -Infinity;
     let color = 0;
-    for (const { topic, kind } of this.tracks.topics.values()) {
+    for (const { topic } of this.tracks.topics.values()) {
       const message = this.tracks.at(topic, moment);
       const tint = COLORS[color++ % COLORS.length];
-      let one = this.shown.get(topic);
-      if (one && one.message !== message) {
-        this.drop(topic, one.shape);
-        one = undefined;
-      }
+      if (this.shown.get(topic)?.message !== message) this.drop(topic);
       if (!message) continue;
+      let one = this.shown.get(topic);
       if (!one) {
-        const shape = SHAPES[kind](message.places(), tint);
-        shape.matrixAutoUpdate = false;
-        shape.frustumCulled = false;
-        this.group.add(shape);
-        one = { message, shape, trouble: "" };
+        one = { message, parts: message.shapes.map((shape) => this.made(shape, tint)), trouble: "" };
         this.shown.set(topic, one);
       }
-      const pose = whereIs(message, model);
-      one.trouble = pose ? "" : `no transform from [${message.frame}] to the fixed frame`;
-      one.shape.visible = pose !== null && !undrawn.has(topic);
-      if (pose) {
+      one.trouble = "";
+      one.parts.forEach((part, index) => {
+        const shape = message.shapes[index];
+        const pose = whereIs(shape, model);
+        if (!pose) one.trouble = `no transform from [${shape.frame}] to the fixed frame`;
+        part.visible = pose !== null && !undrawn.has(topic) && now < shape.until;
+        if (!pose) return;
         const [place, turn] = [new Vector3().fromArray(pose, 0), new Quaternion().fromArray(pose, 3)];
-        one.shape.matrix.compose(place, turn, new Vector3(1, 1, 1));
-        one.shape.matrixWorldNeedsUpdate = true;
-      }
+        part.matrix.compose(place, turn, new Vector3(1, 1, 1));
+        part.matrixWorldNeedsUpdate = true;
+      });
     }
+  }
+
+  /** @param {import("./tracks.js").Shape} shape */
+  made(shape, tint) {
+    const part = SHAPES[shape.kind](shape, tint);
+    part.matrixAutoUpdate = false;
+    part.traverse((one) => (one.frustumCulled = false));
+    this.group.add(part);
+    return part;
   }
 
   /**
@@ -71,33 +78,46 @@ export class Displays {
   pick(ray) {
     /** @type {any} */
     let best = null;
-    for (const { message, shape } of this.shown.values()) {
-      if (!shape.visible) continue;
-      shape.updateMatrixWorld();
-      for (const { point, distance, index } of ray.intersectObject(shape, false)) {
-        // Of a cloud, three.js returns the place on the ray that is nearest to the point.
-        const { position } = shape.geometry.attributes;
-        if (shape.type === "Points" && index !== undefined) point.fromBufferAttribute(position, index).applyMatrix4(shape.matrixWorld);
-        if (!best || distance < best.distance) best = { frame: message.root ?? message.frame, point: point.toArray(), distance };
-      }
+    for (const { message, parts } of this.shown.values()) {
+      parts.forEach((part, at) => {
+        if (!part.visible) return;
+        part.updateMatrixWorld();
+        for (const { point, distance, index } of ray.intersectObject(part, true)) {
+          // Of a cloud, three.js returns the place on the ray that is nearest to the point.
+          if (part.type === "Points" && index !== undefined) {
+            point.fromBufferAttribute(part.geometry.attributes.position, index).applyMatrix4(part.matrixWorld);
+          }
+          const { root, frame } = message.shapes[at];
+          if (!best || distance < best.distance) best = { frame: root ?? frame, point: point.toArray(), distance };
+        }
+      });
     }
     return best;
   }
 
-  drop(topic, shape) {
-    this.group.remove(shape);
-    shape.geometry.dispose();
-    shape.material.dispose();
+  /** @param {string} topic */
+  drop(topic) {
+    for (const part of this.shown.get(topic)?.parts ?? []) {
+      this.group.remove(part);
+      part.traverse((one) => {
+        one.geometry?.dispose();
+        one.material?.map?.dispose();
+        one.material?.dispose();
+        one.dispose?.(); // the matrices of many solids
+      });
+    }
     this.shown.delete(topic);
   }
 
-  /** What is in the picture, by topic: how many places, and its message's stamp. */
+  /** What is in the picture, by topic: its message's stamp, how many places, and the kinds of shapes. */
   drawn() {
     const found = {};
-    for (const [topic, { message, shape }] of this.shown) {
-      if (!shape.visible) continue;
-      const first = new Vector3().fromArray(message.places(), 0).applyMatrix4(shape.matrix).toArray();
-      found[topic] = { count: message.places().length / 3, stamp: message.stamp, kind: shape.type, first };
+    for (const [topic, { message, parts }] of this.shown) {
+      const seen = message.shapes.filter((_, at) => parts[at].visible);
+      if (!seen.length) continue;
+      const first = new Vector3().fromArray(seen[0].places(), 0).applyMatrix4(parts[message.shapes.indexOf(seen[0])].matrix).toArray();
+      const count = seen.reduce((sum, shape) => sum + shape.count, 0);
+      found[topic] = { count, stamp: message.stamp, kinds: seen.map(({ kind }) => kind), first };
     }
     return found;
   }
@@ -130,8 +150,8 @@ export class Displays {
 }
 
 /**
- * Where a message's frame was in the fixed frame, at its own stamp where that is known.
- * @param {import("./tracks.js").Message} message
+ * Where a shape's frame was in the fixed frame, at its own stamp where that is known.
+ * @param {import("./tracks.js").Shape} shape
  * @param {import("./model.js").Model} model
  */
 function whereIs({ frame, root, pose }, model) {

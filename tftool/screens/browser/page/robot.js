@@ -84,8 +84,8 @@ export class Robot {
     above.position.set(0, 0, 1);
     const sun = new DirectionalLight("#ffffff", 1.6);
     sun.position.set(-3, -4, 8);
-    this.group.add(above, sun, sun.target);
-    scene.add(this.group);
+    // Of the scene, as markers are lit too where no robot is shown.
+    scene.add(above, sun, sun.target, this.group);
     this.shadow = shade();
     scene.add(this.shadow);
     /** @type {Box3 | null} around its shapes, in the frame they were drawn in first */

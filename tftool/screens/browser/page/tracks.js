@@ -5,13 +5,36 @@ const MOST_KEPT = 200; // messages of a topic that goes on
 const MOST_PLACES = 600_000; // of all of them together
 
 /**
- * @typedef {{ stamp: number, frame: string, root: string | null, pose: number[] | null, count: number,
- *   places: import("./packed.js").Column[] }} PackedMessage
- * @typedef {{ topic: string, type: string, kind: "ball" | "line" | "points", count: number, faults: string[],
- *   messages: PackedMessage[] }} PackedTrack
- * @typedef {{ stamp: number, frame: string, root: string | null, pose: number[] | null, count: number, places(): Float32Array }} Message
- * @typedef {{ topic: string, type: string, kind: "ball" | "line" | "points", faults: string[], whole: boolean, messages: Message[] }} Track
+ * @typedef {{ kind: string, frame: string, root: string | null, pose: number[] | null, count: number,
+ *   places: import("./packed.js").Column[], colors?: import("./packed.js").Column[], turn?: number[], size?: number[],
+ *   text?: string, until?: number }} PackedShape
+ * @typedef {{ stamp: number, shapes: PackedShape[] }} PackedMessage
+ * @typedef {{ topic: string, type: string, count: number, faults: string[], messages: PackedMessage[] }} PackedTrack
+ * @typedef {{ kind: string, frame: string, root: string | null, pose: number[] | null, count: number, until: number,
+ *   turn: number[], size: number[], text: string, places(): Float32Array, colors(): Float32Array | null }} Shape
+ * @typedef {{ stamp: number, count: number, shapes: Shape[] }} Message
+ * @typedef {{ topic: string, type: string, faults: string[], whole: boolean, messages: Message[] }} Track
  */
+
+/**
+ * Columns side by side, row by row; read when they are first looked at.
+ * @param {import("./packed.js").Column[]} columns
+ * @param {number} count
+ * @param {import("./packed.js").Packed} packed
+ */
+function rows(columns, count, packed, scale = 1) {
+  /** @type {Float32Array | null} */
+  let known = null;
+  const unpack = () => {
+    const found = new Float32Array(columns.length * count);
+    columns.forEach((column, place) => {
+      const numbers = packed.fresh(column, count);
+      for (let at = 0; at < count; at++) found[columns.length * at + place] = numbers[at] * scale;
+    });
+    return found;
+  };
+  return () => (known ??= unpack());
+}
 
 /**
  * A message whose places are unpacked when it is first looked at.
@@ -19,18 +42,17 @@ const MOST_PLACES = 600_000; // of all of them together
  * @param {import("./packed.js").Packed} packed
  * @returns {Message}
  */
-function opened({ stamp, frame, root, pose, count, places }, packed) {
-  /** @type {Float32Array | null} */
-  let known = null;
-  const unpack = () => {
-    const columns = places.map((column) => packed.fresh(column, count));
-    const found = new Float32Array(3 * count);
-    columns.forEach((column, axis) => {
-      for (let at = 0; at < count; at++) found[3 * at + axis] = column[at];
-    });
-    return found;
-  };
-  return { stamp, frame, root, pose, count, places: () => (known ??= unpack()) };
+function opened({ stamp, shapes }, packed) {
+  const made = shapes.map(({ places, colors, ...rest }) => ({
+    until: Infinity,
+    turn: [0, 0, 0, 1],
+    size: [1, 1, 1],
+    text: "",
+    ...rest,
+    places: rows(places, rest.count, packed),
+    colors: colors ? rows(colors, rest.count, packed, 1 / 255) : () => null,
+  }));
+  return { stamp, count: made.reduce((sum, { count }) => sum + count, 0), shapes: made };
 }
 
 /**
@@ -61,9 +83,9 @@ export class Tracks {
    * @param {boolean} whole whether these are all there are
    */
   take(tracks, packed, whole) {
-    for (const { topic, type, kind, faults, messages } of tracks) {
+    for (const { topic, type, faults, messages } of tracks) {
       const known = this.topics.get(topic);
-      const track = known && !whole ? known : { topic, type, kind, faults, whole, messages: [] };
+      const track = known && !whole ? known : { topic, type, faults, whole, messages: [] };
       this.topics.set(topic, track);
       track.faults = faults;
       // What comes last is shown in the present, whatever its stamp: time may have begun anew.

@@ -1,12 +1,10 @@
 // @ts-check
 // One place, of a point, as a dot that is seen from any distance.
-import { BufferAttribute, BufferGeometry, Points, PointsMaterial } from "three";
+import { Points, PointsMaterial } from "three";
+import { geometry } from "./points.js";
 
 const SIZE = 12; // pixels
 
-/** @param {Float32Array} places */
-export function ball(places, color) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(places, 3));
-  return new Points(geometry, new PointsMaterial({ size: SIZE, sizeAttenuation: false, color }));
-}
+/** @param {import("../tracks.js").Shape} shape */
+export const ball = (shape, color) =>
+  new Points(geometry(shape), new PointsMaterial({ size: SIZE, sizeAttenuation: false, color }));

@@ -1,10 +1,10 @@
 // @ts-check
-// A line through places, of a path.
-import { BufferAttribute, BufferGeometry, Line, LineBasicMaterial } from "three";
+// A line through places, of a path or a marker; pairs of places, each a line.
+import { Line, LineBasicMaterial, LineSegments } from "three";
+import { geometry, ink } from "./points.js";
 
-/** @param {Float32Array} places */
-export function line(places, color) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(places, 3));
-  return new Line(geometry, new LineBasicMaterial({ color }));
-}
+/** @param {import("../tracks.js").Shape} shape */
+export const line = (shape, color) => new Line(geometry(shape), new LineBasicMaterial(ink(shape, color)));
+
+/** @param {import("../tracks.js").Shape} shape */
+export const segments = (shape, color) => new LineSegments(geometry(shape), new LineBasicMaterial(ink(shape, color)));

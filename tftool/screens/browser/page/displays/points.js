@@ -1,14 +1,46 @@
 // @ts-check
-// Many points, of a cloud or a scan, coloured by their height where they have one.
-import { BufferAttribute, BufferGeometry, Color, Points, PointsMaterial } from "three";
+// Many points, of a cloud or a scan, coloured by their height where they have one and no colours.
+import { BufferAttribute, BufferGeometry, Color, Points, PointsMaterial, SRGBColorSpace } from "three";
 
 const SIZE = 3; // pixels
 const FLAT = 0.05; // metres
 
-/** @param {Float32Array} places */
-export function points(places, color) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(places, 3));
+/**
+ * A colour of a message, which a screen shows as it is.
+ * @param {Float32Array} colors
+ */
+export const shade = (colors, at = 0) => new Color().setRGB(colors[at], colors[at + 1], colors[at + 2], SRGBColorSpace);
+
+/**
+ * The places of a shape, and their colours if it has any.
+ * @param {import("../tracks.js").Shape} shape
+ */
+export function geometry(shape) {
+  const made = new BufferGeometry();
+  made.setAttribute("position", new BufferAttribute(shape.places(), 3));
+  const colors = shape.colors();
+  if (!colors) return made;
+  const light = Float32Array.from(colors);
+  for (let at = 0; at < light.length; at += 4) shade(colors, at).toArray(light, at);
+  made.setAttribute("color", new BufferAttribute(light, 4));
+  return made;
+}
+
+/**
+ * What a material needs for the colours of a shape, or for the one of its topic.
+ * @param {import("../tracks.js").Shape} shape
+ */
+export function ink(shape, color) {
+  const colors = shape.colors();
+  return colors ? { vertexColors: true, transparent: colors.some((share, at) => at % 4 === 3 && share < 1) } : { color };
+}
+
+/** @param {import("../tracks.js").Shape} shape */
+export function points(shape, color) {
+  const made = geometry(shape);
+  const size = { size: SIZE, sizeAttenuation: false };
+  if (shape.colors()) return new Points(made, new PointsMaterial({ ...size, ...ink(shape, color) }));
+  const places = shape.places();
   let [least, most] = [Infinity, -Infinity];
   for (let at = 2; at < places.length; at += 3) {
     least = Math.min(least, places[at]);
@@ -21,9 +53,9 @@ export function points(places, color) {
     for (let at = 0; at < places.length; at += 3) {
       one.setHSL(0.7 * (1 - (places[at + 2] - least) / (most - least)), 0.9, 0.5).toArray(colors, at);
     }
-    geometry.setAttribute("color", new BufferAttribute(colors, 3));
+    made.setAttribute("color", new BufferAttribute(colors, 3));
   }
-  const material = new PointsMaterial({ size: SIZE, sizeAttenuation: false, vertexColors: high });
+  const material = new PointsMaterial({ ...size, vertexColors: high });
   if (!high) material.color.set(color);
-  return new Points(geometry, material);
+  return new Points(made, material);
 }
