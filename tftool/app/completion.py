@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from tftool.app.index import COMMANDS
 from tftool.base.errors import InputError, TftoolError, UsageError
 
 if TYPE_CHECKING:
@@ -96,8 +97,6 @@ def offers(words: Sequence[str]) -> list[Offer]:
     Args:
         words: The words after `tftool`; the last is the one that is being typed.
     """
-    from tftool.app.index import COMMANDS
-
     *before, current = words
     if not before:
         root = {**COMMANDS, **dict.fromkeys(("--version", "--help", "--install-completion"), "")}

@@ -4,6 +4,8 @@ import math
 import os
 import re
 import shutil
+import signal
+import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from inspect import cleandoc
@@ -11,7 +13,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import typer
-from typer.core import TyperCommand, TyperGroup
+from typer.core import TyperCommand, TyperGroup, TyperOption
 from typer.main import get_command
 
 from tftool.app.index import COMMANDS, GROUPS, load
@@ -47,8 +49,6 @@ class Shown:
 def _page(text: str) -> None:
     """Show a text in the user's pager or in less; print it if neither exists."""
     import shlex
-    import signal
-    import subprocess
 
     command = shlex.split(os.environ.get("PAGER") or "less")
     if shutil.which(command[0]) is None:
@@ -240,8 +240,6 @@ def _help_session() -> Any:
 
 
 def _option(callback: Callable[..., None], names: Sequence[str], text: str) -> Any:
-    from typer.core import TyperOption
-
     return TyperOption(
         param_decls=[*names, _SESSION],
         is_flag=True,

@@ -2,6 +2,12 @@
 
 from typing import TYPE_CHECKING, Any
 
+from rich.console import Group
+from rich.measure import Measurement
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
 from tftool.base.escaping import MOST_LINES, visible, visible_lines
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp
 from tftool.doctor.explanation import Explanation
@@ -26,11 +32,6 @@ _WORDS = {
 
 def render(found: Explanation) -> "RenderableType":
     """Yield the views of an explanation: lookup, tf2's answer, links, cause, remedies."""
-    from rich.console import Group
-    from rich.padding import Padding
-    from rich.table import Table
-    from rich.text import Text
-
     facts = Table.grid(padding=(0, 2), pad_edge=False)
     facts.add_column(no_wrap=True)
     facts.add_column(overflow="fold")
@@ -63,16 +64,12 @@ def render(found: Explanation) -> "RenderableType":
 
 def so_far(found: Explanation) -> "list[Text]":
     """Return in lines whether a lookup answers, and why not, while more may follow."""
-    from rich.text import Text
-
     line = Text(visible(f"so far: {found.source} in {found.target} "))
     line.append(*(("answers", "green") if found.available else ("is refused", "bold red")))
     return [line, *(Text(visible(f"        {why}")) for why in found.why)]
 
 
 def _headline(found: Explanation) -> "Text":
-    from rich.text import Text
-
     when = "at the latest" if not found.stamp else f"at {_exactly(found.stamp)}"
     line = Text(visible(f"{found.source} in {found.target} {when}: "))
     if found.available:
@@ -106,11 +103,6 @@ class _Links:
     def __rich_console__(
         self, console: "Console", options: "ConsoleOptions"
     ) -> "Iterator[RenderableType]":
-        from rich.measure import Measurement
-        from rich.padding import Padding
-        from rich.table import Table
-        from rich.text import Text
-
         rows = self._rows()
         table = Table.grid(padding=(0, 2), pad_edge=False)
         for row in rows:
@@ -125,8 +117,6 @@ class _Links:
             yield Padding(says, (0, 0, 0, 2))
 
     def _rows(self) -> "list[tuple[Text, ...]]":
-        from rich.text import Text
-
         found = self._found
         base = _base(found)
         at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"

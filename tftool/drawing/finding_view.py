@@ -1,10 +1,16 @@
 """Views of a diagnosis: for terminals, programs, issue trackers, build servers."""
 
 from collections.abc import Sequence
+from re import sub
+from string import Formatter
 from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from rich import box
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
 
 from tftool.base.counts import count
 from tftool.base.escaping import visible
@@ -41,7 +47,6 @@ _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE
 def render(diagnosis: Diagnosis, *, verbose: bool = False) -> "RenderableType":
     """Return one source's report: the input, findings, areas in order, counts."""
     from rich.console import Group
-    from rich.text import Text
 
     parts: list[RenderableType] = [Text(visible(head(diagnosis.model)), "bold")]
     if diagnosis.model.reference:
@@ -71,8 +76,6 @@ def so_far(diagnosis: Diagnosis) -> "list[Text]":
 
 
 def _first_line(finding: Finding, *, verbose: bool = False) -> "Text":
-    from rich.text import Text
-
     line = Text(finding.severity.value, _STYLES[finding.severity])
     line.append(f"  {finding.id}", "bold")
     if finding.confidence is not Confidence.CERTAIN or verbose:
@@ -81,10 +84,6 @@ def _first_line(finding: Finding, *, verbose: bool = False) -> "Text":
 
 
 def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
-    from rich.padding import Padding
-    from rich.table import Table
-    from rich.text import Text
-
     line = _first_line(finding, verbose=verbose)
     if finding.known:
         line.append(" (in the baseline)", "dim")
@@ -221,10 +220,6 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
 
 def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
     """Return several sources in a table: findings of each, or why it was unreadable."""
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
-
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("source", overflow="fold")
     for severity in Severity:
@@ -250,10 +245,6 @@ def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
 
 def statistics(model: Model) -> "Table":
     """Return every edge and topic: rate, latency, and largest gap."""
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
-
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("transform or topic", overflow="fold")
     for column in ("kind", "count", "rate", "latency p50", "p95", "worst gap"):
@@ -289,10 +280,6 @@ def _numbers(stream: Stream, *, timed: bool) -> tuple[str, str, str, str]:
 
 def listing() -> "Table":
     """Return every check in a line."""
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
-
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     for column in ("id", "area", "severity"):
         table.add_column(column, no_wrap=True)
@@ -387,15 +374,11 @@ def _paragraphs(check: Check) -> list[str]:
 
 def _marked(text: str) -> str:
     """Escape a text for Markdown."""
-    from re import sub
-
     return sub(r"([\\`*_<>\[\]|])", r"\\\1", text)
 
 
 def _general(text: str) -> str:
     """Return a check's text with the facts' names in place of their values."""
-    from string import Formatter
-
     parts = []
     for literal, name, spec, _ in Formatter().parse(text):
         parts.append(literal)

@@ -12,6 +12,7 @@ from itertools import zip_longest
 from types import MappingProxyType
 from typing import Any, NamedTuple, TypeAlias
 
+import yaml
 from rich.cells import cell_len
 from rich.text import Text
 
@@ -164,8 +165,6 @@ def _yaml_entry(info: FrameInfo) -> str:
     if _plain(info.frame) and all(told.values()):
         # PyYAML takes 200 µs for it: seconds, where there are many.
         return f"{info.frame}:\n" + "".join(f"  {key}: {text}\n" for key, text in told.items())
-    import yaml
-
     return str(yaml.safe_dump({info.frame: entry}, sort_keys=False, allow_unicode=True, width=4096))
 
 

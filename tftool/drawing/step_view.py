@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from rich.table import Table
+from rich.text import Text
 
 from tftool.base.escaping import visible
 from tftool.base.stamps import as_seconds
@@ -19,9 +21,6 @@ SCHEMA = "tftool.steps/1"
 
 def render(model: Model, steps: Sequence[LocalisationStep]) -> "RenderableType":
     """Return a table of jumps: time, edge, size, and the drift since the last."""
-    from rich.table import Table
-    from rich.text import Text
-
     if not steps:
         return Text(visible(f"{model.evidence.name}: no steps"))
     table = Table(box=None, pad_edge=False, title_justify="left", title_style="bold")

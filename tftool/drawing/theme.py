@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from rich.style import Style
+
 from tftool.base.color import Color
 from tftool.base.stamps import FRAME_TIMEOUT
 
@@ -65,8 +67,6 @@ def hexadecimal(color: Color) -> str:
 
 def ink(color: Color, *, bold: bool = False) -> "Style":
     """Return the style of text in a colour."""
-    from rich.style import Style
-
     return Style(color=hexadecimal(color), bold=bold or None)
 
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from tftool.base.counts import count
 from tftool.base.escaping import visible
+from tftool.recordings.odometry import implying
 
 if TYPE_CHECKING:
     from tftool.recordings.description_frames import DescribedFrames
@@ -24,8 +25,6 @@ def recording_notes(recording: "Recording") -> list[str]:
 
 def odometry_notes(recording: "Recording") -> Iterator[str]:
     """Return notes on messages that count as transforms, or could."""
-    from tftool.recordings.odometry import implying
-
     for topic in recording.odometry:
         messages = count(topic.count, "message")
         yield f"'{topic.name}' ({topic.type}, {messages}) is taken for transforms."

@@ -5,6 +5,7 @@ A launch file in Python is looked at as text: what it computes is not known, and
 
 import ast
 import re
+import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -191,8 +192,6 @@ def _of_yaml(text: str, name: str) -> Iterator[Publisher]:
 
 
 def _of_python(text: str, name: str) -> Iterator[Publisher]:
-    import shlex
-
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import ScenarioError
+from tftool.frames.transform_log import TransformLog
 from tftool.scenario import units as values
 from tftool.scenario.document import Document, Node, text_of
 from tftool.scenario.fields import Key, Reading, Unreadable, quoted, suggest
@@ -124,8 +125,6 @@ def _parsed(text: str, name: str) -> DoctorRules:
 
 def heard_in(world: World) -> "tuple[TransformLog, list[Callable[[], None]]]":
     """Record a world's transforms; return the record, and a function that ends it."""
-    from tftool.frames.transform_log import TransformLog
-
     hearing = TransformLog()
 
     def hear(message: TransformMessage, *, is_static: bool) -> None:

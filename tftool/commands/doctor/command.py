@@ -12,7 +12,9 @@ from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.doctor import FailOn
 from tftool.commands.doctor.baseline import Baseline
+from tftool.commands.fleet import fleet, fleet_tasks
 from tftool.commands.fleet.fleet import expanded
+from tftool.commands.fleet.workers import workers_of
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.evidence_sources import evidence_from, rules_of
@@ -284,9 +286,6 @@ def _sweep(
     fails: Severity | None,
 ) -> ExitStatus:
     """Write rows for each recording; return the worst exit status."""
-    from tftool.commands.fleet import fleet, fleet_tasks
-    from tftool.commands.fleet.workers import workers_of
-
     refuse_unknown(settings, selection.select, selection.ignore)
     task = fleet_tasks.Examination(settings, selection.select, selection.ignore, scope)
     workers = workers_of(rows.processes, rows.scheduler)

@@ -4,6 +4,8 @@ import asyncio
 import contextlib
 from collections.abc import Callable
 
+from rich.text import Text
+
 from tftool.base.errors import TransformException
 from tftool.base.stamps import Duration, Stamp
 from tftool.buffer.buffer import Buffer
@@ -87,8 +89,6 @@ class LivePrinter:
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
         """Show an error, as far as there is room."""
         self._shown = None
-        from rich.text import Text
-
         words = view.in_words(self.pair.target, self.pair.source)
         told = view.failure(now, refusal, buffer.all_frames_as_string()).rstrip()
         text = Text().append(f"{words}\n", style="bold").append(told, style="yellow")

@@ -26,7 +26,10 @@ from tftool.commands.fleet.fleet_tasks import NONE_FOUND, UNREADABLE, FleetTask
 from tftool.commands.fleet.rows import Row, RowFile
 from tftool.commands.fleet.workers import Processes, Workers
 from tftool.commands.shared.notices import notice
+from tftool.opener import named
 from tftool.recordings.containers import SUFFIXES
+from tftool.recordings.find import METADATA, Kind, kind_of_file
+from tftool.recordings.remote_files import is_url, listed
 
 # The work
 
@@ -170,10 +173,6 @@ def expanded(words: Sequence[str]) -> list[str]:
     Raises:
         InputError: If a glob or a folder of the web names nothing, or cannot be listed.
     """
-    from tftool.opener import named
-    from tftool.recordings.find import METADATA, Kind
-    from tftool.recordings.remote_files import is_url, listed
-
     found: list[str] = []
     for word in words:
         if is_url(word):
@@ -205,8 +204,6 @@ def expanded(words: Sequence[str]) -> list[str]:
 
 
 def _is_recording(path: str) -> bool:
-    from tftool.recordings.find import kind_of_file
-
     try:
         return kind_of_file(Path(path)).is_recording
     except InputError:

@@ -8,6 +8,12 @@ from typing import TYPE_CHECKING, Protocol
 from tftool.base.errors import TftoolError, UsageError
 from tftool.base.stamps import as_seconds
 from tftool.commands.fleet.rows import ColumnKind, Row
+from tftool.doctor.evidence import Evidence, evidence_of_recording
+from tftool.doctor.judge import judge
+from tftool.doctor.model import Model
+from tftool.recordings.recording import open_recording
+from tftool.recordings.remote_files import fetched
+from tftool.scenario.doctor_expectations import rules_beside
 
 if TYPE_CHECKING:
     from tftool.doctor.evidence import Scope
@@ -119,11 +125,6 @@ class Examination:
         return _told(self, source, place, partial(self._examined, source))
 
     def _examined(self, source: str, path: str) -> list[Row]:
-        from tftool.doctor.evidence import evidence_of_recording
-        from tftool.doctor.judge import judge
-        from tftool.recordings.recording import open_recording
-        from tftool.scenario.doctor_expectations import rules_beside
-
         rules, _ = rules_beside(path)
         with open_recording(path) as recording:
             material = evidence_of_recording(recording, self.scope)
@@ -199,10 +200,6 @@ class Inventory:
 
     @staticmethod
     def _listed(source: str, path: str) -> list[Row]:
-        from tftool.doctor.evidence import Evidence
-        from tftool.doctor.model import Model
-        from tftool.recordings.recording import open_recording
-
         with open_recording(path) as recording:
             held, transforms = recording.source, recording.transforms
             model = Model(Evidence(source, held.kind, transforms, start=held.start, end=held.end))
@@ -242,8 +239,6 @@ class Inventory:
 
 def _told(task: FleetTask, source: str, place: str, work: Callable[[str], list[Row]]) -> list[Row]:
     """Run a task on a local or remote recording; return a row also if it cannot be read."""
-    from tftool.recordings.remote_files import fetched
-
     try:
         with fetched(place) as path:
             return work(path)

@@ -13,6 +13,7 @@ from multiprocessing import get_context
 from typing import Any, Protocol
 
 from tftool.base.errors import UsageError
+from tftool.recordings.remote_files import is_url
 
 _ON_CLUSTER = 512
 """Recordings that wait at a cluster at once."""
@@ -110,8 +111,6 @@ class Cluster:
 
     def place(self, source: str) -> str:
         """Return the absolute path: all workers share the file system."""
-        from tftool.recordings.remote_files import is_url
-
         return source if is_url(source) else os.path.abspath(source)
 
 

@@ -6,6 +6,7 @@ Durations and moments of a command line are read as exact decimals; commands get
 import math
 import re
 from collections.abc import Callable
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -168,8 +169,6 @@ def moment(text: str) -> At:
 
 
 def _date(text: str) -> At:
-    from datetime import UTC, datetime
-
     # Its own reader drops digits below a microsecond.
     fraction = _FRACTION.search(text)
     try:

@@ -13,6 +13,8 @@ from tftool.base.escaping import visible
 from tftool.base.short_numbers import short_size
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.shared.notices import notice
+from tftool.doctor.evidence import evidence_of_log
+from tftool.doctor.judge import judge
 from tftool.frames.transform_log import TransformLog
 from tftool.messages.transforms import decode_transforms
 from tftool.recordings.compression import best_compression
@@ -86,9 +88,6 @@ class RecordingRun:
 
     def _look(self, now: Stamp) -> "Finding | None":
         """Whether the doctor reports the finding for the content of the ring buffer."""
-        from tftool.doctor.evidence import evidence_of_log
-        from tftool.doctor.judge import judge
-
         assert self._finding is not None
         held = self.rolling.held()
         material = evidence_of_log(

@@ -1,5 +1,6 @@
 """Write the tree of FROM once, as text, data or a picture."""
 
+import json
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -141,8 +142,6 @@ def _content(
 ) -> bytes | Iterable[str]:
     """Return a PDF's bytes, or the text in pieces, so that a large tree appears at once."""
     if form is TreeFormat.json:
-        import json
-
         told = frame_tree.as_object(snapshot, moving, marks)
         return [json.dumps(told, indent=2, allow_nan=False), "\n"]
     if form is TreeFormat.yaml:

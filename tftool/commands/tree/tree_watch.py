@@ -11,6 +11,7 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import is_news
 from tftool.commands.shared.on_screen import screen_lacks
+from tftool.commands.tree.tree_keys import watch_with_keys
 from tftool.commands.tree.tree_text import fitting
 from tftool.doctor.frame_marks import marks
 from tftool.world.clock import Phase, pace_of
@@ -33,8 +34,6 @@ def show_changes(
     if screen_lacks():
         session.run(_redrawn(session.world, duration, console))
     else:
-        from tftool.commands.tree.tree_keys import watch_with_keys
-
         watch_with_keys(session, duration)
 
 

@@ -20,6 +20,7 @@ from tftool.recordings.edit.changes import (
     carries_transforms,
 )
 from tftool.recordings.edit.outputs import EditedFile
+from tftool.recordings.message_conversion import as_ros1
 from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 
 
@@ -164,8 +165,6 @@ class StaticHeads:
 
     def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
         """Write statics of another recording for which this one has no topic."""
-        from tftool.recordings.message_conversion import as_ros1
-
         channel = ros2_channel("/tf_static", TRANSFORMS, static=True)
         ros1 = output.container == "bag" or all(
             channel.encoding == "ros1"

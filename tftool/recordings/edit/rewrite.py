@@ -22,6 +22,7 @@ from tftool.recordings.chunked import Chunk, ChunkedReader
 from tftool.recordings.container import Block, ContainerReader, MessageTable
 from tftool.recordings.containers import PACKED_SUFFIX, container_named, container_of
 from tftool.recordings.contract import Progress
+from tftool.recordings.decompression import zstandard
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.database import EditedDatabase, Unsound
 from tftool.recordings.edit.heads import StaticHeads
@@ -576,8 +577,6 @@ def _examined(block: Block, examined: "Future[bool] | None") -> Block:
 
 def _packed(path: Path) -> Path:
     """Recompress a file that was compressed as a whole."""
-    from tftool.recordings.decompression import zstandard
-
     packed = path.with_name(path.name + PACKED_SUFFIX)
     with path.open("rb") as source, packed.open("wb") as out:
         writer = zstandard().ZstdCompressor(level=1).stream_writer(out, closefd=False)

@@ -4,6 +4,8 @@ import csv
 from array import array
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.poses.pose_links import MOST_POSES, PoseFile, PoseLink
 
@@ -111,8 +113,6 @@ def read_npz(file: PoseFile) -> list[PoseLink]:
     """
     import zipfile
 
-    import numpy as np
-
     try:
         with file.open() as opened:
             with zipfile.ZipFile(opened) as archive:
@@ -163,8 +163,6 @@ def read_parquet(file: PoseFile) -> list[PoseLink]:
         InputError: If it has other columns.
         UsageError: If the extra `parquet` is not installed.
     """
-    import numpy as np
-
     try:
         import pyarrow
         from pyarrow import parquet

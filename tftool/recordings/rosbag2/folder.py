@@ -10,6 +10,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, Final
 
+import yaml
+
+from tftool.base import yaml_guard
 from tftool.base.errors import InputError
 from tftool.base.named_files import open_regular
 from tftool.recordings.container import Container
@@ -153,10 +156,6 @@ def read_metadata(folder: Path) -> dict[str, Any]:
         KeyError: If it does not describe a recording.
         TypeError: Likewise.
     """
-    import yaml  # slow to import, and only folders need it
-
-    from tftool.base import yaml_guard
-
     path = folder / METADATA
     if path.stat().st_size > _LARGEST_METADATA:
         raise ValueError("it is too large")

@@ -6,6 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+import yaml
+
+from tftool.base import yaml_guard
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel, ContainerWriter
 from tftool.recordings.find import METADATA
@@ -50,8 +53,6 @@ def metadata_text(
         old: Metadata of the recording it was made from: its version and what
             else does not follow from the files is kept.
     """
-    import yaml
-
     version = int((old or {}).get("version", VERSION))
     filled = [one for one in files if one.count]
     start = min((one.start for one in filled), default=0)
@@ -121,10 +122,6 @@ def _offers(text: str, version: int) -> Any:
     text = restyled(text, version)
     if version < VERSION:
         return text
-    import yaml
-
-    from tftool.base import yaml_guard
-
     try:
         loaded = yaml_guard.load(text, yaml.SafeLoader) if text.strip() else []
     except (yaml.YAMLError, ValueError, RecursionError):

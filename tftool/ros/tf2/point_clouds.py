@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from numpy.lib.recfunctions import structured_to_unstructured
 
 from tftool.messages.classes import INTERFACES
 
@@ -121,8 +122,6 @@ def read_points_numpy(
     Raises:
         AssertionError: If they are not, or as `read_points` says.
     """
-    from numpy.lib.recfunctions import structured_to_unstructured
-
     wanted = _named(cloud.fields)
     if field_names is not None:
         wanted = [pair for pair in wanted if pair[0] in field_names]

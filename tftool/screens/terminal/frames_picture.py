@@ -5,6 +5,8 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
 
+import numpy as np
+
 from tftool.base.color import Color
 from tftool.base.errors import TransformException
 from tftool.base.stamps import Duration, Stamp, seconds
@@ -288,8 +290,6 @@ class FrameTrails:
         self, frame: str, fixed: str, start: Stamp, end: Stamp, before: tuple[Stamp, Point3] | None
     ) -> tuple[list[tuple[Stamp, Stroke, Heights]], tuple[Stamp, Point3] | None]:
         """Return the strokes of one frame after `start`, and its last known time and position."""
-        import numpy as np
-
         stamps = np.arange(start // PERIOD + 1, end // PERIOD + 1, dtype=np.int64) * PERIOD
         stamps = stamps[stamps > 0]
         if not len(stamps):
