@@ -1,20 +1,17 @@
 """launch.frontend: users' own elements and `$(…)` in XML and YAML launch files."""
 
-import os
 import typing
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, TypeVar
 
 from tftool.base.errors import UsageError
-from tftool.ros.launch import elements, parsing
-from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch import parsing
 from tftool.ros.launch.elements import Element
 from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
 T = TypeVar("T")
 
-ParseMethod = Callable[["Entity", "Parser"], tuple[Any, dict[str, Any]]]
+ParseMethod = Callable[["Entity", Any], tuple[Any, dict[str, Any]]]
 """Returns a callable, and its keywords."""
 
 ACTIONS: dict[str, ParseMethod] = {}
@@ -93,51 +90,6 @@ def _read(value: Any, data_type: Any) -> Any:
     if data_type is bool:
         return value if isinstance(value, bool) else is_true(str(value))
     return data_type(value) if data_type in (str, int, float) else value
-
-
-class Parser:
-    """Reads the content of an element."""
-
-    @classmethod
-    def load(cls, file: Any) -> tuple[Entity, "Parser"]:
-        """Load an XML or YAML launch file: return its root and its parser.
-
-        Raises:
-            InputError: If it cannot be read or has another structure, with the line.
-        """
-        if isinstance(file, str | os.PathLike):
-            path, children = Path(file), elements.read(Path(file))
-        else:
-            path, data = Path(getattr(file, "name", "launch file")), file.read()
-            data = data.encode() if isinstance(data, str) else data
-            is_xml = data.lstrip().startswith(b"<")
-            children = (elements.read_xml if is_xml else elements.read_yaml)(data, path)
-        return Entity(Element("launch", str(path), children=children)), cls()
-
-    def parse_description(self, entity: Entity) -> LaunchDescription:
-        """Parse a launch file, given its root."""
-        from tftool.ros.launch.frontend import actions_of
-
-        return LaunchDescription(actions_of(entity.element.all_inside()))
-
-    def parse_substitution(self, value: Any) -> list[Any]:
-        """Parse a text with `$(…)` parts into substitutions."""
-        return parse_substitution(value)
-
-    def parse_if_substitutions(self, value: Any) -> Any:
-        """Parse a text into substitutions if it has any."""
-        return parse_if_substitutions(value)
-
-    def parse_action(self, entity: Entity) -> Any:
-        """Return the action of an element."""
-        from tftool.ros.launch.frontend import actions_of
-
-        (action,) = actions_of([entity.element])
-        return action
-
-    def escape_characters(self, value: str) -> str:
-        """Escape a text so that nothing in it is a substitution."""
-        return value.replace("\\", "\\\\").replace("$", "\\$")
 
 
 def parse_substitution(value: Any) -> list[Any]:

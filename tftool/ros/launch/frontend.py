@@ -1,6 +1,7 @@
 """Loading of launch files: Python, XML or YAML to a description."""
 
 import inspect
+import os
 import shlex
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
@@ -26,9 +27,50 @@ from tftool.ros.launch import (
 )
 from tftool.ros.launch.conditions import IfCondition, UnlessCondition
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionSource
-from tftool.ros.launch.elements import Element, read
+from tftool.ros.launch.elements import Element, read, read_xml, read_yaml
 from tftool.ros.launch.parsing import parsed
 from tftool.ros.launch.substitutions import TextSubstitution, is_true
+
+
+class Parser:
+    """Reads the content of an element."""
+
+    @classmethod
+    def load(cls, file: Any) -> tuple[exposing.Entity, "Parser"]:
+        """Load an XML or YAML launch file: return its root and its parser.
+
+        Raises:
+            InputError: If it cannot be read or has another structure, with the line.
+        """
+        if isinstance(file, str | os.PathLike):
+            path, children = Path(file), read(Path(file))
+        else:
+            path, data = Path(getattr(file, "name", "launch file")), file.read()
+            data = data.encode() if isinstance(data, str) else data
+            is_xml = data.lstrip().startswith(b"<")
+            children = (read_xml if is_xml else read_yaml)(data, path)
+        return exposing.Entity(Element("launch", str(path), children=children)), cls()
+
+    def parse_description(self, entity: exposing.Entity) -> LaunchDescription:
+        """Parse a launch file, given its root."""
+        return LaunchDescription(actions_of(entity.element.all_inside()))
+
+    def parse_substitution(self, value: Any) -> list[Any]:
+        """Parse a text with `$(…)` parts into substitutions."""
+        return exposing.parse_substitution(value)
+
+    def parse_if_substitutions(self, value: Any) -> Any:
+        """Parse a text into substitutions if it has any."""
+        return exposing.parse_if_substitutions(value)
+
+    def parse_action(self, entity: exposing.Entity) -> Any:
+        """Return the action of an element."""
+        (action,) = actions_of([entity.element])
+        return action
+
+    def escape_characters(self, value: str) -> str:
+        """Escape a text so that nothing in it is a substitution."""
+        return value.replace("\\", "\\\\").replace("$", "\\$")
 
 
 def actions_of(elements: Iterable[Element]) -> list[Any]:
@@ -70,7 +112,7 @@ def _condition(element: Element) -> Any:
 def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
     """Return a user's own action."""
     try:
-        kind, settings = read(exposing.Entity(element), exposing.Parser())
+        kind, settings = read(exposing.Entity(element), Parser())
         return kind(**settings)
     except (AttributeError, TypeError, ValueError) as error:
         raise element.refusal(f"'{element.tag}': {error_sentence(error)}", "", ()) from error
