@@ -4,6 +4,7 @@ import itertools
 import json
 import math
 import struct
+from pathlib import Path
 
 import pytest
 
@@ -13,7 +14,9 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
-from tftool.screens.browser.protocol import (
+from tftool.screens.browser.marks import marks_of
+from tftool.screens.browser.page_messages import (
+    ANSWERS,
     Got,
     KeyPressed,
     MarksRequest,
@@ -22,6 +25,8 @@ from tftool.screens.browser.protocol import (
     SeriesRequest,
     Show,
     TrailsRequest,
+    answer,
+    as_javascript,
     parse,
 )
 
@@ -38,8 +43,8 @@ TRAILS = '{"type": "trails", "fixed": "map", "frames": %s, "from": 1, "to": 2, "
         ('{"type": "show", "at": 1.5}', Show(1.5)),
         ('{"type": "show", "at": null}', Show(None)),
         ('{"type": "show"}', Show(None)),
-        ('{"type": "pair", "target": "a", "source": "b"}', PairRequest(("a", "b"))),
-        ('{"type": "pair", "target": null, "source": null}', PairRequest(None)),
+        ('{"type": "pair", "target": "a", "source": "b"}', PairRequest("a", "b")),
+        ('{"type": "pair", "target": null, "source": null}', PairRequest(None, None)),
         ('{"type": "got", "sequence": 7}', Got(7)),
         ('{"type": "key", "key": "left"}', KeyPressed("left")),
         ('{"type": "past"}', Past()),
@@ -71,16 +76,25 @@ def test_what_the_page_may_say(said, means):
         ('{"type": "show", "at": 1e300}', "a number of seconds"),
         ('{"type": "show", "at": 1' + "0" * 400 + "}", "a number of seconds"),
         ('{"type": "pair", "target": "a"}', "names of frames"),
-        ('{"type": "pair", "target": 1, "source": 2}', "names of frames"),
-        ('{"type": "got", "sequence": "1"}', "whole number"),
+        (
+            '{"type": "pair", "target": 1, "source": 2}',
+            "'target' .* is the name of a frame, or null",
+        ),
+        ('{"type": "got", "sequence": "1"}', "'sequence' of a message 'got' is a whole number"),
         ('{"type": "key", "key": "q"}', "up, down, left, right"),
-        ('{"type": "series", "target": "a"}', "the names of two"),
-        ('{"type": "trails", "fixed": "a"}', "a list of others"),
+        (
+            '{"type": "series", "target": "a"}',
+            "'source' .* is the name of a frame",
+        ),
+        (
+            '{"type": "trails", "fixed": "a"}',
+            "'frames' .* is a list of at most 60",
+        ),
         (TRAILS % "[1]", "60 names"),
         (TRAILS % json.dumps(["a"] * 61), "60 names"),
         (SERIES % (5, 4, 10), "to a later one"),
         (SERIES % ("NaN", 4, 10), "a number of seconds"),
-        (SERIES % ("null", 4, 10), "to a later one"),
+        (SERIES % ("null", 4, 10), "a number of seconds"),
         (SERIES % (0, 4, 1), "from 2 to 2000"),
         (SERIES % (0, 4, 10**9), "from 2 to 2000"),
     ],
@@ -88,6 +102,59 @@ def test_what_the_page_may_say(said, means):
 def test_anything_else_is_refused_with_a_sentence(said, told):
     with pytest.raises(InputError, match=told):
         parse(said)
+
+
+def test_the_pages_side_is_written_from_the_table():
+    written = Path(protocol.__file__).with_name("page") / "messages.js"
+
+    assert written.read_text(encoding="utf-8") == as_javascript(), (
+        "run python -m tftool.screens.browser.page_messages"
+    )
+
+
+def test_an_answer_has_the_fields_of_the_table_and_no_others():
+    span = {"now": 1.0, "oldest": 0.0, "newest": 1.0}
+
+    assert answer("range", span) == {"type": "range", **span}
+    assert answer("tracks", {}) == {"type": "tracks"}
+    for wrong in ({**span, "more": 1}, {"now": 1.0}):
+        with pytest.raises(AssertionError):
+            answer("range", wrong)
+
+
+def follows(value, javascript):
+    """Whether a decoded JSON value has a type of the table; objects are only known as such."""
+    plain = {"string": str, "number": (int, float), "boolean": bool}
+    if javascript in plain:
+        return isinstance(value, plain[javascript])
+    if javascript == "number | null":
+        return value is None or isinstance(value, (int, float))
+    if javascript in ("string[]", "number[]", "(number | null)[]"):
+        kind = javascript.removesuffix("[]").strip("()")
+        return isinstance(value, list) and all(follows(one, kind) for one in value)
+    return isinstance(value, (list, dict))
+
+
+def test_every_field_of_an_answer_has_the_type_of_the_table():
+    filled = buffer()
+    snapshot = filled.snapshot(seconds(1004))
+    asked = SeriesRequest("world", "camera", 0.5, 3.5, 4)
+    wanted = TrailsRequest("world", ("camera", "nobody"), 0.5, 3.5, 4)
+    answers = [
+        protocol.encode_names(EPOCH, 1, snapshot.frames, 3, 1.0, seconds(1001)),
+        protocol.encode_range(EPOCH, snapshot),
+        protocol.encode_pair(filled, EPOCH, "world", "camera", seconds(1002)),
+        protocol.encode_pair(filled, EPOCH, "world", "nobody", 0),
+        protocol.encode_series(filled, EPOCH, asked),
+        protocol.encode_trails(filled, EPOCH, wanted),
+        json.dumps(marks_of(filled, EPOCH)),
+    ]
+    for text in answers:
+        told = json.loads(text)
+        types = {name.removesuffix("?"): kind for name, kind in ANSWERS[told.pop("type")].items()}
+        assert {
+            name: value for name, value in told.items() if not follows(value, types[name])
+        } == {}
 
 
 def test_a_moment_is_never_the_zero_that_means_latest():

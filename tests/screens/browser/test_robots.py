@@ -11,7 +11,7 @@ from tftool.base.errors import InputError
 from tftool.robots.mesh_folders import MeshFolders
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import parse_description
-from tftool.screens.browser import protocol
+from tftool.screens.browser.page_messages import parse
 from tftool.screens.browser.robots import ShownRobot
 from tftool.world.nodes.joints import JointStatePublisher
 
@@ -172,4 +172,4 @@ def test_frames_that_come_say_what_stands_before_the_links(shown):
 )
 def test_a_move_that_is_none_is_refused(said):
     with pytest.raises(InputError):
-        protocol.parse(json.dumps(said))
+        parse(json.dumps(said))

@@ -16,7 +16,8 @@ from tftool.base.stamps import seconds
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.screens.browser import protocol
+from tftool.screens.browser import page_messages, protocol
+from tftool.screens.browser.page_messages import HEADER, SeriesRequest, TrailsRequest
 from tftool.screens.browser.standalone import (
     MOST_BYTES,
     StandaloneData,
@@ -78,8 +79,8 @@ def asked_of(path, moments, pairs):
 def server_numbers(buffer, now, at):
     snapshot = buffer.snapshot(now, at)
     message = protocol.encode_poses(EPOCH, 0, 1, snapshot, snapshot.frames)
-    head = protocol.HEADER.unpack(message[: protocol.HEADER.size])
-    return snapshot, head, np.frombuffer(message[protocol.HEADER.size :], dtype="<f8")
+    head = HEADER.unpack(message[: HEADER.size])
+    return snapshot, head, np.frombuffer(message[HEADER.size :], dtype="<f8")
 
 
 @needs_node
@@ -100,14 +101,14 @@ def test_every_answer_is_the_servers(tmp_path, seed):
     assert told["moments"] == [
         moment - EPOCH for moment in protocol.moments(buffer.snapshot(now).frames)
     ]
-    asked = protocol.SeriesRequest("map", "laser", -0.25, 3.3, 301)
+    asked = SeriesRequest("map", "laser", -0.25, 3.3, 301)
     wanted = json.loads(protocol.encode_series(buffer, EPOCH, asked))
     assert told["series"].keys() == wanted.keys()
     for key in ("times", *protocol.SERIES):
         found, known = (np.array(one[key], dtype=float) for one in (told["series"], wanted))
         assert 10 < np.isnan(known).sum() < 200 or key == "times"
         np.testing.assert_allclose(found, known, rtol=1e-9, atol=1e-12)
-    asked = protocol.TrailsRequest("map", ("laser", "base", "nobody"), -0.25, 3.3, 301)
+    asked = TrailsRequest("map", ("laser", "base", "nobody"), -0.25, 3.3, 301)
     wanted = json.loads(protocol.encode_trails(buffer, EPOCH, asked))
     assert told["trails"].keys() == wanted.keys()
     for frame, places in wanted["places"].items():
@@ -154,7 +155,7 @@ def test_what_does_not_fit_is_rounded_to_a_micrometre_and_says_so(tmp_path):
     assert len(rounded.content) < len(exact.content) < MOST_BYTES
     _, _, numbers = server_numbers(buffer, now, EPOCH + seconds(1.7))
     found = np.array([math.nan if one is None else one for one in answer["numbers"]])
-    shape = (-1, protocol.FIELDS)
+    shape = (-1, len(page_messages.NUMBERS))
     apart = np.abs(found - numbers).reshape(shape)
     assert 0.0 < np.nanmax(apart[:, :3]) < 2e-6
     assert np.nanmax(apart[:, 3:7]) < 2e-6

@@ -8,7 +8,7 @@ from websockets.asyncio.server import ServerConnection
 
 from tftool.base.stamps import Stamp
 from tftool.buffer.sample import FrameInfo, Snapshot
-from tftool.screens.browser import protocol
+from tftool.screens.browser import page_messages, protocol
 
 IN_FLIGHT = 2
 """Poses a page may be sent before it says it has drawn the first of them."""
@@ -39,7 +39,7 @@ class Poses:
 
     def __call__(self, sequence: int) -> bytes:
         """Return the bytes for a page that has received `sequence` − 1 pictures."""
-        start = len(protocol.MAGIC)
+        start = len(page_messages.MAGIC)
         number = (sequence & 0xFFFFFFFF).to_bytes(4, "little")
         return self._written[:start] + number + self._written[start + 4 :]
 
@@ -78,12 +78,14 @@ class PageClient:
         self._displays: dict[str, bytes] = {}
         self._wake = asyncio.Event()
 
-    def hear(self, said: protocol.Show | protocol.PairRequest | protocol.Got, epoch: Stamp) -> None:
+    def hear(
+        self, said: page_messages.Show | page_messages.PairRequest | page_messages.Got, epoch: Stamp
+    ) -> None:
         """Handle a message from the page."""
-        if isinstance(said, protocol.Got):
+        if isinstance(said, page_messages.Got):
             self._drawn = max(self._drawn, min(said.sequence, self.sent))
             self._wake.set()
-        elif isinstance(said, protocol.PairRequest):
+        elif isinstance(said, page_messages.PairRequest):
             self.pair = said.frames
             self._asked = True
         else:

@@ -10,6 +10,7 @@ from tftool.doctor.evidence import evidence_of_buffer
 from tftool.doctor.judge import judge
 from tftool.doctor.localisation_steps import LocalisationStep, steps_of
 from tftool.doctor.model import Settings
+from tftool.screens.browser.page_messages import answer
 from tftool.screens.browser.protocol import since
 
 MOST_GAPS: Final = 2000
@@ -28,7 +29,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
     """
     frames = buffer.snapshot(0).frames
     if not any(frame.samples > 1 and not frame.is_static for frame in frames):
-        return {"type": "marks", "gaps": [], "findings": []}
+        return answer("marks", {"gaps": [], "findings": []})
     diagnosis = judge(evidence_of_buffer(buffer), Settings())
     gaps = [
         (track.child, low, high)
@@ -38,21 +39,23 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
     gaps = sorted(gaps, key=lambda hole: hole[1] - hole[2])[:MOST_GAPS]
     found = [one for one in diagnosis.findings if one.since is not None]
     found.sort(key=lambda one: one.severity.rank)
-    return {
-        "type": "marks",
-        "gaps": [[frame, since(epoch, low), since(epoch, high)] for frame, low, high in gaps],
-        "findings": [
-            {
-                "id": one.id,
-                "severity": one.severity.value,
-                "message": one.message,
-                "since": since(epoch, one.since or 0),
-                "until": since(epoch, one.until or one.since or 0),
-            }
-            for one in found[:MOST_FINDINGS]
-        ]
-        + [_step(step, epoch) for step in steps_of(diagnosis.model)[:MOST_FINDINGS]],
-    }
+    return answer(
+        "marks",
+        {
+            "gaps": [[frame, since(epoch, low), since(epoch, high)] for frame, low, high in gaps],
+            "findings": [
+                {
+                    "id": one.id,
+                    "severity": one.severity.value,
+                    "message": one.message,
+                    "since": since(epoch, one.since or 0),
+                    "until": since(epoch, one.until or one.since or 0),
+                }
+                for one in found[:MOST_FINDINGS]
+            ]
+            + [_step(step, epoch) for step in steps_of(diagnosis.model)[:MOST_FINDINGS]],
+        },
+    )
 
 
 def _step(step: LocalisationStep, epoch: Stamp) -> dict[str, Any]:

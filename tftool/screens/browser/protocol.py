@@ -1,252 +1,33 @@
-"""Messages between the page and its server, as bytes and text.
-
-Server to page:
-  text   {"type": "frames", ...}  the frames' names and parents, whenever they change
-  text   {"type": "pair", ...}    the transform of the chosen pair, or why there is none
-  text   {"type": "robot", ...}   shapes, joints and sliders of the robot; see `robots.py`
-  text   {"type": "range", ...}   how far the buffer reaches, while a past moment is shown
-  text   {"type": "series", ...}  a pair's transform at many moments; see `encode_series`
-  text   {"type": "trails", ...}  where frames were at many moments; see `encode_trails`
-  text   {"type": "marks", ...}   gaps and the doctor's findings; see `marks.py`
-  binary                          every frame's pose at one moment; see `encode_poses`
-  binary                          the last message of a topic that is drawn; a block of `packing.py`
-
-Page to server, text only:
-  {"type": "show", "at": seconds | null}        which moment; null follows the present
-  {"type": "pair", "target": …, "source": …}    which pair; null for none
-  {"type": "got", "sequence": n}                the page has drawn that many poses
-  {"type": "move", "joint": …, "position": …}   put a joint elsewhere, radians or metres
-  {"type": "past"}                              send what the buffer remembers, for trails;
-                                                it comes as poses of sequence number 0
-  {"type": "series", "target": …, "source": …,  tell a pair's transform at `count` moments from
-   "from": seconds, "to": seconds, "count": n}  the one to the other
-  {"type": "trails", "fixed": …, "frames": […], tell where frames were in the fixed one at `count`
-   "from": seconds, "to": seconds, "count": n}  moments
-  {"type": "marks"}                             tell gaps and findings, when they are known
-
-Moments travel as seconds since the clock's epoch, which a float holds to the nanosecond
-for a hundred days; the epoch itself travels as text.
-"""
+"""Encoding of the server's messages to the page; `page_messages` holds their fields."""
 
 import json
 import math
-import struct
 import sys
 from array import array
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
-from tftool.base.errors import InputError, TransformException
+from tftool.base.errors import TransformException
 from tftool.base.stamps import LAST_STAMP, NANOSECONDS, Stamp, display
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import grow
 from tftool.geometry.conversions import rpy_from_quaternion
-
-MAGIC = b"TFP1"
-HEADER = struct.Struct("<4sIIIdddd")
-"""Magic, sequence, revision of the names, number of frames; now, moment shown (NaN for the
-present), oldest and newest moment of the buffer, in seconds since the epoch."""
+from tftool.screens.browser.page_messages import (
+    HEADER,
+    MAGIC,
+    SeriesRequest,
+    TrailsRequest,
+    answer,
+)
 
 HISTORY = 120
 """Moments that tell what the buffer remembers; fewer where there are many frames."""
 
-FIELDS = 11
-"""Numbers per frame: x y z, qx qy qz qw (NaN without data), newest, oldest, rate, samples."""
-
 MOST_FRAMES = 2000
 """More than this is neither drawn nor listed by a browser at a useful rate."""
-
-MOST_MOMENTS = 2000
-"""Moments of a pair that are told at once: a plot has no more columns."""
-
-MOST_TRAILS = 60
-"""Frames whose trails are told at once."""
-
-MOST_BYTES = 16 * 1024
-"""The longest message a page has a reason to send: two names of some thousand letters."""
-
-
-ARROWS = ("up", "down", "left", "right")
-"""Keys that drive a turtle."""
-
-
-# Page to server
-
-
-@dataclass(frozen=True, slots=True)
-class Show:
-    """Request to show a time: seconds since the epoch, or None for the present."""
-
-    at: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class PairRequest:
-    """Request for a pair's transform from now on; None ends it."""
-
-    frames: tuple[str, str] | None
-
-
-@dataclass(frozen=True, slots=True)
-class Got:
-    """Acknowledgement that the page has drawn the poses of this sequence number."""
-
-    sequence: int
-
-
-@dataclass(frozen=True, slots=True)
-class Move:
-    """Request to move a joint: radians or metres."""
-
-    joint: str
-    position: float
-
-
-@dataclass(frozen=True, slots=True)
-class KeyPressed:
-    """Key press that drives a turtle: "up", "down", "left" or "right"."""
-
-    key: str
-
-
-@dataclass(frozen=True, slots=True)
-class Past:
-    """Request for poses over the whole buffer, once."""
-
-
-@dataclass(frozen=True, slots=True)
-class SeriesRequest:
-    """Request for a pair's transform at `count` times from `first` to `last`, in seconds."""
-
-    target: str
-    source: str
-    first: float
-    last: float
-    count: int
-
-
-@dataclass(frozen=True, slots=True)
-class TrailsRequest:
-    """Request for frames' positions at `count` times from `first` to `last`, in seconds."""
-
-    fixed: str
-    frames: tuple[str, ...]
-    first: float
-    last: float
-    count: int
-
-
-@dataclass(frozen=True, slots=True)
-class MarksRequest:
-    """Request for gaps and the doctor's findings."""
-
-
-Said: TypeAlias = (
-    Show
-    | PairRequest
-    | Got
-    | Move
-    | KeyPressed
-    | Past
-    | SeriesRequest
-    | TrailsRequest
-    | MarksRequest
-)
-
-
-def parse(message: str | bytes) -> Said:
-    """Parse a message from a page.
-
-    Raises:
-        InputError: If it is none of the nine messages; names the mistake.
-    """
-    if isinstance(message, bytes):
-        raise InputError("the page sends text, not bytes")
-    try:
-        said = json.loads(message)
-    except (ValueError, RecursionError) as error:
-        raise InputError("that is not JSON") from error
-    kind = said.get("type") if isinstance(said, dict) else None
-    if kind == "show":
-        return Show(_moment(said.get("at")))
-    if kind == "pair":
-        target, source = said.get("target"), said.get("source")
-        if target is None and source is None:
-            return PairRequest(None)
-        if isinstance(target, str) and isinstance(source, str):
-            return PairRequest((target, source))
-        raise InputError("a pair is two names of frames, or null twice")
-    if kind == "got":
-        sequence = said.get("sequence")
-        if isinstance(sequence, int):
-            return Got(sequence)
-        raise InputError("a sequence is a whole number")
-    if kind == "move":
-        joint, position = said.get("joint"), said.get("position")
-        if not isinstance(joint, str) or not isinstance(position, (int, float)):
-            raise InputError("a move is the name of a joint and a number")
-        if not abs(position) < 1e9:
-            raise InputError("a joint's position is a finite number")
-        return Move(joint, float(position))
-    if kind == "key":
-        if said.get("key") not in ARROWS:
-            raise InputError(f"a key is one of {', '.join(ARROWS)}")
-        return KeyPressed(said["key"])
-    if kind == "past":
-        return Past()
-    if kind == "series":
-        return _series(said)
-    if kind == "trails":
-        return _trails(said)
-    if kind == "marks":
-        return MarksRequest()
-    raise InputError(
-        'a message is an object whose "type" is show, pair, got, move, key, past, series, '
-        "trails or marks"
-    )
-
-
-def _series(said: dict[str, Any]) -> SeriesRequest:
-    target, source = said.get("target"), said.get("source")
-    if not isinstance(target, str) or not isinstance(source, str):
-        raise InputError("a series needs the names of two frames")
-    return SeriesRequest(target, source, *_span(said))
-
-
-def _trails(said: dict[str, Any]) -> TrailsRequest:
-    fixed, frames = said.get("fixed"), said.get("frames")
-    if not isinstance(fixed, str) or not isinstance(frames, list):
-        raise InputError("trails need a fixed frame and a list of others")
-    if len(frames) > MOST_TRAILS or not all(isinstance(frame, str) for frame in frames):
-        raise InputError(f"trails can have at most {MOST_TRAILS} names of frames")
-    return TrailsRequest(fixed, tuple(frames), *_span(said))
-
-
-def _span(said: dict[str, Any]) -> tuple[float, float, int]:
-    """Parse first and last time, and their number."""
-    count = said.get("count")
-    if not isinstance(count, int) or not 2 <= count <= MOST_MOMENTS:
-        raise InputError(f"a series has from 2 to {MOST_MOMENTS} moments")
-    first, last = _moment(said.get("from")), _moment(said.get("to"))
-    if first is None or last is None or not first < last:
-        raise InputError("a series goes from one moment to a later one")
-    return first, last, count
-
-
-def _moment(value: Any) -> float | None:
-    if value is None:
-        return None
-    # Compared first: a whole number too large for a float cannot be converted.
-    if isinstance(value, (int, float)) and abs(value) < 1e12:
-        return float(value)
-    raise InputError("a moment is a number of seconds since the epoch, or null")
-
-
-# Server to page
 
 
 def since(epoch: Stamp, stamp: Stamp) -> float:
@@ -307,20 +88,22 @@ def encode_names(
     """
     place = {frame.frame: index for index, frame in enumerate(frames)}
     return json.dumps(
-        {
-            "type": "frames",
-            "epoch": str(epoch),
-            "revision": revision,
-            "names": [frame.frame for frame in frames],
-            "parents": [
-                -1 if frame.parent is None else place.get(frame.parent, -1) for frame in frames
-            ],
-            "statics": [int(frame.is_static) for frame in frames],
-            "authorities": [frame.authority or "no recorded authority" for frame in frames],
-            "total": total,
-            "rate": rate if math.isfinite(rate) else 1.0,
-            **({} if begin is None else {"begin": since(epoch, begin)}),
-        }
+        answer(
+            "frames",
+            {
+                "epoch": str(epoch),
+                "revision": revision,
+                "names": [frame.frame for frame in frames],
+                "parents": [
+                    -1 if frame.parent is None else place.get(frame.parent, -1) for frame in frames
+                ],
+                "statics": [int(frame.is_static) for frame in frames],
+                "authorities": [frame.authority or "no recorded authority" for frame in frames],
+                "total": total,
+                "rate": rate if math.isfinite(rate) else 1.0,
+                **({} if begin is None else {"begin": since(epoch, begin)}),
+            },
+        )
     )
 
 
@@ -365,25 +148,27 @@ def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
     """Serialise the buffer's present time span."""
     oldest, newest = reach(snapshot.frames) or (snapshot.now, snapshot.now)
     return json.dumps(
-        {
-            "type": "range",
-            "now": since(epoch, snapshot.now),
-            "oldest": since(epoch, oldest),
-            "newest": since(epoch, newest),
-        }
+        answer(
+            "range",
+            {
+                "now": since(epoch, snapshot.now),
+                "oldest": since(epoch, oldest),
+                "newest": since(epoch, newest),
+            },
+        )
     )
 
 
 def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stamp) -> str:
     """Serialise the transform of `source` in `target`, with the exact numbers of `tftool echo`."""
-    answer: dict[str, Any] = {"type": "pair", "target": target, "source": source}
+    told: dict[str, Any] = {"target": target, "source": source}
     try:
         found = buffer.lookup_transform(target, source, at)
         chain = buffer.chain(target, source, at)
     except TransformException as error:
-        return json.dumps({**answer, "found": False, "why": str(error)})
+        return json.dumps(answer("pair", told | {"found": False, "why": str(error)}))
     x, y, z, w = found.transform.rotation
-    answer |= {
+    told |= {
         "found": True,
         "stamp": display(found.stamp),
         "moment": since(epoch, found.stamp) if found.stamp else None,
@@ -392,14 +177,13 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
         "rpy": _finite(rpy_from_quaternion(found.transform.rotation)),
         "chain": list(chain),
     }
-    return json.dumps(answer)
+    return json.dumps(answer("pair", told))
 
 
 def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
     """Serialise a pair's transform at evenly spread times, null where there is none."""
     stamps = _stamps(epoch, asked)
-    answer: dict[str, Any] = {
-        "type": "series",
+    told: dict[str, Any] = {
         "target": asked.target,
         "source": asked.source,
         "times": [since(epoch, stamp) for stamp in stamps],
@@ -417,7 +201,7 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
             numbers = _finite((*path.translations[row].tolist(), *angles))
             for column, number in zip(columns, numbers, strict=True):
                 column[row] = number
-    return json.dumps(answer | dict(zip(SERIES, columns, strict=True)))
+    return json.dumps(answer("series", told | dict(zip(SERIES, columns, strict=True))))
 
 
 def encode_trails(buffer: Buffer, epoch: Stamp, asked: TrailsRequest) -> str:
@@ -437,8 +221,8 @@ def encode_trails(buffer: Buffer, epoch: Stamp, asked: TrailsRequest) -> str:
         rows = rounded.tolist()
         for at in np.flatnonzero(known).tolist():
             places[frame][at] = rows[at]
-    told = {"type": "trails", "fixed": asked.fixed, "from": asked.first, "to": asked.last}
-    return json.dumps(told | {"places": places})
+    told = {"fixed": asked.fixed, "from": asked.first, "to": asked.last, "places": places}
+    return json.dumps(answer("trails", told))
 
 
 _TRAIL_DIGITS = 5

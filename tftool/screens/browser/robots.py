@@ -18,6 +18,7 @@ from tftool.robots.description import (
 )
 from tftool.robots.mesh_folders import SHAPES, MeshFolders, MeshRefused
 from tftool.robots.robot_model import Robot
+from tftool.screens.browser.page_messages import answer
 from tftool.screens.terminal.sliders import Positions, slide_range
 
 MOST_SHAPES = 5000
@@ -69,24 +70,26 @@ class ShownRobot:
             if shapes["visuals"] or shapes["collisions"]:
                 links.append({"frame": self.prefix + link.name, **shapes})
         return json.dumps(
-            {
-                "type": "robot",
-                "name": self.robot.name,
-                "links": links,
-                "joints": [
-                    {
-                        "name": joint.name,
-                        "frame": self.prefix + joint.child,
-                        "axis": list(joint.axis),
-                        "slides": joint.type == "prismatic",
-                    }
-                    for joint in self.robot.joints.values()
-                    if joint.moves
-                ],
-                "sliders": self._sliders(),
-                "motion": self._motion(),
-                "missing": list(dict.fromkeys(missing)),
-            }
+            answer(
+                "robot",
+                {
+                    "name": self.robot.name,
+                    "links": links,
+                    "joints": [
+                        {
+                            "name": joint.name,
+                            "frame": self.prefix + joint.child,
+                            "axis": list(joint.axis),
+                            "slides": joint.type == "prismatic",
+                        }
+                        for joint in self.robot.joints.values()
+                        if joint.moves
+                    ],
+                    "sliders": self._sliders(),
+                    "motion": self._motion(),
+                    "missing": list(dict.fromkeys(missing)),
+                },
+            )
         )
 
     def _sliders(self) -> list[dict[str, Any]]:

@@ -36,7 +36,7 @@ from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import Snapshot
 from tftool.robots.mesh_folders import MeshRefused
-from tftool.screens.browser import assets, protocol
+from tftool.screens.browser import assets, page_messages, protocol
 from tftool.screens.browser.cadence import Cadence
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
 from tftool.screens.browser.live_messages import LiveDisplays
@@ -167,7 +167,7 @@ class PageServer:
             for client in self.clients:
                 client.show_robot(self._robot_text)
 
-    def _move(self, said: protocol.Move) -> None:
+    def _move(self, said: page_messages.Move) -> None:
         """Move a joint; ignore unknown names."""
         robot = self._robot
         if robot is not None and robot.mover is not None and robot.robot.takes(said.joint):
@@ -204,7 +204,7 @@ class PageServer:
                     port,
                     process_request=self._receive,
                     compression=None,  # a loopback has room; the time is better spent elsewhere
-                    max_size=protocol.MOST_BYTES,
+                    max_size=page_messages.MOST_BYTES,
                     max_queue=4,
                     logger=_LOGGER,
                     server_header=None,
@@ -456,7 +456,7 @@ class PageServer:
             self._robot_text = self._robot_text or self._robot.as_text()
             client.show_robot(self._robot_text)
         if self._read_tracks is not None:
-            await socket.send('{"type": "tracks"}')
+            await socket.send(json.dumps(page_messages.answer("tracks", {})))
         if self._live is not None:
             client.show_displays(self._live.blocks)
         feeding = asyncio.ensure_future(client.feed())
@@ -464,22 +464,22 @@ class PageServer:
         judging: asyncio.Future[None] | None = None
         try:
             async for message in socket:
-                said = protocol.parse(message)
-                if isinstance(said, protocol.Move):
+                said = page_messages.parse(message)
+                if isinstance(said, page_messages.Move):
                     self._move(said)
-                elif isinstance(said, protocol.KeyPressed):
+                elif isinstance(said, page_messages.KeyPressed):
                     if self._press is not None:
                         self._press(said.key)
-                elif isinstance(said, protocol.SeriesRequest):
+                elif isinstance(said, page_messages.SeriesRequest):
                     buffer, epoch = self.source.buffer, self.source.clock.epoch
                     await socket.send(protocol.encode_series(buffer, epoch, said))
-                elif isinstance(said, protocol.TrailsRequest):
+                elif isinstance(said, page_messages.TrailsRequest):
                     buffer, epoch = self.source.buffer, self.source.clock.epoch
                     await socket.send(protocol.encode_trails(buffer, epoch, said))
-                elif isinstance(said, protocol.MarksRequest):
+                elif isinstance(said, page_messages.MarksRequest):
                     if judging is None or judging.done():
                         judging = asyncio.ensure_future(self._tell_marks(socket))
-                elif not isinstance(said, protocol.Past):
+                elif not isinstance(said, page_messages.Past):
                     client.hear(said, self.source.clock.epoch)
                 elif telling is None or telling.done():
                     telling = asyncio.ensure_future(self._tell_past(socket))

@@ -27,7 +27,7 @@ const MARKS_EVERY = 5000;
 export class Course {
   /**
    * @param {import("./timeline.js").Timeline} timeline
-   * @param {{ want(type: string, fields: any): void, now(): number, redraw(): void }} hooks
+   * @param {{ want(request: import("./messages.js").Request): void, now(): number, redraw(): void }} hooks
    */
   constructor(timeline, hooks) {
     this.timeline = timeline;
@@ -161,7 +161,7 @@ export class Course {
     if (now - this.asked.marks > MARKS_EVERY && this.asked.end !== end) {
       this.asked.marks = now;
       this.asked.end = end;
-      this.hooks.want("marks", {});
+      this.hooks.want({ type: "marks" });
     }
     if (!target || !source || plot === "none") {
       this.series = null;
@@ -176,7 +176,7 @@ export class Course {
     if (!other && (now - this.asked.series < wait || this.asked.span === span)) return;
     const count = Math.max(2, Math.min(MOST_MOMENTS, Math.round(this.plot.clientWidth || 400)));
     this.asked = { ...this.asked, key, series: now, span, zoomed };
-    this.hooks.want("series", { target, source, from: oldest, to: newest, count });
+    this.hooks.want({ type: "series", target, source, from: oldest, to: newest, count });
   }
 
   /**

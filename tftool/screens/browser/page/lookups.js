@@ -2,7 +2,8 @@
 // What the server's buffer answers, from packed samples: the same numbers, the same refusals.
 // Moments are whole nanoseconds since the epoch; null is the latest.
 import { compose, normalized, rpy } from "./maths.js";
-import { FIELDS, Poses } from "./wire.js";
+import { FIELDS } from "./messages.js";
+import { Poses } from "./wire.js";
 
 const NANOSECONDS = 1e9;
 const MOST_DEPTH = 1000;

@@ -78,7 +78,7 @@ let carried = null;
 
 const timeline = new Timeline(
   {
-    ask: (at) => wire.want("show", { at }),
+    ask: (at) => wire.want({ type: "show", at }),
     moved() {
       redraw.picture();
       remember();
@@ -209,7 +209,7 @@ const wire = inside ? new Standalone(handlers, inside) : new Wire(handlers);
 const past = new Past((asked) => wire.trails(asked));
 
 const course = new Course(timeline, {
-  want: (type, fields) => wire.want(type, fields),
+  want: (request) => wire.want(request),
   now: () => performance.now(),
   redraw: drawCourse,
 });
@@ -489,8 +489,9 @@ function setPair(target, source, byHand = true) {
   pickers.target.value = choices.target ?? "";
   pickers.source.value = choices.source ?? "";
   server.pair = null;
-  const both = choices.target !== undefined && choices.source !== undefined;
-  wire.want("pair", both ? { target: choices.target, source: choices.source } : { target: null, source: null });
+  const [to = null, of = null] = [choices.target, choices.source];
+  const both = to !== null && of !== null;
+  wire.want({ type: "pair", target: both ? to : null, source: both ? of : null });
   timeline.awaitAgain();
   changed();
 }

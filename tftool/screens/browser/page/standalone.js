@@ -26,7 +26,8 @@ export class Standalone {
     this.marks = packed.header.marks;
     /** @type {number | null} */
     this.at = null;
-    this.frames = { target: null, source: null };
+    /** @type {import("./messages.js").PairRequest} */
+    this.frames = { type: "pair", target: null, source: null };
     this.revision = -1;
     this.sequence = 0;
     this.due = false;
@@ -39,11 +40,12 @@ export class Standalone {
     });
   }
 
-  want(type, fields) {
-    if (type === "show") this.at = fields.at === null ? null : nanoseconds(fields.at);
-    if (type === "pair") this.frames = fields;
-    if (type === "marks") queueMicrotask(() => this.handlers.marks(this.marks));
-    else if (type === "series") queueMicrotask(() => this.handlers.series(this.lookups.series(fields)));
+  /** @param {import("./messages.js").Request} request */
+  want(request) {
+    if (request.type === "show") this.at = request.at === null ? null : nanoseconds(request.at);
+    if (request.type === "pair") this.frames = request;
+    if (request.type === "marks") queueMicrotask(() => this.handlers.marks(this.marks));
+    else if (request.type === "series") queueMicrotask(() => this.handlers.series(this.lookups.series(request)));
     else this.later();
   }
 

@@ -1,30 +1,19 @@
 // @ts-check
 // The connection to the server: decodes what comes, connects again when it ends.
+import { FIELD, FIELDS, HEADER, head, MAGIC } from "./messages.js";
 import { inflated, isBlock, open, Packed } from "./packed.js";
 import { secured } from "./secret.js";
 
-const HEADER = 48;
-export const FIELDS = 11; // numbers of a frame
 const RETRY = 1000;
 
 /** What a binary message holds; null for anything else. */
 export function decode(buffer) {
   if (buffer.byteLength < HEADER) return null;
-  const head = new DataView(buffer);
-  if (head.getUint32(0) !== 0x54465031) return null; // "TFP1"
-  const count = head.getUint32(12, true);
-  if (buffer.byteLength !== HEADER + count * FIELDS * 8) return null;
-  const at = head.getFloat64(24, true);
-  return {
-    sequence: head.getUint32(4, true),
-    revision: head.getUint32(8, true),
-    count,
-    now: head.getFloat64(16, true),
-    at: Number.isNaN(at) ? null : at,
-    oldest: head.getFloat64(32, true),
-    newest: head.getFloat64(40, true),
-    numbers: new Float64Array(buffer, HEADER),
-  };
+  const view = new DataView(buffer);
+  if (view.getUint32(0) !== MAGIC) return null;
+  const found = head(view);
+  if (buffer.byteLength !== HEADER + found.count * FIELDS * 8) return null;
+  return { ...found, at: Number.isNaN(found.at) ? null : found.at, numbers: new Float64Array(buffer, HEADER) };
 }
 
 export class Poses {
@@ -47,19 +36,19 @@ export class Poses {
   }
 
   newestOf(index) {
-    return this.numbers[index * FIELDS + 7];
+    return this.numbers[index * FIELDS + FIELD.newest];
   }
 
   oldestOf(index) {
-    return this.numbers[index * FIELDS + 8];
+    return this.numbers[index * FIELDS + FIELD.oldest];
   }
 
   rateOf(index) {
-    return this.numbers[index * FIELDS + 9];
+    return this.numbers[index * FIELDS + FIELD.rate];
   }
 
   samplesOf(index) {
-    return this.numbers[index * FIELDS + 10];
+    return this.numbers[index * FIELDS + FIELD.samples];
   }
 }
 
@@ -86,6 +75,7 @@ export class Wire {
    */
   constructor(handlers) {
     this.handlers = handlers;
+    /** @type {Map<string, import("./messages.js").Request>} */
     this.wanted = new Map(); // what to say again after a reconnection, by type
     this.socket = this.connect();
   }
@@ -94,12 +84,13 @@ export class Wire {
     const socket = new WebSocket(`ws://${location.host}${secured("/frames")}`);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
-      for (const message of this.wanted.values()) socket.send(message);
+      for (const request of this.wanted.values()) this.send(request);
       this.handlers.open();
     };
     socket.onmessage = ({ data }) => {
       this.handlers.heard();
       if (typeof data === "string") {
+        /** @type {import("./messages.js").Answer} */
         const message = JSON.parse(data);
         const name = message.type === "frames" ? "names" : message.type;
         if (name === "tracks") this.fetchTracks();
@@ -129,11 +120,13 @@ export class Wire {
     this.handlers.tracks(header.tracks ?? [], new Packed(header, bytes), true);
   }
 
-  /** Say something now, and again whenever the connection is made anew. */
-  want(type, fields) {
-    const message = JSON.stringify({ type, ...fields });
-    this.wanted.set(type, message);
-    this.send(message);
+  /**
+   * Say something now, and again whenever the connection is made anew.
+   * @param {import("./messages.js").Request} request
+   */
+  want(request) {
+    this.wanted.set(request.type, request);
+    this.send(request);
   }
 
   /**
@@ -141,29 +134,30 @@ export class Wire {
    * @param {import("./past.js").Asked} asked
    */
   trails(asked) {
-    this.send(JSON.stringify({ type: "trails", ...asked }));
+    this.send({ type: "trails", ...asked });
   }
 
   got(sequence) {
-    this.send(JSON.stringify({ type: "got", sequence }));
+    this.send({ type: "got", sequence });
   }
 
   /** Put a joint elsewhere. */
   move(joint, position) {
-    this.send(JSON.stringify({ type: "move", joint, position }));
+    this.send({ type: "move", joint, position });
   }
 
-  /** Drive the turtle of a world that has one: "up", "down", "left" or "right". */
+  /** Drive the turtle of a world that has one. */
   press(key) {
-    this.send(JSON.stringify({ type: "key", key }));
+    this.send({ type: "key", key });
   }
 
   /** Ask for poses from all over the buffer. */
   past() {
-    this.send(JSON.stringify({ type: "past" }));
+    this.send({ type: "past" });
   }
 
-  send(message) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(message);
+  /** @param {import("./messages.js").Request} request */
+  send(request) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(request));
   }
 }

@@ -1,0 +1,407 @@
+"""Messages between the page and its server: the table from which both sides follow.
+
+`REQUESTS` and `ANSWERS` hold the fields of every text message, `HEAD` and `NUMBERS` the layout of
+the binary one. Python reads requests and builds answers by them. For the page,
+`python -m tftool.screens.browser.page_messages` writes `page/messages.js`: the types of all
+messages, which TypeScript checks, and the decoder of the head.
+
+Moments are seconds since the clock's epoch, which a float holds to the nanosecond for a hundred
+days; the epoch itself is a text.
+"""
+
+import json
+import struct
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from itertools import accumulate
+from pathlib import Path
+from typing import Any, Final, TypeAlias
+
+from tftool.base.errors import InputError
+
+MOST_MOMENTS: Final = 2000
+"""Moments of a pair that are sent at once: a plot has no more columns."""
+
+MOST_TRAILS: Final = 60
+"""Frames whose trails are sent at once."""
+
+MOST_BYTES: Final = 16 * 1024
+"""The longest message a page has a reason to send: two names of some thousand letters."""
+
+ARROWS: Final = ("up", "down", "left", "right")
+"""Keys that drive a turtle."""
+
+
+@dataclass(frozen=True, slots=True)
+class Show:
+    """Request to show a time: seconds since the epoch, or None for the present."""
+
+    at: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class PairRequest:
+    """Request for a pair's transform from now on; None twice ends it."""
+
+    target: str | None
+    source: str | None
+
+    def __post_init__(self) -> None:
+        """Refuse half a pair."""
+        if (self.target is None) != (self.source is None):
+            raise InputError("a pair is two names of frames, or null twice")
+
+    @property
+    def frames(self) -> tuple[str, str] | None:
+        """Target and source."""
+        return None if self.target is None or self.source is None else (self.target, self.source)
+
+
+@dataclass(frozen=True, slots=True)
+class Got:
+    """Acknowledgement that the page has drawn the poses of this sequence number."""
+
+    sequence: int
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """Request to move a joint: radians or metres."""
+
+    joint: str
+    position: float
+
+
+@dataclass(frozen=True, slots=True)
+class KeyPressed:
+    """Key press that drives a turtle: one of `ARROWS`."""
+
+    key: str
+
+
+@dataclass(frozen=True, slots=True)
+class Past:
+    """Request for poses over the whole buffer, once: they have sequence number 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesRequest:
+    """Request for a pair's transform at `count` times from `first` to `last`, in seconds."""
+
+    target: str
+    source: str
+    first: float
+    last: float
+    count: int
+
+    def __post_init__(self) -> None:
+        """Refuse an empty span."""
+        _refuse_empty(self.first, self.last)
+
+
+@dataclass(frozen=True, slots=True)
+class TrailsRequest:
+    """Request for frames' positions at `count` times from `first` to `last`, in seconds."""
+
+    fixed: str
+    frames: tuple[str, ...]
+    first: float
+    last: float
+    count: int
+
+    def __post_init__(self) -> None:
+        """Refuse an empty span."""
+        _refuse_empty(self.first, self.last)
+
+
+@dataclass(frozen=True, slots=True)
+class MarksRequest:
+    """Request for gaps and the doctor's findings, sent when they are known."""
+
+
+Request: TypeAlias = (
+    Show
+    | PairRequest
+    | Got
+    | Move
+    | KeyPressed
+    | Past
+    | SeriesRequest
+    | TrailsRequest
+    | MarksRequest
+)
+
+
+@dataclass(frozen=True, slots=True)
+class FieldType:
+    """Type of a field of a request.
+
+    Attributes:
+        javascript: The type for TypeScript.
+        words: A sentence's end that says which values are right.
+        read: Returns the value for Python; raises ValueError for a wrong one.
+    """
+
+    javascript: str
+    words: str
+    read: Callable[[Any], Any]
+
+
+def _refuse_empty(first: float, last: float) -> None:
+    if not first < last:
+        raise InputError("a series goes from one moment to a later one")
+
+
+def _checked(is_right: bool, value: Any) -> Any:
+    if not is_right:
+        raise ValueError
+    return value
+
+
+def _number(limit: float) -> Callable[[Any], float]:
+    # Compared first: a whole number too large for a float cannot be converted.
+    return lambda value: float(
+        _checked(isinstance(value, (int, float)) and abs(value) < limit, value)
+    )
+
+
+def _name(value: Any) -> Any:
+    return _checked(isinstance(value, str), value)
+
+
+def _whole(low: int, high: int) -> Callable[[Any], Any]:
+    return lambda value: _checked(isinstance(value, int) and low <= value <= high, value)
+
+
+def _names(value: Any) -> tuple[str, ...]:
+    _checked(isinstance(value, list) and len(value) <= MOST_TRAILS, value)
+    return tuple(_name(one) for one in value)
+
+
+def _or_null(kind: FieldType) -> FieldType:
+    return FieldType(
+        f"{kind.javascript} | null",
+        f"{kind.words}, or null",
+        lambda value: None if value is None else kind.read(value),
+    )
+
+
+_MOMENT = FieldType("number", "a number of seconds since the epoch", _number(1e12))
+_NAME = FieldType("string", "a name", _name)
+_FRAME = FieldType("string", "the name of a frame", _name)
+_SPAN = {
+    "from": _MOMENT,
+    "to": _MOMENT,
+    "count": FieldType(
+        "number", f"a whole number from 2 to {MOST_MOMENTS}", _whole(2, MOST_MOMENTS)
+    ),
+}
+
+REQUESTS: Final[dict[str, tuple[Callable[..., Request], dict[str, FieldType]]]] = {
+    "show": (Show, {"at": _or_null(_MOMENT)}),
+    "pair": (PairRequest, {"target": _or_null(_FRAME), "source": _or_null(_FRAME)}),
+    "got": (
+        Got,
+        {"sequence": FieldType("number", "a whole number", _whole(-(1 << 63), 1 << 63))},
+    ),
+    "move": (
+        Move,
+        {"joint": _NAME, "position": FieldType("number", "a finite number", _number(1e9))},
+    ),
+    "key": (
+        KeyPressed,
+        {
+            "key": FieldType(
+                " | ".join(f'"{key}"' for key in ARROWS),
+                f"one of {', '.join(ARROWS)}",
+                lambda value: _checked(value in ARROWS, value),
+            )
+        },
+    ),
+    "past": (Past, {}),
+    "series": (SeriesRequest, {"target": _FRAME, "source": _FRAME, **_SPAN}),
+    "trails": (
+        TrailsRequest,
+        {
+            "fixed": _FRAME,
+            "frames": FieldType("string[]", f"a list of at most {MOST_TRAILS} names", _names),
+            **_SPAN,
+        },
+    ),
+    "marks": (MarksRequest, {}),
+}
+"""Messages of the page by type: the class of each, and its fields in the order of the class."""
+
+_POSITIONS = "(number | null)[]"
+
+ANSWERS: Final[dict[str, dict[str, str]]] = {
+    # Names and parents of the frames, whenever they change.
+    "frames": {
+        "epoch": "string",
+        "revision": "number",
+        "names": "string[]",
+        "parents": "number[]",
+        "statics": "number[]",
+        "authorities": "string[]",
+        "total": "number",
+        "rate": "number",
+        "begin?": "number",
+    },
+    # The transform of the chosen pair, or why there is none.
+    "pair": {
+        "target": "string",
+        "source": "string",
+        "found": "boolean",
+        "why?": "string",
+        "stamp?": "string",
+        "moment?": "number | null",
+        "translation?": _POSITIONS,
+        "rotation?": _POSITIONS,
+        "rpy?": _POSITIONS,
+        "chain?": "string[]",
+    },
+    # Shapes, joints and sliders of the robot.
+    "robot": {
+        "name": "string",
+        "links": 'import("./robot.js").Link[]',
+        "joints": "{ name: string, frame: string, axis: number[], slides: boolean }[]",
+        "sliders": "{ name: string, unit: string, range: number[], position: number }[]",
+        "motion": 'import("./kinematics.js").Joint[]',
+        "missing": "string[]",
+    },
+    # The span of the buffer, while a past moment is shown.
+    "range": {"now": "number", "oldest": "number", "newest": "number"},
+    # A pair's transform at many moments: metres, radians, null where there is none.
+    "series": {
+        "target": "string",
+        "source": "string",
+        "times": "number[]",
+        **dict.fromkeys(("x", "y", "z", "roll", "pitch", "yaw"), _POSITIONS),
+    },
+    # Positions of frames at many moments.
+    "trails": {
+        "fixed": "string",
+        "from": "number",
+        "to": "number",
+        "places": "Record<string, (number[] | null)[]>",
+    },
+    # Gaps of links and the doctor's findings.
+    "marks": {
+        "gaps": "[string, number, number][]",
+        "findings": "{ id: string, severity: string, message: string, since: number, "
+        "until: number }[]",
+    },
+    # Recorded messages can be fetched.
+    "tracks": {},
+}
+"""Text messages to the page by type, each field with its type for TypeScript; `?` for a field that
+may be missing."""
+
+MAGIC: Final = b"TFP1"
+
+HEAD: Final = {
+    "sequence": "I",
+    "revision": "I",
+    "count": "I",
+    "now": "d",
+    "at": "d",
+    "oldest": "d",
+    "newest": "d",
+}
+"""Head of binary poses behind the magic, little-endian: sequence number, revision of the names,
+number of frames; then moments: now, the one shown (NaN for the present), and the span of the
+buffer."""
+
+HEADER: Final = struct.Struct(f"<4s{''.join(HEAD.values())}")
+
+NUMBERS: Final = ("x", "y", "z", "qx", "qy", "qz", "qw", "newest", "oldest", "rate", "samples")
+"""Numbers of each frame behind the head, doubles: its pose in its parent (NaN without data), its
+span, its rate in hertz, and its number of samples."""
+
+
+def parse(message: str | bytes) -> Request:
+    """Parse a message from a page.
+
+    Raises:
+        InputError: If it is none of `REQUESTS`; names the mistake.
+    """
+    if isinstance(message, bytes):
+        raise InputError("the page sends text, not bytes")
+    try:
+        given = json.loads(message)
+    except (ValueError, RecursionError) as error:
+        raise InputError("that is not JSON") from error
+    kind = given.get("type") if isinstance(given, dict) else None
+    if not isinstance(kind, str) or kind not in REQUESTS:
+        *most, last = REQUESTS
+        raise InputError(f'a message is an object whose "type" is {", ".join(most)} or {last}')
+    request, fields = REQUESTS[kind]
+    values = []
+    for name, field in fields.items():
+        try:
+            values.append(field.read(given.get(name)))
+        except ValueError:
+            raise InputError(f"'{name}' of a message '{kind}' is {field.words}") from None
+    return request(*values)
+
+
+def answer(kind: str, fields: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a message to the page, with exactly the fields of `ANSWERS`."""
+    known = ANSWERS[kind]
+    needed = {name for name in known if not name.endswith("?")}
+    assert needed <= fields.keys() <= {name.removesuffix("?") for name in known}, kind
+    return {"type": kind, **fields}
+
+
+def as_javascript() -> str:
+    """Return `page/messages.js`."""
+    lines = [
+        "// @ts-check",
+        "// Written by `python -m tftool.screens.browser.page_messages` from its tables: change "
+        "those.",
+        "",
+        "/**",
+    ]
+    for family, several in (
+        ("Request", {kind: _types(fields) for kind, (_, fields) in REQUESTS.items()}),
+        ("Answer", ANSWERS),
+    ):
+        for kind, fields in several.items():
+            typed = "".join(f", {name}: {javascript}" for name, javascript in fields.items())
+            lines.append(f' * @typedef {{{{ type: "{kind}"{typed} }}}} {kind.title()}{family}')
+        union = " | ".join(f"{kind.title()}{family}" for kind in several)
+        lines.append(f" * @typedef {{{union}}} {family}")
+    sizes = [struct.calcsize(f"<{code}") for code in HEAD.values()]
+    starts = accumulate(sizes, initial=len(MAGIC))
+    getters = {"I": "getUint32", "d": "getFloat64"}
+    lines += [
+        " */",
+        "",
+        f"export const MAGIC = 0x{MAGIC.hex()};",
+        f"export const HEADER = {HEADER.size}; // bytes",
+        f"export const FIELDS = {len(NUMBERS)}; // numbers of a frame",
+        "export const FIELD = { "
+        + ", ".join(f"{name}: {place}" for place, name in enumerate(NUMBERS))
+        + " };",
+        "",
+        "/**",
+        " * The head of binary poses.",
+        " * @param {DataView} view",
+        " */",
+        "export const head = (view) => ({",
+        *(
+            f"  {name}: view.{getters[code]}({start}, true),"
+            for (name, code), start in zip(HEAD.items(), starts, strict=False)
+        ),
+        "});",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _types(fields: Mapping[str, FieldType]) -> dict[str, str]:
+    return {name: field.javascript for name, field in fields.items()}
+
+
+if __name__ == "__main__":
+    file = Path(__file__).with_name("page") / "messages.js"
+    file.write_text(as_javascript(), encoding="utf-8")
