@@ -1,8 +1,10 @@
 """Table of the containers of recordings: how each is recognised, read and written."""
 
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -34,6 +36,8 @@ class ContainerFormat:
         reader_at: Module and class of its reader: they are imported when a file is opened.
         writer_at: Module and class of its writer.
         options: Options of its writer beside a path.
+        encoding: The only encoding of messages that it holds: "cdr" or "ros1"; "" for any.
+        keeps_sequences: Whether it stores the publish time and the sequence number of a message.
     """
 
     name: str
@@ -44,6 +48,8 @@ class ContainerFormat:
     reader_at: tuple[str, str]
     writer_at: tuple[str, str]
     options: tuple[str, ...]
+    encoding: str = ""
+    keeps_sequences: bool = False
 
     def open(self, path: Path, *, by_index: bool = True) -> "ContainerReader":
         """Open a file for reading.
@@ -70,10 +76,25 @@ class ContainerFormat:
         found: ContainerWriter = _imported(self.writer_at)(path, **known)
         return found
 
+    def create_like(self, path: Path, style: Mapping[str, Any], *, profile: str) -> Any:
+        """Create the file of an edit, for messages that are encoded already.
+
+        Args:
+            path: Its path.
+            style: `style` of the reader of the same container whose file is edited; empty for
+                another container.
+            profile: Profile of its messages if the style has none: "ros1" or "ros2".
+
+        Raises:
+            OSError: If it cannot be written.
+        """
+        module, name = self.writer_at
+        return _imported((module, f"{name}.in_style"))(path, style, profile=profile)
+
 
 def _imported(place: tuple[str, str]) -> Callable[..., Any]:
     module, name = place
-    found: Callable[..., Any] = getattr(import_module(f"tftool.recordings.{module}"), name)
+    found: Callable[..., Any] = attrgetter(name)(import_module(f"tftool.recordings.{module}"))
     return found
 
 
@@ -87,6 +108,7 @@ CONTAINERS: Final = (
         ("mcap.read", "Mcap"),
         ("mcap.write", "McapWriter"),
         ("compression", "profile", "library"),
+        keeps_sequences=True,
     ),
     ContainerFormat(
         "db3",
@@ -97,6 +119,7 @@ CONTAINERS: Final = (
         ("rosbag2.read", "Sqlite"),
         ("rosbag2.write", "SqliteWriter"),
         ("compression",),
+        encoding="cdr",
     ),
     ContainerFormat(
         "bag",
@@ -107,6 +130,7 @@ CONTAINERS: Final = (
         ("rosbag1.read", "Rosbag1"),
         ("rosbag1.write", "Ros1Messages"),
         ("compression",),
+        encoding="ros1",
     ),
 )
 """Every container; those that a folder of rosbag2's may hold have a storage."""
@@ -149,3 +173,10 @@ def container_stored(storage: str) -> ContainerFormat:
             return one
     known = " and ".join(one.storage for one in CONTAINERS if one.storage)
     raise UsageError(f"'{storage}' is no storage of rosbag2: {known} are.")
+
+
+def library_name() -> str:
+    """Return the library name written into files."""
+    # The package stands above every room: it is asked, not imported.
+    version: str = sys.modules["tftool"].__version__
+    return f"tftool {version}"

@@ -1,7 +1,6 @@
 """Writing a recording: transforms and messages into a file that `open_recording` reads."""
 
 import os
-import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -12,7 +11,12 @@ from tftool.messages.classes import INTERFACES, Message
 from tftool.messages.codec import codec
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel, ContainerWriter
-from tftool.recordings.containers import container_named, container_of, container_stored
+from tftool.recordings.containers import (
+    container_named,
+    container_of,
+    container_stored,
+    library_name,
+)
 from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 from tftool.recordings.rosbag2.folder_writer import FolderWriter
 from tftool.recordings.target import Target, failed
@@ -196,10 +200,3 @@ def write_recording(
         target.discard()
         raise
     return RecordingWriter(target, container)
-
-
-def library_name() -> str:
-    """Return the library name written into files."""
-    # The package stands above every room: it is asked, not imported.
-    version: str = sys.modules["tftool"].__version__
-    return f"tftool {version}"

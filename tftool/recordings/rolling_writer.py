@@ -15,9 +15,9 @@ from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.messages.layouts import CDR
 from tftool.messages.splice import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
+from tftool.recordings.containers import library_name
 from tftool.recordings.find import ACTIVE
 from tftool.recordings.mcap.write import McapWriter
-from tftool.recordings.recording_writer import library_name
 from tftool.recordings.rosbag2.folder_writer import FileFacts, metadata_text, write_metadata
 from tftool.recordings.target import failed, refuse_existing, synced
 

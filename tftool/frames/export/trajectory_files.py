@@ -21,8 +21,8 @@ from tftool.frames.export import digits
 from tftool.frames.export.export_formats import DECIMALS, Format, Style
 from tftool.frames.pair_samples import Trajectory
 from tftool.geometry import rigid_arrays as batch
+from tftool.recordings.containers import library_name
 from tftool.recordings.contract import Progress
-from tftool.recordings.recording_writer import library_name
 from tftool.recordings.target import Target, commit_together, failed
 
 CSV_COLUMNS: Final = ("stamp_ns", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw")

@@ -13,6 +13,7 @@ from tftool.messages.splice import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
 from tftool.recordings.container import ContainerReader, Taken
 from tftool.recordings.container_reader import LAYOUTS
+from tftool.recordings.containers import container_named
 from tftool.recordings.edit.changes import (
     Changer,
     Edits,
@@ -166,13 +167,14 @@ class StaticHeads:
     def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
         """Write statics of another recording for which this one has no topic."""
         channel = ros2_channel("/tf_static", TRANSFORMS, static=True)
-        ros1 = output.container == "bag" or all(
+        encoding = container_named(output.container).encoding
+        ros1 = encoding == "ros1" or all(
             channel.encoding == "ros1"
             for tape in self._tapes
             for channel in tape.channels.values()
             if carries_transforms(channel)
         )
-        if output.container == "bag" or (ros1 and output.container == "mcap" and not self._ros2):
+        if encoding == "ros1" or (ros1 and not encoding and not self._ros2):
             channel = as_ros1(channel).channel
         payload = encode_rows(LAYOUTS[channel.encoding], rows)
         number = output.channel(channel)

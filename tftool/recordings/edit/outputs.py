@@ -16,22 +16,18 @@ from tftool.messages.schema import full_name
 from tftool.messages.transform_rows import walk
 from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
 from tftool.recordings.chunked import Chunk, ChunkedReader
-from tftool.recordings.compression import best_compression, compressor
+from tftool.recordings.compression import compressor
 from tftool.recordings.container import Block, ContainerReader, MessageTable, Taken
 from tftool.recordings.container_reader import LAYOUTS
+from tftool.recordings.containers import container_named
 from tftool.recordings.contract import Stamps
 from tftool.recordings.edit.changes import carries_transforms
 from tftool.recordings.edit.tables import Kinds, Result, TableChange
-from tftool.recordings.mcap.write import CHUNK_SIZE, McapWriter
+from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.message_conversion import Conversion, as_ros1, as_ros2
-from tftool.recordings.recording_writer import library_name
-from tftool.recordings.rosbag1.write import CHUNK_SIZE as BAG_CHUNK_SIZE
-from tftool.recordings.rosbag1.write import Rosbag1Writer
 from tftool.recordings.rosbag2.offered_qos import offers_text
-from tftool.recordings.rosbag2.write import SqliteWriter
 from tftool.recordings.schema_text import known_hash, ros2_definition
 
-_LARGEST_CHUNK: Final = 1 << 26
 _HEAD = struct.Struct("<qQQ")
 _HEADS = np.dtype([("log_time", "<i8"), ("publish_time", "<u8"), ("sequence", "<u8")])
 
@@ -91,38 +87,23 @@ class EditedFile:
         self.end: Stamp = 0
         self.refused: dict[str, str] = {}
         self._kinds: dict[Channel, Kinds] = {}
+        self._format = container_named(container)
         self.writer = self._opened(tape)
         # A database is written row by row; whole chunks are copied elsewhere.
-        self._chunks = None if isinstance(self.writer, SqliteWriter) else self.writer
+        self._chunks = self.writer if hasattr(self.writer, "copy_chunk") else None
         if self._chunks is not None:
             self._chunks.first_free = first_free
 
-    def _opened(self, tape: ContainerReader) -> McapWriter | Rosbag1Writer | SqliteWriter:
+    def _opened(self, tape: ContainerReader) -> Any:
         """Create the file, in the format of its first input."""
-        style: dict[str, Any] = tape.style if tape.container == self.container else {}
-        if self.container == "mcap":
-            chunked = style.get("chunked", True) or not getattr(tape, "is_indexed", True)
-            before = style.get("library", "")
-            library = library_name() + (f"; was: {before}" if before else "")
-            # Chunks of an MCAP file that are changed become one chunk each: `end_block`.
-            size = _LARGEST_CHUNK if style.get("chunked") else CHUNK_SIZE
-            profile = "ros1" if tape.container == "bag" and not self._ros2 else "ros2"
-            return McapWriter(
-                self.path,
-                profile="ros2" if self._ros2 else style.get("profile", profile),
-                library=library,
-                compression=style.get("compression") or best_compression(),
-                chunk_size=size if chunked else 0,
-                with_crc=style.get("with_crc", True),
-            )
-        if self.container == "bag":
-            size = style.get("chunk_size") or BAG_CHUNK_SIZE
-            return Rosbag1Writer(
-                self.path,
-                compression=style.get("compression", "none"),
-                chunk_size=min(max(size, 1 << 12), 1 << 24),
-            )
-        return SqliteWriter(self.path)
+        is_same = tape.container == self._format.name
+        style: dict[str, Any] = dict(tape.style) if is_same else {}
+        if not getattr(tape, "is_indexed", True) and not style.get("chunked", True):
+            del style["chunked"]
+        if self._ros2:
+            style.pop("profile", None)
+        is_ros1 = container_named(tape.container).encoding == "ros1" and not self._ros2
+        return self._format.create_like(self.path, style, profile="ros1" if is_ros1 else "ros2")
 
     # Channels
 
@@ -135,8 +116,7 @@ class EditedFile:
             try:
                 self._conversions[key] = self._converted(channel, tape)
             except TftoolError as error:
-                # An MCAP file takes messages in any encoding, other containers do not.
-                keeps = self.container == "mcap"
+                keeps = not self._format.encoding
                 self._conversions[key] = Conversion(channel, bytes) if keeps else None
                 fate = "keeps its encoding" if keeps else "is left out"
                 self._note_refusal(channel.topic, fate, error)
@@ -146,15 +126,15 @@ class EditedFile:
         self.refused.setdefault(topic, f"{fate}: {str(error).rstrip('.')}.")
 
     def _converted(self, channel: Channel, tape: ContainerReader) -> Conversion:
-        if self.container == "bag":
+        if self._format.encoding == "ros1":
             return as_ros1(channel)
         if channel.encoding == "ros1":
             return as_ros2(channel) if self._ros2 else Conversion(channel, bytes)
-        if self.container == "db3":
-            if channel.encoding != "cdr":
+        if self._format.encoding:
+            if channel.encoding != self._format.encoding:
                 raise InputError(
-                    f"its messages are written as '{channel.encoding}', which rosbag2's "
-                    "sqlite files cannot hold"
+                    f"its messages are written as '{channel.encoding}', which "
+                    f"{self._format.words} cannot hold"
                 )
             channel = replace(channel, type=full_name(channel.type))
         # An MCAP file stays as it is, with what it does not say; others have no place for it.
@@ -367,7 +347,7 @@ class EditedFile:
 
 def digest(before: int, message: Taken, container: str) -> int:
     """Update a checksum with one message, over the parts that the container stores."""
-    kept = container == "mcap"
+    kept = container_named(container).keeps_sequences
     head = _HEAD.pack(
         message.log_time, message.publish_time if kept else 0, message.sequence if kept else 0
     )
@@ -389,7 +369,7 @@ def digest_table(
         some = table.chosen(np.flatnonzero(np.isin(table.channels, own)))
         heads = np.zeros(len(some), dtype=_HEADS)
         heads["log_time"] = some.log_times
-        if container == "mcap":
+        if container_named(container).keeps_sequences:
             heads["publish_time"], heads["sequence"] = some.publish_times, some.sequences
         digests[key] = zlib.crc32(some.behind(heads)[0].data, digests.get(key, 0))
 

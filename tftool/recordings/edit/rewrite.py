@@ -151,11 +151,13 @@ class _Job:
         self._progress = progress
         self._tapes: list[ContainerReader] = [tape for one in inputs for tape in one.tapes]
         self._is_folder = not container
-        if ros2 and container == "bag":
+        encoding = container_named(container).encoding if container else ""
+        if ros2 and encoding == "ros1":
             raise UsageError(
-                f"A .bag has ROS 1's messages: with --ros2 write '{output.stem}.mcap' or .db3."
+                f"A {output.suffix} has ROS 1's messages: with --ros2 write "
+                f"'{output.stem}.mcap' or .db3."
             )
-        self._ros2 = ros2 or container == "db3"
+        self._ros2 = ros2 or encoding == "cdr"
         if edits.split_every and container:
             raise UsageError(
                 f"--split-every writes several files into a folder: '{output.stem}', not "
@@ -545,7 +547,7 @@ class _Job:
         if self._edits.names and not self._edits.everywhere:
             report.notes += self._old_names()
         ros1 = any(one.encoding == "ros1" for tape in self._tapes for one in tape.channels.values())
-        if ros1 and self._container == "mcap" and not self._ros2:
+        if ros1 and not container_named(self._container).encoding and not self._ros2:
             report.notes.append(
                 "Messages keep ROS 1's encoding (profile ros1): --ros2 converts them to ROS 2's."
             )

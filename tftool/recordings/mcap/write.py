@@ -9,7 +9,7 @@ import zlib
 from array import array
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -17,9 +17,9 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk
-from tftool.recordings.compression import compressor
+from tftool.recordings.compression import best_compression, compressor
 from tftool.recordings.container import CopiedAttachment, MessageTable
-from tftool.recordings.containers import MCAP_MAGIC
+from tftool.recordings.containers import MCAP_MAGIC, library_name
 from tftool.recordings.mcap.format import (
     ATTACHMENT_INDEX,
     CHANNEL,
@@ -54,6 +54,9 @@ COMPRESSIONS: Final = ("zstd", "lz4", "none")
 CHUNK_SIZE: Final = 1 << 20
 """Bytes of messages in a chunk, before they are compressed."""
 
+LARGEST_CHUNK: Final = 1 << 26
+"""Bytes of messages in a chunk that takes the place of another."""
+
 MOST_CHANNELS: Final = 65_535
 
 _HEADS = np.dtype(
@@ -84,6 +87,21 @@ class McapWriter:
         counts: Messages by channel.
         first_free: The first number for channels and schemas that come without one.
     """
+
+    @classmethod
+    def in_style(cls, path: Path, style: Mapping[str, Any], *, profile: str) -> "McapWriter":
+        """Create the file of an edit; see `ContainerFormat.create_like`."""
+        before = style.get("library", "")
+        # Chunks of a file that are changed become one chunk each: `end_block`.
+        size = LARGEST_CHUNK if style.get("chunked") else CHUNK_SIZE
+        return cls(
+            path,
+            profile=style.get("profile", profile),
+            library=library_name() + (f"; was: {before}" if before else ""),
+            compression=style.get("compression") or best_compression(),
+            chunk_size=size if style.get("chunked", True) else 0,
+            with_crc=style.get("with_crc", True),
+        )
 
     def __init__(
         self,

@@ -9,7 +9,7 @@ import struct
 from array import array
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -62,6 +62,17 @@ class Rosbag1Writer:
         counts: Messages by connection.
         first_free: The first number for connections that come without one.
     """
+
+    @staticmethod
+    def in_style(path: Path, style: Mapping[str, Any], *, profile: str) -> "Rosbag1Writer":
+        """Create the file of an edit; see `ContainerFormat.create_like`."""
+        del profile
+        size = style.get("chunk_size") or CHUNK_SIZE
+        return Rosbag1Writer(
+            path,
+            compression=style.get("compression", "none"),
+            chunk_size=min(max(size, 1 << 12), 1 << 24),
+        )
 
     def __init__(
         self, path: Path, *, compression: str = "none", chunk_size: int = CHUNK_SIZE

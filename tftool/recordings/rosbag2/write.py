@@ -1,8 +1,9 @@
 """Writing rosbag2's sqlite files, in schema version 4."""
 
 import sqlite3
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
@@ -31,6 +32,12 @@ class SqliteWriter:
     Attributes:
         counts: Messages by topic.
     """
+
+    @classmethod
+    def in_style(cls, path: Path, style: Mapping[str, Any], *, profile: str) -> "SqliteWriter":
+        """Create the file of an edit; see `ContainerFormat.create_like`."""
+        del style, profile
+        return cls(path)
 
     def __init__(self, path: Path, *, compression: str | None = None) -> None:
         """Create the file; an existing one is replaced.
