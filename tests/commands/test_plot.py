@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 import tftool as library
 from tests.command_line import Simulated
@@ -40,6 +41,30 @@ def test_a_recording_is_drawn_at_eighty_columns(tftool, run):
     ]
     assert lines[1].startswith("         2│")
     assert lines[-1].split() == ["0", "10", "20", "s"]
+
+
+def test_a_recording_is_drawn_as_high_as_the_terminal(run, monkeypatch, capsys):
+    monkeypatch.setattr(Console, "is_terminal", True)
+    heights = []
+    for lines in (24, 60):
+        monkeypatch.setenv("LINES", str(lines))
+        monkeypatch.setenv("COLUMNS", "100")
+        assert main(["plot", "map", "car", str(run)]) == 0
+        heights.append(len(capsys.readouterr().out.splitlines()))
+
+    assert heights[0] < 24
+    assert 50 < heights[1] < 60
+
+
+def test_a_value_that_is_noise_is_written_as_zero():
+    stamps = np.arange(5) * seconds(1) + 1
+    moves = np.stack([np.linspace(1.0, 3.7e-8, 5), np.ones(5), np.zeros(5)], 1)
+    turns = np.tile([0.0, 0.0, 0.0, 1.0], (5, 1))
+    path = trajectory_of(TransformArray("map", "car", stamps, moves, turns, np.ones(5, bool)))
+
+    drawn = over_time([path], 1, chosen(["position"]), PlotLook(80, 12)).plain
+
+    assert "x 0  y 1.000  z 0" in drawn
 
 
 def test_a_line_rises_where_the_value_does(tftool, tmp_path):
@@ -223,6 +248,8 @@ def test_in_python_it_draws_into_axes_of_ones_own():
         (0.022, 7.104, 6, [0, 2, 4, 6, 8]),
         (-0.4, 0.31, 3, [-0.5, 0, 0.5]),
         (0, 100, 2, [0, 100]),
+        (-4, 4, 2, [-5, 0, 5]),
+        (-170, 175, 2, [-200, 0, 200]),
         (12.1, 12.2, 6, [12.1, 12.12, 12.14, 12.16, 12.18, 12.2]),
     ],
 )

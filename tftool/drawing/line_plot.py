@@ -34,6 +34,9 @@ from tftool.geometry.rigid_arrays import Floats
 LABELS: Final = 10
 """Cells left of a panel, for what its axis says."""
 
+NOISE: Final = 1e-6
+"""Share of a panel's greatest value below which a value is written as 0."""
+
 LEAST_ROWS: Final = 3
 ROWS: Final = 6
 """Lines of a panel where no terminal says how many there are."""
@@ -173,7 +176,9 @@ def _titled(panel: PlotPanel, look: PlotLook, number: int) -> Text:
     is_alone = len(panel.curves) == 1 and panel.curves[0].label == panel.title
     for place, one in enumerate(panel.curves):
         holds = np.flatnonzero(np.isfinite(one.values))
-        value = axis_number(float(one.values[holds[-1]])) if len(holds) else ""
+        last = float(one.values[holds[-1]]) if len(holds) else math.nan
+        is_noise = abs(last) < NOISE * max(map(abs, panel.limits()))
+        value = "" if math.isnan(last) else "0" if is_noise else axis_number(last)
         key = str(number + place) if look.numbered and number + place < 10 else ""
         label = "" if is_alone else visible(one.label)
         is_hidden = number + place in look.hidden

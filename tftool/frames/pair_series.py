@@ -197,12 +197,14 @@ def round_ticks(low: float, high: float, most: int) -> list[float]:
     Args:
         low: Lower end of the span.
         high: Upper end, above `low`.
-        most: How many there may be, at least two.
+        most: How many there may be, at least two; three if 0 is inside of the span.
     """
-    power = 10.0 ** math.floor(math.log10((high - low) / max(1, most - 1)))
+    # Zero is a multiple of every step, so that two never enclose it.
+    most = max(most, 3 if low < 0.0 < high else 2)
+    power = 10.0 ** math.floor(math.log10((high - low) / (most - 1)))
     for step in (factor * power for factor in (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)):
         first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
-        if last - first < max(2, most):
+        if last - first < most:
             break
     return [round(place * step, 12) for place in range(first, last + 1)]
 

@@ -154,9 +154,10 @@ def _write(
 
 
 def _print(found: list[Trajectory], start: Stamp, style: PlotStyle) -> None:
-
     console = Console()
-    text = style.text(found, start, console)
+    # The last line is the prompt's.
+    height = console.height - 1 if console.is_terminal else None
+    text = style.text(found, start, console, height=height)
     if not console.is_terminal:
         sys.stdout.write(text.plain)
         return
