@@ -248,6 +248,14 @@ def test_where_the_source_is_in_words(x, y, said):
     assert "at    at all times" in echo(found(x, y, stamp=0))
 
 
+def test_a_frame_straight_up_or_down_is_not_called_ahead():
+    def away(z):
+        pose = Transform((0.0, 0.0, z))
+        return echo(TransformStamped(0, "a", "b", pose))[-1]
+
+    assert (away(3.0), away(-2.0)) == ("away  3.000 m, above", "away  2.000 m, below")
+
+
 def test_nothing_is_never_less_than_nothing():
     assert "xyz     0.000   0.000   0.000" in echo(found(-0.0001, -0.0))
 

@@ -213,6 +213,8 @@ def _away(x: float, y: float, z: float, look: Look) -> str:
     away, bearing = math.hypot(x, y, z), math.degrees(math.atan2(y, x))
     if away < 0.001:
         return f"{away:.3f} m"
+    if math.hypot(x, y) < 0.001 * away:
+        return f"{away:.3f} m, {'above' if z > 0.0 else 'below'}"
     if abs(bearing) < 0.05:
         return f"{away:.3f} m, ahead"
     side = "left" if bearing > 0 else "right"
@@ -361,7 +363,13 @@ def told(*, drives: bool, chooses: bool) -> str:
 
 
 def hints(
-    panel: str, *, drives: bool, past: bool, ascii_only: bool, chooses: bool = False
+    panel: str,
+    *,
+    drives: bool,
+    past: bool,
+    ascii_only: bool,
+    chooses: bool = False,
+    in_space: bool = False,
 ) -> Sequence[Hint]:
     """Return the keys that matter now; a narrow line keeps the first ones.
 
@@ -371,6 +379,7 @@ def hints(
         past: Whether an earlier moment is shown.
         ascii_only: Whether keys are written in ASCII.
         chooses: Whether another scenario can be chosen.
+        in_space: Whether the picture is in 3-D.
     """
     arrows, updown = ("arrows", "up/down") if ascii_only else ("↑↓←→", "↑↓")
     travel = [Hint("l", "live"), Hint("[ ]", "time")] if past else [Hint("[ ]", "past")]
@@ -390,7 +399,12 @@ def hints(
         return [Hint(updown, "source"), Hint("x", "swap"), *always, end]
     if panel == "log":
         return [Hint(updown, "scroll"), *always, end]
-    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom"), Hint("p", "3-D")]
+    view = (
+        [Hint("p", "top view"), Hint(f"Shift+{arrows}", "orbit")]
+        if in_space
+        else [Hint("p", "3-D")]
+    )
+    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom"), *view]
     other = [Hint("o", "scenarios")] if chooses else []
     if not drives:
         return [*always, *look, *other, end]
@@ -422,7 +436,9 @@ class PairPlot:
             look: How to paint.
         """
         now = moment.stamp + moment.behind
-        span = PlotSpan(now - SPAN, now, scene.start)
+        # Until there is so much of it, the curve grows from the left.
+        begin = max(scene.start, now - SPAN)
+        span = PlotSpan(begin, begin + SPAN, scene.start)
         if moment.behind:
             first = now - SPAN if moment.behind <= SPAN else moment.stamp - SPAN // 2
             span = PlotSpan(first, first + SPAN, scene.start, moment.stamp)

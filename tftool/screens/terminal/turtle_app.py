@@ -313,6 +313,7 @@ class TurtleApp(PanelApp):
             past=self._question.at is not None,
             ascii_only=look.ascii_only,
             chooses=self.setting.scenarios is not None,
+            in_space=self.field.in_space,
         )
         self.panel("footer").show([panels.footer(hints, width, look)])
         self.panel("banner").show(self._banner(width))
