@@ -67,13 +67,7 @@ def run(
         ),
         (joint is not None and output is None, "--joint goes with -o FILE."),
     )
-    for path, wanted in ((output, MOUNT_FILES), (report, (".html",))):
-        if path is not None:
-            if not path.name.endswith(tuple(wanted)):
-                raise UsageError(f"cannot write '{path}': end it in {', '.join(wanted)}.")
-            refuse_existing(path, force=force)
-    if output is not None and output.suffix == ".urdf" and urdf is None:
-        raise UsageError("-o robot.urdf changes a description: name it with --urdf FILE.")
+    _refuse_outputs(output, report, urdf, force=force)
     opened = [open_frames(place, until=math.inf, no_cache=no_cache) for place in places]
     try:
         chains = _chains(opened, moving or [])
@@ -105,18 +99,7 @@ def run(
     finally:
         for frames in opened:
             frames.close()
-    outside, compared = _compared(found, published) if check else ((), None)
-    if for_programs:
-        written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
-        sys.stdout.write(written + "\n")
-    else:
-        sys.stdout.write(view.lines(found, line_width()))
-        for sentence in outside:
-            sys.stdout.write(f"{sentence}\n")
-        if check and found and not outside:
-            sys.stdout.write(
-                "The published mount is inside of the interval, or within 1 mm and 0.1° of it.\n"
-            )
+    is_outside = _print(found, published if check else None, for_programs=for_programs)
     if report is not None:
         write_file(report, page(found, *paths))
         notice(visible(f"Wrote {report}."))
@@ -125,7 +108,36 @@ def run(
     if output is not None:
         for sentence in write_mount(output, found, published, chosen, urdf):
             notice(visible(sentence))
-    return ExitStatus.FAILED if outside else ExitStatus.DONE
+    return ExitStatus.FAILED if is_outside else ExitStatus.DONE
+
+
+def _refuse_outputs(
+    output: Path | None, report: Path | None, urdf: Path | None, *, force: bool
+) -> None:
+    for path, wanted in ((output, MOUNT_FILES), (report, (".html",))):
+        if path is not None:
+            if not path.name.endswith(tuple(wanted)):
+                raise UsageError(f"cannot write '{path}': end it in {', '.join(wanted)}.")
+            refuse_existing(path, force=force)
+    if output is not None and output.suffix == ".urdf" and urdf is None:
+        raise UsageError("-o robot.urdf changes a description: name it with --urdf FILE.")
+
+
+def _print(found: Calibration, checked: "_Published | None", *, for_programs: bool) -> bool:
+    """Print a calibration; return whether the mount to check is outside of its interval."""
+    outside, compared = ((), None) if checked is None else _compared(found, checked)
+    if for_programs:
+        written = json.dumps(view.as_object(found, compared), indent=2, allow_nan=False)
+        sys.stdout.write(written + "\n")
+        return bool(outside)
+    sys.stdout.write(view.lines(found, line_width()))
+    for sentence in outside:
+        sys.stdout.write(f"{sentence}\n")
+    if checked is not None and found and not outside:
+        sys.stdout.write(
+            "The published mount is inside of the interval, or within 1 mm and 0.1° of it.\n"
+        )
+    return bool(outside)
 
 
 # Motions

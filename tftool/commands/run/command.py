@@ -98,6 +98,34 @@ def _own_words(words: Sequence[str]) -> list[str]:
     return list(itertools.takewhile(lambda word: word not in ("--ros-args", "--"), words))
 
 
+def _run_other(
+    connection: Connection, context: Context, target: str, words: list[str], *, refused: bool
+) -> int | None:
+    """Run the command of tftool that a program of ROS stands for; None if it is a node.
+
+    Raises:
+        UsageError: If `refused`: options that go with nodes were given.
+    """
+    if (target, *words[:1]) == KEYBOARD:
+        if refused:
+            raise UsageError(
+                "'turtlesim turtle_teleop_key' reads keys until q is pressed, in the session "
+                "that runs or beside a turtle of its own; --in, --for and --simulated go with nodes"
+            )
+        return drive(
+            connection, running.driven_turtle(words[1:]), None, ascii_only=False, light=False
+        )
+    command = executables.COMMANDS.get((target, "".join(words[:1])))
+    if command is None:
+        return None
+    if refused:
+        raise UsageError(
+            f"'{target} {words[0]}' is 'tftool {shlex.join(command)}' here; --in, --for and "
+            "--simulated go with nodes"
+        )
+    return _run_command(connection, context, [*command, *_own_words(words[1:])])
+
+
 def _run_command(connection: Connection, context: Context, words: list[str]) -> int:
     """Run another tftool command in the same session, and name it.
 
@@ -137,23 +165,11 @@ def run(
     for word in misplaced(words, own):
         notice(word)
     workspace = workspace_here(verbose=verbose)
-    if (target, *words[:1]) == KEYBOARD and target not in workspace.packages:
-        if place is not None or simulated or run_for is not None:
-            raise UsageError(
-                "'turtlesim turtle_teleop_key' reads keys until q is pressed, in the session "
-                "that runs or beside a turtle of its own; --in, --for and --simulated go with nodes"
-            )
-        return drive(
-            connection, running.driven_turtle(words[1:]), None, ascii_only=False, light=False
-        )
-    command = executables.COMMANDS.get((target, "".join(words[:1])))
-    if command is not None and target not in workspace.packages:
-        if place is not None or simulated or run_for is not None:
-            raise UsageError(
-                f"'{target} {words[0]}' is 'tftool {shlex.join(command)}' here; --in, --for and "
-                "--simulated go with nodes"
-            )
-        return _run_command(connection, context, [*command, *_own_words(words[1:])])
+    is_of_nodes = place is not None or simulated or run_for is not None
+    if target not in workspace.packages:
+        status = _run_other(connection, context, target, words, refused=is_of_nodes)
+        if status is not None:
+            return status
     # These bring all there is to see; turtles have no place beside them.
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (target in ROBOTS and place is None)
