@@ -1,8 +1,8 @@
 """Words the shell offers when Tab is pressed: commands, options, frames, scenarios, packages.
 
 The shell's script runs `tftool` with the words typed so far and `_TFTOOL_COMPLETE` set; each
-printed line is a proposal. Completion neither hosts nor joins a session: the frames of a running
-one are read from files that its processes write.
+printed line is a proposal. Completion neither hosts nor joins a session: it reads the frames of a
+running session from files that the session's processes write.
 """
 
 import contextlib
@@ -111,12 +111,12 @@ def offers(words: Sequence[str]) -> list[Offer]:
 
 
 def _is_plain(word: str, current: str) -> bool:
-    """Whether an option is offered without a dash typed before it; most are not."""
+    """Whether an option is offered before the user types a dash; most options are not."""
     return word.startswith("-") == current.startswith("-")
 
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
-    """Return the completions that one command offers at this place."""
+    """Return the completions that one command offers for the current word."""
     from tftool.app.help_layout import made
 
     params = made(name).params
@@ -147,7 +147,7 @@ def _takes_value(option: Any) -> bool:
 
 
 def _count(before: Sequence[str], options: dict[str, Any]) -> int:
-    """Count the words that are neither an option nor its value."""
+    """Count the words that are neither an option nor an option's value."""
     words, is_value = 0, False
     for word in before:
         if is_value:
@@ -165,7 +165,7 @@ def _called(param: Any) -> str:
 
 
 def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
-    """Return completions for a value with this name in the help."""
+    """Return completions for a value which the help shows under this name."""
     bare = called.strip("[]{}<>.…")
     choices = getattr(kind, "choices", None)
     if choices is not None:
@@ -200,7 +200,7 @@ def _frames(before: Sequence[str]) -> list[str]:
 
 
 def _words_behind() -> list[str]:
-    """Return the words after the one being typed, as FROM is often among them."""
+    """Return the words after the word being typed, because FROM is often among them."""
     return os.environ.get(BEHIND, "").split("\n")
 
 
@@ -288,7 +288,7 @@ def shell_here() -> str:
     """Return the name of the user's shell, from $SHELL.
 
     Raises:
-        UsageError: If it is none that has a script.
+        UsageError: If there is no completion script for this shell.
     """
     name = Path(os.environ.get("SHELL", "")).name
     if name not in SCRIPTS:
@@ -300,13 +300,13 @@ def shell_here() -> str:
 
 
 def install(shell: str) -> list[Path]:
-    """Install the completion script for a shell; text already in its start-up file is kept.
+    """Install the completion script for a shell, keeping the text of the shell's start-up file.
 
     Returns:
         The files that were written or changed.
 
     Raises:
-        InputError: If one cannot be written.
+        InputError: If a file cannot be written.
     """
     try:
         home = Path.home()

@@ -1,4 +1,4 @@
-"""`tftool help`: the same as `--help`."""
+"""The command `tftool help`, which prints what `--help` prints."""
 
 from typing import Annotated
 

@@ -47,7 +47,7 @@ class Shown:
 
 
 def _page(text: str) -> None:
-    """Show a text in the user's pager or in less; print it if neither exists."""
+    """Show a text in the user's pager, else in less; print it if there is no pager."""
     import shlex
 
     command = shlex.split(os.environ.get("PAGER") or "less")
@@ -84,7 +84,8 @@ def painted(text: str) -> str:
 class Commands(Shown, TyperGroup):
     """The `tftool` command, whose help lists its commands by group.
 
-    Commands are made on demand: making all of them takes longer than starting Python twice.
+    A command is built when it is needed: building all commands takes longer than starting Python
+    twice.
     """
 
     def list_commands(self, ctx: Any) -> list[str]:
@@ -129,7 +130,7 @@ class Command(Shown, TyperCommand):
             self.params.append(_help_session())
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
-        """Parse the command line; a word NAME:=VALUE is an argument of a robot description."""
+        """Parse the command line; a word such as NAME:=VALUE is an argument of a robot description."""
         if any(param.name == "argument" for param in self.params):
             args = [
                 part
@@ -166,7 +167,7 @@ class Command(Shown, TyperCommand):
                 file = word
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command, with the options that follow each pose file applied to that file."""
+        """Run the command; the options behind a pose file apply to that file only."""
         given = ctx.meta.get(_POSES)
         if not given:
             return super().invoke(ctx)
@@ -194,7 +195,7 @@ class Command(Shown, TyperCommand):
 
 
 def _number(word: str) -> float:
-    """Parse a number; leave invalid text to the parser, which refuses it."""
+    """Parse a number; return invalid text unchanged, for the parser to refuse."""
     try:
         return float(word)
     except ValueError:

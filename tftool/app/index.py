@@ -1,4 +1,4 @@
-"""The table of commands: the groups of the help, a line about each, and its declaration."""
+"""Table of commands: the groups of the help, one line about each command, and its declaration."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -60,7 +60,7 @@ COMMANDS = {name: summary for group in GROUPS.values() for name, summary in grou
 def load(name: str) -> "Declaration":
     """Import the declaration of a command.
 
-    Help and completion list every command, but import only those that they describe.
+    Help and completion list every command, but import only the commands they describe in detail.
     """
     # Only `help` asks for other commands.
     home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}"

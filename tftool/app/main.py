@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 def build() -> "Commands":
     """Return the app; each command is built on first use, and imports only what it needs.
 
-    The `obj` of its context holds the providers of clocks and links; None for the real ones.
+    The `obj` of the app's context holds the providers of clocks and links; None means the real
+    ones.
     """
     from typing import Annotated, cast
 
@@ -92,11 +93,11 @@ def _set_up_completion(*, show: bool) -> None:
 
 
 def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:
-    """Run the command and return its exit status; never raises for what a user typed.
+    """Run the command and return its exit status; never raise for anything the user typed.
 
     Args:
-        argv: The words after `tftool`; those of the process when None.
-        providers: Sources of clocks and links; the real ones if None.
+        argv: The words after `tftool`; None for the words of this process.
+        providers: Sources of clocks and links; None for the real ones.
 
     Returns:
         An `ExitStatus`, or the status of the program that `tftool run` ran.
@@ -157,13 +158,13 @@ def _complete(argv: list[str]) -> int:
 def _leave_on_signals() -> None:
     """End the process at once on SIGINT and SIGTERM while no event loop runs.
 
-    Before a command runs there is nothing to clean up, and a KeyboardInterrupt inside an import may
-    be swallowed there, or shown as a traceback. An event loop installs its own handlers
-    (`world.clock.run`), and restores these afterwards. Windows has no signals in the loop; Python's
-    own handlers work there.
+    Before a command runs there is nothing to clean up, and an import may swallow a
+    KeyboardInterrupt or show it as a traceback. An event loop installs its own handlers
+    (`world.clock.run`), and restores the handlers of this function afterwards. Windows has no
+    signals in the loop; Python's own handlers work there.
 
-    When only the interpreter's own shutdown is left, signals are ignored: Python removes its
-    handlers first, and a second Ctrl-C would change an exit status that is already known.
+    During the interpreter's own shutdown, signals are ignored: Python has removed its handlers by
+    then, and a second Ctrl-C would change an exit status that is already known.
     """
     import atexit
     import signal

@@ -21,7 +21,7 @@ UNLIKE = 0.5
 
 
 def sentence_of(error: Any, argv: Sequence[str] = ()) -> tuple[str, str]:
-    """Return the command that refused, and click's reason as a plain sentence."""
+    """Return the name of the command that refused, and click's reason as a plain sentence."""
     context = getattr(error, "ctx", None)
     command = " ".join(["tftool", *(word for word in argv[:1] if word in COMMANDS)])
     if context is not None:
@@ -49,7 +49,7 @@ def sentence_of(error: Any, argv: Sequence[str] = ()) -> tuple[str, str]:
 
 
 def _nearest(written: str, near: list[str]) -> list[str]:
-    """Return the options nearly as similar as the best match, best first."""
+    """Return the options nearly as similar to the written word as the best match, best first."""
 
     def likeness_of(one: str) -> float:
         # The first letter is the one that is seldom mistyped.

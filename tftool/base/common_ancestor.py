@@ -16,11 +16,11 @@ EdgeT = TypeVar("EdgeT", bound=Above)
 
 
 def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
-    """Return the edges from a frame up to its root, lowest first; in a loop, each edge once.
+    """Return the edges from a frame up to its root, lowest first; each edge of a loop once.
 
     Args:
         frame: The frame to start from.
-        parent: Gives the edge above a frame; None above a root.
+        parent: Function that returns the edge above a frame; None above a root.
     """
     edges: list[EdgeT] = []
     seen = {frame}
@@ -39,9 +39,9 @@ def up_to_join(
     """Return each frame's edges up to their common ancestor; None if they have none.
 
     Args:
-        frame: One frame.
-        other: The other.
-        above: Gives the edges from a frame up to its root, lowest first.
+        frame: The first frame.
+        other: The second frame.
+        above: Function that returns the edges from a frame up to its root, lowest first.
     """
     up, down = above(frame), above(other)
     ups = [frame, *(edge.parent for edge in up)]

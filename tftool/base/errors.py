@@ -1,7 +1,7 @@
 """Every exception of tftool, as one tree.
 
-tf2's names for tf2's refusals, and three more for refusals of the tools. Each error has its facts
-as fields. Only `app` turns errors into exit statuses.
+A lookup raises exceptions with tf2's names; the tools raise a few more. Each exception has its
+facts as fields. Only `app` turns exceptions into exit statuses.
 """
 
 import os
@@ -16,9 +16,9 @@ from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 
 
 class TftoolError(Exception):
-    """Base of all exceptions here; the text names the fault and what to do about it.
+    """Base of all exceptions of tftool; the text names the fault and the remedy.
 
-    Text and remedy are fixed when the error is made. It can be pickled and copied with all its
+    The text is fixed when the error is created. The error can be pickled and copied with all its
     facts, whatever arguments its class takes.
     """
 
@@ -43,7 +43,7 @@ class NodeArgumentsError(UsageError):
     """Error for arguments that a node's program does not accept.
 
     Attributes:
-        status: The exit status of the original program, where it is run as such.
+        status: The exit status that ROS's own program returns for the same arguments.
     """
 
     def __init__(self, message: str, *, status: int) -> None:
@@ -52,7 +52,7 @@ class NodeArgumentsError(UsageError):
 
 
 class InputError(TftoolError):
-    """Error for input that cannot be read: a file, a scenario, a number in it (exit status 3)."""
+    """Error for input that cannot be read, for example a file or a number in it (exit status 3)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +64,8 @@ class Mistake:
         line: Line, from 1.
         column: Column, from 1.
         text: The fault, a sentence without its full stop.
-        shown: The offending line, fit for a terminal; empty when there is none.
-        marks: Marks under `shown`: blanks up to the place, then carets.
+        shown: The offending line, safe to print on a terminal; empty if the file has no such line.
+        marks: Text to print under `shown`: blanks up to the column, then carets.
     """
 
     file: str
@@ -88,12 +88,12 @@ class Mistake:
         """Format a mistake with its source line, cut to the terminal's width, and carets below it.
 
         Args:
-            file: Name of the file.
+            file: Name of the file, as the user gave it.
             lines: All lines of the file.
             line: Line, from 0.
             column: Column, from 0.
-            text: The fault.
-            width: How many characters to mark.
+            text: The fault, without a full stop.
+            width: Number of characters to mark.
         """
         whole = lines[line] if line < len(lines) else ""
         start = max(0, column - 60)
@@ -105,7 +105,7 @@ class Mistake:
 
 
 def showable(text: str) -> str:
-    """Replace control characters that a terminal might execute, one character for one."""
+    """Replace each control character that a terminal might execute by one visible character."""
     return "".join(
         char if char.isprintable() else (" " if char == "\t" else "\ufffd") for char in text
     )
@@ -151,8 +151,8 @@ class DescriptionError(DocumentError):
 def failure_text(error: BaseException) -> str:
     """Format an exception in one line: its type, text, and the file and line that raised it.
 
-    The line is the innermost one of a user's code, or else the innermost of all; none for tftool's
-    own errors, whose text is complete.
+    The line is the innermost line of the user's code, or the innermost line of the traceback if
+    none is the user's. tftool's own errors get no line: their text is complete.
     """
     kind, text = type(error).__name__, str(error)
     line = line_of(error, users_only=isinstance(error, TftoolError))
@@ -160,9 +160,9 @@ def failure_text(error: BaseException) -> str:
 
 
 def line_of(error: BaseException, *, users_only: bool = False) -> str:
-    """Return the innermost line of a user's code in a traceback, as "busy.py:10".
+    """Return the innermost line of the user's code in a traceback, as "busy.py:10".
 
-    Without one, the innermost line of all, or "" with `users_only`.
+    If no line is the user's, return the innermost line of the traceback, or "" with `users_only`.
     """
     users = innermost = ""
     trace = error.__traceback__
@@ -175,7 +175,7 @@ def line_of(error: BaseException, *, users_only: bool = False) -> str:
 
 
 def is_users_file(file: str) -> bool:
-    """Whether code belongs to the user: neither to this package nor to Python's library."""
+    """Whether a file belongs to the user: neither to tftool nor to Python's library."""
     if file.startswith((_PACKAGE, "<frozen")):
         return False
     return "site-packages" in file or not file.startswith(_LIBRARY)
@@ -186,26 +186,22 @@ _LIBRARY = os.path.dirname(os.path.realpath(os.__file__))
 
 
 class NodeFailed(TftoolError):
-    """Error raised by a node, which ends the run. The original error is the cause.
-
-    Attributes:
-        node: Name of the node that raised.
-    """
+    """Error that ends a run because a node raised; the node's exception is its cause."""
 
     def __init__(self, node: str, error: BaseException, what: str = "") -> None:
-        """Make the error of a node that failed by `error`; `what` replaces its text."""
+        """Create the error for a node that raised `error`; `what` replaces the text."""
         super().__init__(f"node '{node}' {what or f'failed: {failure_text(error)}'}")
         self.node = node
 
 
 class TransformException(TftoolError):
-    """Error for a transform that cannot be given (exit status 4); tf2's base class.
+    """Error for a transform that is not available (exit status 4); tf2's base class.
 
-    The text is exactly tf2's own; a remedy is in `remedy`.
+    The text is exactly tf2's; `remedy` says what to do.
 
     Attributes:
-        target: The frame asked for, where it is known.
-        source: The frame asked about, where it is known.
+        target: The target frame of the lookup, where known.
+        source: The source frame of the lookup, where known.
     """
 
     def __init__(
@@ -217,7 +213,7 @@ class TransformException(TftoolError):
 
     @property
     def remedy(self) -> str:
-        """Return the size of the fault and what to do; may be empty."""
+        """Return how large the fault is and what to do; may be empty."""
         return ""
 
 
@@ -225,8 +221,8 @@ class LookupException(TransformException):
     """Error for an unknown frame, or a tree with a loop.
 
     Attributes:
-        frame: The unknown frame, where that is the reason.
-        looped: Whether the reason is a loop (or a chain of more than 1000 links).
+        frame: The unknown frame; None if the reason is a loop.
+        looped: Whether the reason is a loop or a chain of more than 1000 links.
     """
 
     def __init__(
@@ -239,14 +235,14 @@ class LookupException(TransformException):
         known: Collection[str] = (),
         looped: bool = False,
     ) -> None:
-        """Make the error of an unknown frame.
+        """Create the error for an unknown frame or a loop.
 
         Args:
             message: tf2's sentence.
             frame: The unknown frame.
-            target: The frame asked for.
-            source: The frame asked about.
-            known: The names that are known, in a fixed order; it may grow at its end.
+            target: The target frame of the lookup.
+            source: The source frame of the lookup.
+            known: The known frame names in a fixed order; names may be appended later.
             looped: Whether the reason is a loop.
         """
         super().__init__(message, target=target, source=source)
@@ -296,7 +292,7 @@ class InvalidArgumentException(TransformException):
     """Error for an invalid frame name: empty, or with a leading slash.
 
     Attributes:
-        frame: The name.
+        frame: The invalid name.
     """
 
     def __init__(
@@ -321,7 +317,7 @@ class TimeoutException(TransformException):
     """Error for a wait that exceeded its timeout; the last refusal is the cause.
 
     Attributes:
-        refusal: The last refusal, where there was one.
+        refusal: The last refusal; None if there was none.
     """
 
     def __init__(
@@ -346,12 +342,12 @@ _FEW_NANOSECONDS = 100_000
 
 
 class ExtrapolationException(TransformException):
-    """Error for a time outside the samples that a link of the chain holds.
+    """Error for a time outside the samples of a link in the chain.
 
     Attributes:
-        requested: The moment asked for.
-        available: The stored moment nearest to it; 0 when nothing is stored.
-        frame: The child of the link that falls short.
+        requested: The requested time, nanoseconds.
+        available: The time of the nearest sample, nanoseconds; 0 if there are no samples.
+        frame: The child frame of the link without data.
     """
 
     def __init__(
@@ -373,9 +369,7 @@ class ExtrapolationException(TransformException):
             self.add_note(hint)
 
     def _hint(self) -> str:
-        """Return a hint if the time is a few nanoseconds, where seconds were probably meant; else
-        "".
-        """
+        """Return a hint if a time of a few nanoseconds was probably meant in seconds; else ""."""
         if not 0 < self.requested < _FEW_NANOSECONDS or self.missed < NANOSECONDS // 1000:
             return ""
         asked = self.requested
@@ -398,7 +392,7 @@ class BackwardExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return the size of the gap and a remedy."""
+        """Return the distance to the oldest sample and a remedy."""
         return self._hint() or (
             f"That is {self._by()} before the oldest sample of '{self.frame}': ask for a later "
             "moment, or for time 0 (the latest), or give the buffer a longer cache_time."
@@ -410,7 +404,7 @@ class ForwardExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return the size of the gap and a remedy."""
+        """Return the distance to the newest sample and a remedy."""
         return (
             f"That is {self._by()} after the newest sample of '{self.frame}': ask for time 0 "
             "(the latest), or wait until it has come."
@@ -422,7 +416,7 @@ class NoDataForExtrapolationException(ExtrapolationException):
 
     @property
     def remedy(self) -> str:
-        """Return the size of the gap and a remedy."""
+        """Return the distance to the nearest sample and a remedy."""
         if self.available == 0:
             return f"Nothing is remembered of '{self.frame}': wait until it is sent."
         side = "after" if self.requested > self.available else "before"
@@ -433,11 +427,11 @@ class NoDataForExtrapolationException(ExtrapolationException):
 
 
 class MalformedMessage(InputError):
-    """Error for bytes that are no valid message, or for a message that cannot be serialised.
+    """Error for bytes that are not a valid message, or a message that cannot be serialised.
 
     Attributes:
-        kind: The type it should be.
-        reason: Its fault.
+        kind: The expected message type.
+        reason: The fault.
     """
 
     def __init__(self, kind: str, reason: str) -> None:
@@ -447,7 +441,7 @@ class MalformedMessage(InputError):
 
 
 class LinkError(InputError):
-    """Error for a session that cannot be opened, or a process in it that does not answer."""
+    """Error for a session that cannot be opened, or for a process of it that does not answer."""
 
 
 def without_frames(given: object) -> TypeError:

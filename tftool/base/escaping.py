@@ -1,8 +1,8 @@
-"""Escape control characters in names from outside, and keep the names recognisable.
+"""Escaping of control characters in names from outside; the names stay recognisable.
 
-Before drawing, a name passes through `visible`, which removes everything active (control
-characters, changes of writing direction, characters that XML forbids); then the characters that the
-format reserves are escaped.
+Before drawing, `visible` replaces the dangerous characters of a name: control characters, changes
+of writing direction, and characters that XML forbids. Afterwards each output format escapes its
+reserved characters.
 """
 
 import unicodedata
@@ -15,8 +15,8 @@ _JOINERS = frozenset("\u200c\u200d")
 def visible(name: str) -> str:
     """Escape a name so that every character is visible.
 
-    Control characters become their Unicode pictures (ESC becomes ␛); other characters without a
-    shape, or that change the writing direction, become their number, as in ⟨U+202E⟩.
+    A control character becomes its Unicode picture (ESC becomes ␛). Other invisible characters, and
+    characters that change the writing direction, become their number, such as ⟨U+202E⟩.
     """
     if name.isascii() and name.isprintable():
         return name
@@ -26,7 +26,8 @@ def visible(name: str) -> str:
 def visible_lines(text: str) -> str:
     """Escape a text so that every character is visible; line breaks are kept.
 
-    After 400 lines the middle is only counted: tf2's sentence about a loop names every frame.
+    A text of more than 400 lines keeps its beginning and end, with the number of omitted lines in
+    between: tf2's sentence about a loop names every frame.
     """
     lines = text.split("\n")
     if len(lines) > MOST_LINES:
@@ -54,7 +55,7 @@ _SHAPELESS = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
 
 
 def distinct(names: Iterable[str]) -> dict[str, str]:
-    """Pair every name with its escaped form; no two names get the same form."""
+    """Map every name to its escaped form; different names get different forms."""
     shown: dict[str, str] = {}
     taken: set[str] = set()
     for name in names:

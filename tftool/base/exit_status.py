@@ -4,7 +4,7 @@ from enum import IntEnum
 
 
 class ExitStatus(IntEnum):
-    """The exit status of a command."""
+    """Exit status of a command."""
 
     DONE = 0
     FAILED = 1

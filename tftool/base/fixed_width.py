@@ -1,4 +1,4 @@
-"""Text of other people in a fixed number of cells, the same in every terminal."""
+"""Text from outside, fitted into a fixed number of terminal cells."""
 
 from collections.abc import Iterable
 
@@ -12,14 +12,14 @@ _SWITCHES = dict.fromkeys((0x200C, 0x200D, *range(0xFE00, 0xFE10)))
 
 
 def plain(text: str) -> str:
-    """Escape `text` to one line for display, whose width in cells is known."""
+    """Escape `text` to one line whose width in cells is the same on every terminal."""
     if text.isascii() and text.isprintable():
         return text
     return visible(text).translate(_SWITCHES)
 
 
 def fitted(text: str, width: int, *, more: str = "…") -> str:
-    """Fit `plain(text)` into at most `width` cells; `more` marks omitted text."""
+    """Fit `plain(text)` into at most `width` cells; `more` stands for omitted text."""
     # No sign is narrower than nothing: a long text need not be measured to its end.
     shown = plain(text[: 4 * max(0, width) + 4])
     if cell_len(shown) <= width:
@@ -53,7 +53,7 @@ def middle_cut(text: str, width: int, *, more: str = "…") -> str:
 
 
 def _within(signs: Iterable[str], room: int) -> list[str]:
-    """Return the longest beginning that fits into `room` cells."""
+    """Return the longest beginning of `signs` that fits into `room` cells."""
     kept = []
     for sign in signs:
         room -= cell_len(sign)

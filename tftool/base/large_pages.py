@@ -1,6 +1,7 @@
-"""Memory in large pages, for data that is read at random.
+"""Memory in large pages (usually 2 MiB), which makes random reads faster.
 
-Memory from Python and numpy begins and ends anywhere, and can only partly be on large pages.
+Python and numpy allocate memory at arbitrary addresses; the system can put only the whole large
+pages within it on large pages.
 """
 
 import mmap
@@ -16,8 +17,8 @@ def large_pages(size: int, end: int) -> "mmap.mmap | None":
     """Allocate memory in large pages, rounded up to a whole page; None if unsupported.
 
     Args:
-        size: How many bytes it has at least. Those that are never written cost nothing.
-        end: First byte at which no large page may begin.
+        size: Minimum number of bytes. Bytes that are never written occupy no memory.
+        end: Offset from which on no large page is requested, bytes.
     """
     if _HUGE is None:
         return None

@@ -1,8 +1,8 @@
 """Registered callbacks, called one after the other.
 
-The buffer, topics, the log and the world share one rule: each registration is separate, and a
-listener's exception is reported under the name of its owner. The other listeners and the publishing
-code go on.
+The buffer, topics, the log and the world share these rules: each registration is separate, and the
+exception of a listener is reported under the name of the listener's owner. The other listeners and
+the publishing code continue.
 """
 
 from collections.abc import Callable
@@ -23,18 +23,18 @@ class Listeners(Generic[*Values]):
     registration is removed separately.
 
     Attributes:
-        registered: Each callback with its owner. Where samples come by the ten thousand, whether
-            there are any is asked of this: it costs less than a call of `len`.
+        registered: Each callback with its owner. Fast code tests this list itself, because `if
+            registered` costs less than a call of `len`.
     """
 
     __slots__ = ("_report", "registered")
 
     def __init__(self, report: Report | None = None) -> None:
-        """Make an empty list of listeners.
+        """Create an empty list of listeners.
 
         Args:
-            report: Called with an exception of a listener, after all others were called; without
-                it the exception goes to Python's log.
+            report: Function called with each exception of a listener, after all listeners were
+                called; None sends the exception to Python's log.
         """
         self._report: Report = report or _report_to_logging
         # Replaced and never changed: a list that changes while it is walked skips entries.
@@ -45,10 +45,10 @@ class Listeners(Generic[*Values]):
 
         Args:
             callback: Function to call.
-            owner: Under whose name its failure is reported.
+            owner: Name under which an exception of the callback is reported.
 
         Returns:
-            A function that withdraws this registration, and no other.
+            A function that removes this registration only.
         """
         registration = (callback, owner)
         self.registered = (*self.registered, registration)
@@ -59,7 +59,7 @@ class Listeners(Generic[*Values]):
         return stop
 
     def call(self, *values: *Values) -> None:
-        """Call every listener, including any removed during the call."""
+        """Call every listener, including listeners that are removed during the call."""
         failures: tuple[tuple[str, Exception], ...] = ()
         for callback, owner in self.registered:
             try:

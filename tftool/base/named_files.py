@@ -1,6 +1,6 @@
 """Opening files that users name, without blocking on pipes or devices.
 
-Opening a pipe would wait for a writing process, and without one for ever.
+A plain `open` of a pipe waits until another process opens the pipe for writing.
 """
 
 import errno
@@ -21,7 +21,7 @@ def open_regular(path: Path) -> io.BufferedReader:
     """Open a regular file for reading.
 
     Raises:
-        OSError: If it cannot be opened, or is no regular file but a pipe, say.
+        OSError: If the file cannot be opened, or is not a regular file but, for example, a pipe.
     """
     file, mode = _opened(path)
     if not stat.S_ISREG(mode):
@@ -31,10 +31,10 @@ def open_regular(path: Path) -> io.BufferedReader:
 
 
 def open_named(path: Path) -> BinaryIO:
-    """Open a file, or read a pipe to its end, such as a shell's `<(command)`.
+    """Open a file, or read a whole pipe, such as a shell's `<(command)`, into memory.
 
     Raises:
-        OSError: If it cannot be opened, no process writes into the pipe, or it is too large.
+        OSError: If the file cannot be opened, or the pipe has no writer or too much data.
     """
     file, mode = _opened(path)
     if stat.S_ISREG(mode):
@@ -68,17 +68,19 @@ def read_named_text(path: Path) -> str:
 
     Raises:
         OSError: As in `open_named`.
-        UnicodeDecodeError: If it is no UTF-8.
+        UnicodeDecodeError: If the text is not UTF-8.
     """
     with io.TextIOWrapper(open_named(path), encoding="utf-8") as file:
         return file.read()
 
 
 def reader_there(path: str, flags: int) -> int:
-    """An `opener` for writing that fails at once on a pipe without a reader.
+    """Open a path for writing; fail at once if the path is a pipe without a reader.
+
+    A value for the argument `opener` of Python's `open`.
 
     Raises:
-        OSError: If it cannot be opened, or no process reads from it.
+        OSError: If the path cannot be opened, or no process reads from the pipe.
     """
     try:
         number = os.open(path, flags | _AT_ONCE, 0o666)
@@ -92,7 +94,7 @@ def reader_there(path: str, flags: int) -> int:
 
 
 def _opened(path: Path) -> tuple[io.FileIO, int]:
-    """Open a file without blocking; return its descriptor and mode. Folders are refused."""
+    """Open a file without blocking; return its descriptor and mode. Refuse folders."""
     number = os.open(path, _HOW)
     try:
         mode = os.fstat(number).st_mode

@@ -1,7 +1,7 @@
-"""Import of the native modules, if built and not switched off.
+"""Import of the native modules, if they were built and are not switched off.
 
 Native modules are built with the package if there is a C compiler. Without them everything runs in
-plain Python with equal results; `TFTOOL_PURE=1` does this even where they exist.
+plain Python with equal results. `TFTOOL_PURE=1` switches them off.
 """
 
 import os
@@ -19,8 +19,8 @@ def built(name: str, interface: int) -> "ModuleType | None":
     """Import a native module; return None if it is not built, or switched off.
 
     Args:
-        name: Its full name.
-        interface: Expected version; one that was built for others is left alone.
+        name: Full name of the module.
+        interface: Expected interface version; a module with another version is not used.
     """
     if os.environ.get(SWITCH, "") not in ("", "0"):
         return None

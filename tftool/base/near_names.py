@@ -10,10 +10,10 @@ def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float =
     """Return the known names most similar to a word, ignoring case, most similar first.
 
     Args:
-        word: The word as it was written.
-        known: The names that there are; of those that differ in case alone, one is found.
-        most: How many are given at most.
-        alike: How much a name has to look like the word, from 0 to 1.
+        word: The unknown name.
+        known: The existing names. Of names that differ only in case, one is returned.
+        most: Maximum number of names to return.
+        alike: Minimum similarity of a name to the word, from 0 to 1.
     """
     from difflib import get_close_matches  # only where something is amiss
 

@@ -34,7 +34,7 @@ def prepare() -> None:
 
 
 def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
-    """Encode what an encoding lacks: our own signs as ASCII, parts of names as escapes."""
+    """Encode characters that an encoding lacks: tftool's own signs as ASCII, others as escapes."""
     if not isinstance(error, UnicodeEncodeError):
         raise error
     char = error.object[error.start]
@@ -44,10 +44,10 @@ def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
 
 
 def require_descriptors() -> None:
-    """Raise the limit of open files if needed; some libraries crash when it is reached.
+    """Raise the limit of open files if few are left; some libraries crash at the limit.
 
     Raises:
-        OSError: If not; the message names the remedy.
+        OSError: If the limit cannot be raised; the message names the remedy.
     """
     probes: list[int] = []
     try:

@@ -1,19 +1,19 @@
-"""Judgements and their report, shared by scenarios, comparisons and checks."""
+"""Judgements and the report of a run, shared by scenarios, comparisons and checks."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """One judged thing and the outcome.
+    """One judged statement and its outcome.
 
     Attributes:
-        subject: The subject, a sentence: "by 20 s: distance from a to b below 0.5 m".
-        ok: Whether it is as it should be.
-        expected: Description of a right answer: "below 0.5 m".
-        found: The result.
-        at: Time of the check in seconds from the start; None if it was not reached.
-        line: Line of the file that asked for it; 0 when there is none.
+        subject: The statement, for example "by 20 s: distance from a to b below 0.5 m".
+        ok: Whether the statement holds.
+        expected: Description of a passing value, for example "below 0.5 m".
+        found: The value found.
+        at: Time of the check in seconds from the start; None if the run ended before.
+        line: Line of the file that contains the statement; 0 if there is no file.
     """
 
     subject: str
@@ -31,11 +31,11 @@ class Report:
     Attributes:
         name: Name of the scenario.
         file: Name of its file, as it was given.
-        judgements: One for each thing, in order.
-        lasted: Seconds it took, on its own clock.
-        failure: Why it could not be looked at to the end; empty when it could.
-        warnings: Warnings about a scenario that plays: sentences.
-        why: Findings of the doctor if it failed: sentences, the cause first.
+        judgements: The judgements, in the order of the file.
+        lasted: Duration of the run in seconds, on the clock of the run.
+        failure: Reason why the run ended early; empty if it ran to its end.
+        warnings: Warnings about the scenario, as sentences.
+        why: The doctor's findings about a failed run, as sentences, the cause first.
     """
 
     name: str

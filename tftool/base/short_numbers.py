@@ -6,7 +6,7 @@ from tftool.base.stamps import Duration, as_seconds
 
 
 def short_duration(duration: Duration) -> str:
-    """Write nanoseconds as "0.02 s", "2.0 s", "3.5 min", "2.1 h" or "4.0 d"."""
+    """Format nanoseconds as "0.02 s", "2.0 s", "3.5 min", "2.1 h" or "4.0 d"."""
     number = as_seconds(duration)
     size = abs(number)
     if size < 0.995:
@@ -20,14 +20,14 @@ def short_duration(duration: Duration) -> str:
 
 
 def short_rate(rate: float) -> str:
-    """Write hertz as "0.50 Hz", "62.7 Hz" or "1000 Hz"."""
+    """Format hertz as "0.50 Hz", "62.7 Hz" or "1000 Hz"."""
     if rate < 0.995:
         return f"{rate:.2f} Hz"
     return f"{rate:.1f} Hz" if rate < 999.95 else f"{rate:.0f} Hz"
 
 
 def short_size(size: int) -> str:
-    """Write bytes as "17 bytes", "1.2 KB", "4.7 MB" or "2.0 GB"."""
+    """Format bytes as "17 bytes", "1.2 KB", "4.7 MB" or "2.0 GB"."""
     for unit, many in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("KB", 1e3)):
         if size >= many:
             return f"{size / many:.1f} {unit}"

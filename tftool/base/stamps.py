@@ -1,6 +1,6 @@
-"""Moments and durations: whole nanoseconds, as tf2 keeps them.
+"""Times and durations: whole nanoseconds, as in tf2.
 
-A stamp is an `int`. In a query 0 is not a moment but means "latest".
+A stamp is an `int`. In a query 0 is not a time: it means "latest".
 """
 
 import math
@@ -32,7 +32,7 @@ FRAME_TIMEOUT = 15.0
 
 
 def seconds(value: float) -> int:
-    """Turn seconds into nanoseconds, rounding half away from zero as tf2 does.
+    """Convert seconds to nanoseconds, rounding half away from zero as tf2 does.
 
     Args:
         value: Seconds, finite.
@@ -41,7 +41,7 @@ def seconds(value: float) -> int:
         Whole nanoseconds.
 
     Raises:
-        TypeError: If `value` is no number, or more than one.
+        TypeError: If `value` is not a number, for example an array.
         ValueError: If `value` is NaN or infinite.
     """
     try:
@@ -65,7 +65,7 @@ def whole(stamp: object) -> Stamp:
     """Return a time or duration as an `int`, from any type of integer.
 
     Raises:
-        TypeError: If it is a float, or nothing like a whole number.
+        TypeError: If the stamp is a float, or not an integer.
     """
     # Nearly always it is one, and to ask for a protocol takes microseconds before Python 3.12.
     if type(stamp) is int:
@@ -78,12 +78,12 @@ def whole(stamp: object) -> Stamp:
 
 
 def as_seconds(stamp: int) -> float:
-    """Turn nanoseconds into seconds, split toward zero as tf2 does before adding."""
+    """Convert nanoseconds to seconds, split toward zero as tf2 does before adding."""
     whole, rest = divmod(abs(stamp), NANOSECONDS)
     value = float(whole) + 1e-9 * float(rest)
     return -value if stamp < 0 else value
 
 
 def display(stamp: int) -> str:
-    """Write a stamp as tf2 does in its messages: seconds with six decimals."""
+    """Format a stamp as tf2's messages do: seconds with six decimals."""
     return f"{as_seconds(stamp):.6f}"

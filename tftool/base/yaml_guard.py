@@ -1,7 +1,7 @@
 """Safe YAML: plain values only, and limits on size, depth and expansion.
 
-A few lines of YAML can mean billions of values, by aliases of aliases and by merge keys. All YAML
-is read through this module, which counts every alias as often as it is used.
+A few lines of YAML can expand to billions of values, by aliases of aliases and by merge keys. All
+YAML is read through this module. It counts the values of an alias again at each use.
 """
 
 from collections.abc import Iterator
@@ -34,18 +34,18 @@ def events(
     deepest: int = DEEPEST,
     most_values: int = MOST_VALUES,
 ) -> Iterator[yaml.Event]:
-    """Yield the events of a YAML text, within the limits.
+    """Yield the parser events of a YAML text, within the limits.
 
     Args:
-        text: The YAML.
+        text: The YAML text.
         loader: Loader whose scanner and parser are used.
-        largest: Characters it may have.
-        deepest: Levels of nesting it may have.
-        most_values: Values it may have, with every alias written out.
+        largest: Maximum number of characters.
+        deepest: Maximum depth of nesting.
+        most_values: Maximum number of values, with every alias expanded.
 
     Raises:
-        TooMuch: If it exceeds a limit; the mark gives the place.
-        yaml.YAMLError: If it is no YAML.
+        TooMuch: If the text exceeds a limit; the error's mark gives the position.
+        yaml.YAMLError: If the text is not YAML.
     """
     if len(text) > largest:
         raise TooMuch(f"more than {largest:,} characters are too many")
@@ -82,7 +82,7 @@ def compose(text: str, loader: Any = yaml.SafeLoader) -> yaml.Node | None:
     """Return the node tree of a YAML text; None if it is empty.
 
     Raises:
-        yaml.YAMLError: If it is no YAML, or out of bounds.
+        yaml.YAMLError: If the text is not YAML, or exceeds a limit.
     """
     for _ in events(text, loader):
         pass
@@ -93,7 +93,7 @@ def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
     """Construct the plain value of a node.
 
     Raises:
-        yaml.YAMLError: If it is none that YAML knows by itself.
+        yaml.YAMLError: If the node has a tag that is not one of YAML's own types.
     """
     maker = loader("")
     try:
@@ -113,7 +113,7 @@ def load(text: str, loader: Any = yaml.SafeLoader) -> Any:
     """Load the plain value of a YAML text.
 
     Raises:
-        yaml.YAMLError: If it is no YAML, exceeds a limit, or has a wrong tag.
+        yaml.YAMLError: If the text is not YAML, exceeds a limit, or has a wrong tag.
     """
     node = compose(text, loader)
     return None if node is None else construct(node, loader)

@@ -67,10 +67,10 @@ class Shortened(NamedTuple):
     """Record of a link whose oldest samples were dropped.
 
     Attributes:
-        child: Its frame.
-        authority: Sender of its newest sample.
-        samples: How many it had.
-        kept: How many it has now.
+        child: The link's child frame.
+        authority: Sender of the link's newest sample.
+        samples: Number of samples before.
+        kept: Number of samples after.
     """
 
     child: str
@@ -80,7 +80,7 @@ class Shortened(NamedTuple):
 
 
 def _share(sizes: list[int], room: int) -> int:
-    """Return the number of samples each link may keep for all to fit; at least two."""
+    """Return the number of samples each link may keep so that all links fit; at least two."""
     left = len(sizes)
     for size in sorted(sizes):
         if size * left > room:
@@ -93,7 +93,7 @@ def _share(sizes: list[int], room: int) -> int:
 class Buffer(Door):
     """Transforms of named frames over time, with tf2's semantics.
 
-    A buffer has no clock and never waits: all times are arguments, in nanoseconds, and 0 in a query
+    A buffer has no clock and never waits. All times are arguments, in nanoseconds; in a query 0
     means the latest.
 
     Threads: a buffer belongs to one thread, usually the event loop's. Only this thread sets,
@@ -112,17 +112,17 @@ class Buffer(Door):
         max_name: int = MAX_NAME,
         report: Report | None = None,
     ) -> None:
-        """Make an empty buffer.
+        """Create an empty buffer.
 
         Args:
-            cache_time: How far each moving link remembers back from its newest sample;
-                NO_LIMIT for a buffer that prunes nothing.
-            log: Is called when a sample is refused: level ("WARN", "ERROR") and sentence.
-                Without one, Python's own `logging` is.
-            max_frames: Limit of frame names, as they may come from outside.
-            max_name: How many bytes a name may have, likewise.
-            report: Called with an exception of a listener or of a request's callback, and its
-                owner's name; without one, that is an error in the log.
+            cache_time: How far back from its newest sample each moving link keeps samples,
+                nanoseconds; NO_LIMIT keeps all samples.
+            log: Function called with a level ("WARN", "ERROR") and a sentence when a sample is
+                refused. None uses Python's `logging`.
+            max_frames: Maximum number of frame names, because names may come from outside.
+            max_name: Maximum length of a frame name, bytes.
+            report: Function called with the exception of a listener or of a request's callback, and
+                with the owner's name. None logs the exception as an error.
 
         Raises:
             TypeError: If `cache_time` is not a whole number.
@@ -158,12 +158,13 @@ class Buffer(Door):
         """Insert a sample of a moving link.
 
         Args:
-            transform: The pose of a child in its parent. One leading slash is taken off
-                either name; any finite quaternion but zero is scaled to length one.
+            transform: The pose of a child in its parent. One leading slash is removed from either
+                name; a finite quaternion other than zero is scaled to unit length.
             authority: Its sender.
 
         Returns:
-            Whether it was accepted. If not, the reason is in the log, and nothing is lost.
+            Whether the sample was accepted. If not, the log has the reason, and the stored samples
+            are unchanged.
 
         Raises:
             TypeError: If the stamp is not a whole number.
@@ -205,10 +206,11 @@ class Buffer(Door):
         self._tell(kept, False, authority, (child,))
 
     def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Set a static link, valid at all times; it replaces the child's previous samples.
+        """Set a static link, valid at all times; it replaces all samples of the child.
 
         Returns:
-            Whether it was accepted. If not, the reason is in the log, and nothing is lost.
+            Whether the transform was accepted. If not, the log has the reason, and the stored
+            samples are unchanged.
 
         Raises:
             TypeError: If the stamp is not a whole number.
@@ -216,7 +218,7 @@ class Buffer(Door):
         return self._set_slowly(transform, authority, True)
 
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Insert a new, unusual or static sample with every check and its log line."""
+        """Insert a new, unusual or static sample, with every check and its log message."""
         stamp, parent, child, pose = _parts(transform)
         stamp = whole(stamp)
         parent, child = tree.stripped(parent), tree.stripped(child)
@@ -280,25 +282,26 @@ class Buffer(Door):
         rotations: "npt.ArrayLike",
         authority: str = "",
     ) -> "Insertion":
-        """Insert many samples of one moving link, as if one by one in their order.
+        """Insert many samples of one moving link, with the same result as one by one in their
+        order.
 
-        Listeners are called with each of them, and pending requests are tried again, once all
-        are in.
+        After all samples are stored, listeners are called with each of them, and pending requests
+        are tried again.
 
         Args:
-            parent: The frame the poses are given in.
+            parent: The frame in which the poses are expressed.
             child: The frame whose poses they are.
             stamps: Whole nanoseconds, shape (n,), in any order.
             translations: Metres, shape (n, 3).
-            rotations: Quaternions in xyzw order, shape (n, 4); any finite one but zero.
-            authority: Their sender.
+            rotations: Quaternions in xyzw order, shape (n, 4), finite and not zero.
+            authority: Sender of the samples.
 
         Returns:
-            The accepted rows and the reasons for the others; true if all were accepted. The log
-            has the first ten.
+            The accepted rows, and the reasons for the rejected rows; true if all rows were
+            accepted. The log has the first ten rejected rows.
 
         Raises:
-            TypeError: If the stamps are no whole numbers.
+            TypeError: If the stamps are not whole numbers.
             ValueError: If a shape does not fit.
         """
         from tftool.buffer.batch import insert
@@ -326,20 +329,21 @@ class Buffer(Door):
         """Insert samples that are already in the buffer's own memory layout.
 
         If possible the rows are not copied: the buffer reads them in place, and copies them before
-        it inserts or prunes.
+        it inserts or prunes samples.
 
         Args:
-            parent: The frame the poses are given in.
+            parent: The frame in which the poses are expressed.
             child: The frame whose poses they are.
-            records: One row a sample, shape (n, 8): nanoseconds, and bit by bit the seven
-                doubles x y z and x y z w.
-            authority: Their sender.
+            records: One row per sample, int64, shape (n, 8): the stamp in nanoseconds, then the
+                bits of the seven doubles x y z and x y z w.
+            authority: Sender of the samples.
 
         Returns:
-            The accepted rows and the reasons for the others; None if all were accepted.
+            The accepted rows, and the reasons for the rejected rows; None if all rows were
+            accepted.
 
         Raises:
-            TypeError: If the records are no rows of eight whole numbers.
+            TypeError: If the records are not rows of eight whole numbers.
         """
         import numpy as np
 
@@ -353,14 +357,14 @@ class Buffer(Door):
     def shorten(self, limit: int) -> "list[Shortened]":
         """Drop the oldest samples of the longest links until all fit into `limit`.
 
-        The newest two samples of a link always stay. If samples must be dropped, a quarter more is
-        dropped, so that the next call has nothing to do.
+        The newest two samples of a link always stay. If samples must be dropped, a quarter more
+        than necessary is dropped, so that not every call drops samples.
 
         Args:
-            limit: Bytes, for the samples alone.
+            limit: Maximum size of all samples, bytes.
 
         Returns:
-            The shortened links.
+            A record of each shortened link.
         """
         links = [
             (frame, frame.link)
@@ -389,8 +393,8 @@ class Buffer(Door):
     def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
         """Register `callback` for each accepted sample; return a function that removes it.
 
-        Its exceptions are reported under the name of its `owner`; the sample stays stored, and the
-        inserting code goes on.
+        Exceptions of the callback are reported under the name `owner`; the sample stays stored, and
+        the inserting code continues.
         """
         withdraw = self._listeners.add(callback, owner)
         self._listening = self._listeners.registered
@@ -412,16 +416,16 @@ class Buffer(Door):
         Args:
             target_frame: Frame in which the result is expressed.
             source_frame: Frame to look up.
-            time: The moment; 0 for the newest one for which the whole chain has data.
+            time: Nanoseconds; 0 for the newest time at which the whole chain has data.
 
         Returns:
-            With the moment it holds for as its stamp, or 0 if it holds at all times.
+            The transform. Its stamp is the time of the lookup, or 0 if all links are static.
 
         Raises:
             InvalidArgumentException: If a name is empty or starts with a slash.
-            LookupException: If a name never came up, or the chain runs in a loop.
-            ConnectivityException: If the two frames are of different trees.
-            ExtrapolationException: If a link has no data for that moment.
+            LookupException: If a name was never received, or the chain contains a loop.
+            ConnectivityException: If the two frames are in different trees.
+            ExtrapolationException: If a link has no data at that time.
             TypeError: If `time` is not a whole number.
         """
         if type(time) is not int:
@@ -454,12 +458,15 @@ class Buffer(Door):
         source_time: Stamp,
         fixed_frame: str,
     ) -> TransformStamped:
-        """Return source's pose at its time in target at target's time, through a fixed frame.
+        """Return the pose of source at `source_time` in target at `target_time`, by way of a fixed
+        frame.
 
-        Both are looked up relative to `fixed_frame`, which is assumed not to move in between.
+        Both poses are looked up relative to `fixed_frame`, which is assumed not to move between the
+        two times.
 
         Raises:
-            TransformException: As `lookup_transform`; frames are always checked, even equal ones.
+            TransformException: As `lookup_transform`; the frame names are always checked, even if
+                they are equal.
         """
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         fixed_frame = tree.plain(fixed_frame)
@@ -499,14 +506,14 @@ class Buffer(Door):
             target_frame: Frame in which the results are expressed.
             source_frame: Frame to look up.
             times: Whole nanoseconds, shape (n,), in any order; 0 for the latest.
-            missing: Answer for a moment that has no pose: "raise", or "nan"
-                for a row of NaN that is not `valid`. A wrong name raises in any case.
-            threads: How many to work with; None for one a core where that pays.
+            missing: What to do for a time without a pose: "raise", or "nan" for a row of NaN that
+                is not `valid`. A wrong name raises in either case.
+            threads: Number of threads; None for one per core where that is faster.
 
         Raises:
-            TransformException: As `lookup_transform`, for the first row that is refused.
-            TypeError: If the times are no whole numbers.
-            ValueError: If the shape is another.
+            TransformException: As `lookup_transform`, for the first row without a pose.
+            TypeError: If the times are not whole numbers.
+            ValueError: If the shape is not (n,).
         """
         # The single lookup does without numpy.
         from tftool.buffer.batch import lookup
@@ -529,12 +536,12 @@ class Buffer(Door):
     ) -> "TransformArray":
         """Return `lookup_transform_full` for many times at once, in numpy.
 
-        Either of the two times may be a single moment; see `lookup_transforms`.
+        Either of the two times may be a single number; see `lookup_transforms`.
 
         Raises:
-            TransformException: As `lookup_transform_full`, for the first row that is refused.
-            TypeError: If the times are no whole numbers.
-            ValueError: If the shapes do not fit.
+            TransformException: As `lookup_transform_full`, for the first row without a pose.
+            TypeError: If the times are not whole numbers.
+            ValueError: If the two arrays have different lengths.
         """
         from tftool.buffer.batch import lookup
 
@@ -557,7 +564,8 @@ class Buffer(Door):
         static.
 
         Raises:
-            TransformException: If a name is unknown or invalid, or nothing joins the two.
+            TransformException: If a name is unknown or invalid, or no chain of links joins the two
+                frames.
         """
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
@@ -571,7 +579,7 @@ class Buffer(Door):
         )
 
     def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
-        """Return `get_latest_common_time`, but 0 instead of an error."""
+        """Return the result of `get_latest_common_time`, or 0 instead of an error."""
         try:
             return self.get_latest_common_time(target_frame, source_frame)
         except TransformException:
@@ -582,7 +590,8 @@ class Buffer(Door):
     ) -> velocity.Velocity:
         """Return the velocity of `tracking_frame` in `observation_frame`, by tf2's formula.
 
-        `velocity.full` explains tf2's numbers; `lookup_twist` gives plain velocities.
+        `velocity.full` explains how tf2's numbers differ; `lookup_twist` returns the true
+        velocities.
         """
         return velocity.full(
             self,
@@ -608,7 +617,7 @@ class Buffer(Door):
         """Return `tracking_frame`'s velocity in `observation_frame`, expressed in
         `reference_frame`.
 
-        Exactly tf2's formula; see `velocity.full`.
+        The formula is exactly tf2's; see `velocity.full`.
         """
         return velocity.full(
             self,
@@ -628,7 +637,7 @@ class Buffer(Door):
 
         Raises:
             TransformException: As `lookup_transform`.
-            TypeError: If a moment or the interval is not a whole number.
+            TypeError: If the time or the interval is not a whole number.
             ValueError: If the interval is not positive.
         """
         return velocity.twist(self, tracking_frame, observation_frame, time, interval)
@@ -696,16 +705,18 @@ class Buffer(Door):
         """Call `callback` once the transform can be looked up.
 
         Args:
-            callback: Called from inside the set that makes it possible, in the order of the
-                requests: with the handle, and True; or False once that moment is forgotten.
-                What it raises is reported as what a listener raises is; see `listen`.
+            callback: Function called with the request's handle and True once the transform is
+                available, or with False once the time is older than the stored samples. The call
+                that stores the decisive sample also calls the callbacks, in the order of the
+                requests. An exception of a callback is reported like one of a listener; see
+                `listen`.
             target_frame: As in `lookup_transform`.
             source_frame: As in `lookup_transform`.
-            time: As in `lookup_transform`; 0 is never forgotten.
+            time: As in `lookup_transform`; a request for time 0 never gets False.
 
         Returns:
-            0 if it can be looked up now, NEVER if it never can again (in both cases
-            `callback` is not kept), else a handle for `cancel`.
+            0 if the transform is available now; NEVER if it cannot become available any more; else
+            a handle for `cancel`. `callback` is kept only if there is a handle.
         """
         target_frame, source_frame = tree.plain(target_frame), tree.plain(source_frame)
         return self._requests.add(callback, (target_frame, source_frame, whole(time)))
@@ -720,8 +731,8 @@ class Buffer(Door):
         """Return all frames at one time.
 
         Args:
-            now: The clock's time, from which ages are counted.
-            at: The moment to show; 0 for each frame at the latest moment of its chain.
+            now: The clock's time, from which ages are computed, nanoseconds.
+            at: The time to show, nanoseconds; 0 for the latest time of each frame's chain.
         """
         return snapshot.snapshot(self._tree, whole(now), whole(at))
 
@@ -729,11 +740,11 @@ class Buffer(Door):
         """Return a copy of all samples of one link, oldest first, in numpy.
 
         Args:
-            child: The frame; of a root, which hangs from nothing, there are no samples.
+            child: The child frame of the link. A root frame has no link, and so no samples.
 
         Raises:
             InvalidArgumentException: If the name is empty or starts with a slash.
-            LookupException: If the name never came up.
+            LookupException: If the name was never received.
         """
         from tftool.buffer.batch import edge_columns as columns
 
@@ -742,19 +753,19 @@ class Buffer(Door):
         return columns.samples(self._tree, self._tree.frames[number])
 
     def frames(self) -> list[str]:
-        """Return every frame name ever seen, in order; of one sample, the child first."""
+        """Return every frame name ever seen, in order; the child of a sample before its parent."""
         return [frame.name for frame in self._tree.frames]
 
     def frame_exists(self, frame: str) -> bool:
-        """Whether a frame name was ever seen; tf2's own NO_PARENT always was."""
+        """Whether a frame name was ever seen; always true for tf2's own name NO_PARENT."""
         frame = tree.plain(frame)
         return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
 
     def parent(self, frame: str, time: Stamp = 0) -> str | None:
-        """Return a frame's parent at a moment; None for a root, and where there is no data.
+        """Return a frame's parent at a time; None for a root, or if there is no data at that time.
 
         Raises:
-            TypeError: If the moment is no whole number of nanoseconds, or the name no text.
+            TypeError: If the time is not a whole number, or the name not a string.
         """
         time = whole(time)
         frame = tree.plain(frame)
@@ -775,7 +786,7 @@ class Buffer(Door):
     def rivals(self, frame: str) -> tuple[str, ...]:
         """Return the publishers that alternate in a frame's samples; empty if there is only one.
 
-        A publisher that replaced another one once is no rival.
+        A publisher that replaced another publisher once does not count as a rival.
         """
         frame = tree.plain(frame)
         number = self._tree.numbers.get(frame)
@@ -816,10 +827,10 @@ class Buffer(Door):
 
 
 def _parts(transform: TransformStamped) -> tuple[Stamp, str, str, Transform]:
-    """Return the four parts of a sample.
+    """Return stamp, parent, child and transform of a sample.
 
     Raises:
-        TypeError: If it is none.
+        TypeError: If the argument is not a stamped transform.
     """
     try:
         stamp, parent, child, pose = transform
@@ -849,19 +860,19 @@ def adopt_records(
     """Insert records as `Buffer.set_records` does, if their stamps increase.
 
     Args:
-        buffer: The buffer that takes them.
-        parent: See there.
-        child: Likewise.
-        records: Likewise.
-        authority: Likewise.
-        kept: Count of them, from the first on, that are known to be such, finite, and with
-            unit quaternions of tf2's sign.
+        buffer: The buffer to insert into.
+        parent: As in `Buffer.set_records`.
+        child: As in `Buffer.set_records`.
+        records: As in `Buffer.set_records`.
+        authority: As in `Buffer.set_records`.
+        kept: Number of records at the beginning that need no check: their stamps increase, they are
+            finite, and their quaternions have unit length and tf2's sign.
 
     Returns:
-        Whether they were taken, all of them. Nothing was done if not.
+        Whether all records were accepted. If not, nothing was changed.
 
     Raises:
-        TypeError: As in `set_records`.
+        TypeError: As in `Buffer.set_records`.
     """
     from tftool.buffer.batch import insert
 
@@ -881,12 +892,13 @@ def lend(buffer: Buffer, child: str, other: Buffer, until: Stamp) -> bool:
 
     Args:
         buffer: The lender.
-        child: The frame.
+        child: The child frame of the link.
         other: A buffer that does not know the link yet.
-        until: The last stamp it is to know.
+        until: The last stamp to share, nanoseconds.
 
     Returns:
-        Whether that could be; if not, nothing was done, and `samples` copies them.
+        Whether the samples could be shared. If not, nothing was changed; `Buffer.samples` returns a
+        copy instead.
     """
     from tftool.buffer.history import History
 

@@ -19,9 +19,10 @@ def must_clear(
     """Whether a jump of the clock makes all moving samples obsolete.
 
     Args:
-        change: How far the clock jumped; negative backward. Forward never clears.
-        source_changed: Whether the source of time changed, which always clears.
-        least_fall: How far back is too far.
+        change: Size of the jump, nanoseconds; negative for a jump backward. A jump forward never
+            clears.
+        source_changed: Whether the source of time changed; this always clears.
+        least_fall: Smallest jump backward that clears, nanoseconds.
     """
     return source_changed or change <= -least_fall
 
@@ -29,8 +30,8 @@ def must_clear(
 class Watch:
     """Watcher of a clock's readings that clears a buffer when they jump back.
 
-    A buffer has no clock, so code that fills it from a recording or a simulation that may restart
-    passes each new time to this class first.
+    A buffer has no clock. Code that fills a buffer from a recording or simulation, which may
+    restart, first passes each new time to this class.
     """
 
     def __init__(

@@ -1,10 +1,10 @@
 """Frames by name and number, each with its link to a parent, which may change over time.
 
-This module uses parents only: it finds the links between two frames at a moment, and the latest
-moment that all of them have. `path` computes poses.
+This module uses parents only: it finds the links between two frames at a time, and the latest time
+at which all of these links have data. `path` computes poses.
 
-An insertion removes one leading slash of a name, a query refuses it: tf2's rule, which accepts old
-publishers and shows the mistake to the querying program.
+As in tf2, an insertion removes one leading slash of a name, but a query refuses the slash. So old
+publishers are accepted, and the querying program learns of its mistake.
 """
 
 from collections.abc import Iterable
@@ -37,20 +37,20 @@ def stripped(name: str) -> str:
     """Return a name as stored: a plain `str` without one leading slash.
 
     Raises:
-        TypeError: If it is not a string.
+        TypeError: If the name is not a string.
     """
     name = plain(name)
     return name[1:] if name.startswith("/") else name
 
 
 def plain(name: str) -> str:
-    """Return a name as exactly a `str`.
+    """Return a name as an object of exactly the class `str`.
 
-    A subclass of `str` may have its own comparison and hash: as a key it would run that code during
-    a lookup, and could change the data being read.
+    A subclass of `str` may define comparison and hash. As a key it would run this code during a
+    lookup, and the code could change the data being read.
 
     Raises:
-        TypeError: If it is not a string.
+        TypeError: If the name is not a string.
     """
     if name.__class__ is str:
         return name
@@ -62,7 +62,7 @@ def fault(name: str) -> str:
     """Return why a frame name is invalid, in tf2's words; empty if it is valid.
 
     Raises:
-        TypeError: If it is not a string.
+        TypeError: If the name is not a string.
     """
     name = plain(name)
     if not name:
@@ -76,7 +76,7 @@ def require_text(*names: object) -> None:
     """Raise an error unless all frame names are strings.
 
     Raises:
-        TypeError: If one is not a string.
+        TypeError: If a name is not a string.
     """
     for name in names:
         if not isinstance(name, str):
@@ -87,10 +87,10 @@ class Frame:
     """One named frame and its link to its parent.
 
     Attributes:
-        name: Its name.
-        number: Its place in the order of first registration.
-        link: Link to its parent; None if no sample was ever set.
-        authority: Sender of its newest sample; None if there was none.
+        name: Name of the frame.
+        number: Place of the frame in the order of first registration.
+        link: Link to the parent; None if no sample was ever set.
+        authority: Sender of the newest sample; None if there was no sample.
     """
 
     __slots__ = ("authority", "link", "name", "number")
@@ -116,14 +116,14 @@ class Walk:
 
     Attributes:
         ended: ARRIVED, UNCONNECTED, REFUSED or LOOP.
-        up: Frames whose links lead from the source toward the meeting point.
-        down: The same from the target.
-        top: Last frame on the source's side.
-        end: Last frame on the target's side.
-        refused: The frame whose link has nothing for the moment, if REFUSED.
-        timeless: Whether it would go the same way at any moment: nothing was refused, and
-            no link that was passed leads elsewhere at times.
-        above: If ARRIVED, the frames that were passed above the meeting point.
+        up: Child frames of the links from the source up to the common ancestor.
+        down: Child frames of the links from the target up to the common ancestor.
+        top: Last frame reached from the source.
+        end: Last frame reached from the target.
+        refused: Child frame of the link without data at that time, if REFUSED.
+        timeless: Whether the path is the same at every time: no link lacked data, and no visited
+            link ever changes its parent.
+        above: If ARRIVED, the visited frames above the common ancestor.
     """
 
     __slots__ = ("above", "down", "end", "ended", "refused", "timeless", "top", "up")
@@ -159,10 +159,10 @@ class FrameTree:
     Attributes:
         frames: Frames in the order of their first registration.
         numbers: Each frame's place in that order.
-        senders: Frames whose links move, by name: for their next samples.
-        authorities: Every name that a sample was sent under, in the order of their numbers.
+        senders: Child frames of moving links by name, to find them quickly for the next sample.
+        authorities: Every authority (name of a sender), in the order of their numbers.
         limit: Age up to which samples are kept, nanoseconds.
-        max_name: How many bytes a name may have.
+        max_name: Maximum length of a name, bytes.
     """
 
     __slots__ = (
@@ -187,7 +187,7 @@ class FrameTree:
     # Growing
 
     def register(self, name: str) -> Frame:
-        """Return the frame with that name, created if it is new."""
+        """Return the frame with that name; create the frame if the name is new."""
         number = self.numbers.get(name)
         if number is not None:
             return self.frames[number]
@@ -202,12 +202,12 @@ class FrameTree:
         return new == 0 or len(self.frames) + new <= limit
 
     def hang(self, child: str, parent: str, static: bool) -> tuple[Frame, Link, bool]:
-        """Register both names, and give the child a link of this kind.
+        """Register both names, and give the child a link of this kind (static or moving).
 
-        A link of the other kind is replaced by an empty one, and its samples are dropped.
+        A link of the other kind is replaced by an empty link, and its samples are dropped.
 
         Returns:
-            The child, its link, and whether the link is a new one.
+            The child, its link, and whether the link is new.
         """
         frame = self.register(child)
         link = frame.link
@@ -242,16 +242,16 @@ class FrameTree:
     # Asking
 
     def newest_stamp(self, number: int) -> Stamp:
-        """Return the stamp of a frame's newest sample; 0 if it has none or is static."""
+        """Return the stamp of a frame's newest sample; 0 without samples or for a static link."""
         link = self.frames[number].link
         return 0 if link is None else link.newest_stamp
 
     def walk(self, target: int, source: int, time: Stamp) -> Walk:
-        """Find the path from source to target at one time (0: by each newest sample).
+        """Find the path from source to target at one time (0: at each link's newest sample).
 
-        As in tf2: from the source up to the target, to the root, or to a link without data for the
-        moment; then from the target up to the end of the first part, or to the source. Missing data
-        above the common frame does not matter.
+        As in tf2, the walk goes from the source up to the target, to the root, or to a link without
+        data at that time. Then it goes from the target up to the last frame of the first part, or
+        to the source. Missing data above the common ancestor does not matter.
         """
         walk = Walk(source, target)
         frames, up, down = self.frames, walk.up, walk.down
@@ -310,10 +310,10 @@ class FrameTree:
         return walk.close(UNCONNECTED)
 
     def is_steady(self, walk: Walk) -> bool:
-        """Whether the path by newest parents is the same at every time it has data for.
+        """Whether the path by newest parents is the same at every time with data.
 
-        Links above the common frame may change, as long as no path up from there can become a loop,
-        or too long.
+        Links above the common ancestor may change, if no path up from there can become a loop or
+        too long.
         """
         frames = self.frames
         for number in (*walk.up, *walk.down):
@@ -357,13 +357,12 @@ class FrameTree:
         return False
 
     def latest_common(self, target: int, source: int) -> tuple[int, Stamp]:
-        """Return the newest time for which every link between two frames has data.
+        """Return the newest time at which every link between two frames has data.
 
-        Stamps of 0 are ignored, and with them the links that are always valid.
+        Links with stamp 0 (static links, for example) are always valid and are ignored.
 
         Returns:
-            The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 if no link
-            has one.
+            The outcome (ARRIVED, UNCONNECTED or LOOP), and the stamp; 0 if no link has a stamp.
         """
         if target == source:
             return ARRIVED, self.newest_stamp(target)

@@ -1,19 +1,19 @@
 """Links of a child to its parent over time: static or moving.
 
-Memory layout of a moving link's samples, which batch lookups and `Buffer.samples` read too:
+Memory layout of the samples of a moving link; batch lookups and `Buffer.samples` read it too:
 
-- `records` is one flat array of 64-bit words, oldest sample first, WORDS words for each: its
-  stamp in nanoseconds, then x, y, z and the quaternion's x, y, z, w, doubles bit by bit. One
-  place to look at for a stamp and its pose: long histories do not fit a processor's cache.
-- Records before `start` are pruned, or free: pruned ones are removed in bulk later. Those from
-  `count` on are room for samples to come.
-- While a batch reads the records no array may grow: what would have it grow is done to a copy
-  (`_resizable`), and data already read stays as it was.
-- An *origin* is a sample's parent and authority in one word: the parent's number in the low 32
-  bits, the authority's above them. As long as all samples have the same origin, `origin` is
-  all there is; from the first other one on, `origins` holds one word for each record.
-- The newest sample and the newest two are kept as tuples too once they are asked for, so that
-  most questions touch no array.
+- `records` is one flat array of 64-bit words, oldest sample first, WORDS words per sample: the
+  stamp in nanoseconds, then the bits of the doubles x, y, z and of the quaternion x, y, z, w. Stamp
+  and pose are neighbours because long histories do not fit into a processor's cache.
+- Records before `start` are pruned or free; pruned records are removed in bulk later. Records from
+  `count` on are free space for new samples.
+- While a batch reads the records, the array must not grow. A change that needs more space is made
+  to a copy (`_resizable`); the batch keeps reading the old array.
+- An *origin* is the parent and the authority of a sample in one word: the parent's number in the
+  low 32 bits, the authority's number in the high bits. While all samples have the same origin, only
+  `origin` is stored; after a sample with another origin, `origins` holds one word per record.
+- After the first query the newest sample, and the newest two, are also kept as tuples, so that most
+  queries do not read the array.
 """
 
 import struct
@@ -99,7 +99,7 @@ LONGEST: Final = 1.0 + quaternions.ROUNDING
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Fields:
-        """Fields shared by both kinds of link, in native form where C code reads them."""
+        """Fields shared by both kinds of link; a native base class where the kernel is built."""
 
         __slots__ = (
             "_newest",
@@ -123,12 +123,12 @@ class StaticLink(Fields):
     """A static link: one sample, overwritten by the next.
 
     Attributes:
-        is_static: True, of any of them.
-        newest_stamp: 0, as in tf2.
-        oldest_stamp: 0.
+        is_static: Always true.
+        newest_stamp: Always 0, as in tf2.
+        oldest_stamp: Always 0.
         parent: Number of the parent; NO_PARENT before there is one.
-        origin: The parent's and the authority's number in one word.
-        mixed: False: it has one parent.
+        origin: Numbers of the parent and the authority in one word.
+        mixed: Always false: a static link has one parent.
     """
 
     __slots__ = ("parent",)
@@ -181,20 +181,19 @@ class History(Fields):
     one is the newest.
 
     Attributes:
-        is_static: False, of any of them.
-        limit: How far it remembers back from its newest sample.
-        newest_stamp: Stamp of the newest sample; 0 when there is none.
-        oldest_stamp: Stamp of the oldest sample; 0 likewise.
-        parent: Number of the newest sample's parent; NO_PARENT when there is none.
+        is_static: Always false.
+        limit: How far back from the newest sample samples are kept, nanoseconds.
+        newest_stamp: Stamp of the newest sample; 0 without samples.
+        oldest_stamp: Stamp of the oldest sample; 0 without samples.
+        parent: Number of the newest sample's parent; NO_PARENT without samples.
         origin: The newest sample's origin; see the head of this module.
-        origins: One for each record; None while all are the same.
-        mixed: Whether samples with different parents are remembered.
+        origins: Origin of each record; None while all records have the same origin.
+        mixed: Whether the stored samples have different parents.
         records: See the head of this module.
         start: Number of the first record that is not pruned.
         count: How many records there are, pruned ones included.
-        period: Nanoseconds from sample to sample, as last measured; where to look is guessed
-            from it.
-        large_from: So many records are worth a call of `use_large_pages`.
+        period: Last measured time between samples, nanoseconds; used to guess the place of a stamp.
+        large_from: Number of records from which `use_large_pages` is called.
     """
 
     __slots__ = ("_compact_at", "_newest_parent_start", "large_from", "parent", "period")
@@ -272,10 +271,10 @@ class History(Fields):
         return poses.interpolate(pair, time)
 
     def parent_at(self, time: Stamp) -> int:
-        """Return the parent's number at that time, from the older neighbour; NO_PARENT if there is
-        none.
+        """Return the parent's number at that time, from the older neighbour; NO_PARENT without
+        data.
 
-        For time 0, the newest sample's.
+        For time 0, return the newest sample's parent.
         """
         if time == self.newest_stamp or time == 0:
             return self.parent
@@ -310,8 +309,8 @@ class History(Fields):
         """Return records and origins, oldest first; see `Columns`.
 
         The records are not copied, and do not change while the view exists: the array grows only as
-        a copy. They belong to one moment, even if another thread inserts or prunes meanwhile: after
-        taking the view, the read values are compared again.
+        a copy. The records show one state, even if another thread inserts or prunes meanwhile:
+        after taking the view, the function compares the values it read before.
         """
         while True:
             records, start, count = self.records, self.start, self.count
@@ -351,7 +350,9 @@ class History(Fields):
         return self.parent if self.origins is None else self.origins[index] & PARENT_MASK
 
     def _after(self, time: Stamp) -> int:
-        """Return the index of the first sample after a time; the end if there is none."""
+        """Return the index of the first sample after a time; the end index if there is no such
+        sample.
+        """
         if time < self.oldest_stamp:
             return self.start
         if time < self.newest_stamp:
@@ -393,19 +394,20 @@ class History(Fields):
 
         Args:
             stamp: Nanoseconds.
-            origin: Its parent's and its authority's number in one word.
-            pose: Three and four floats just as they came, the quaternion not always of length
-                one or of tf2's sign.
-            validated: Whether stamp and numbers were checked and the quaternion is of length
-                one and of tf2's sign.
+            origin: Numbers of the parent and the authority in one word.
+            pose: Position and quaternion in xyzw order, as received: the quaternion may have any
+                length and either sign.
+            validated: Whether stamp and numbers are checked, and the quaternion has unit length and
+                tf2's sign.
 
         Returns:
-            TOO_OLD if it is older than the limit, KNOWN if that very sample is
-            there, PARENT_CHANGED if it changes which parents the link has or had, else STORED.
-            NEEDS_CHECK, and nothing was done, if the stamp is no `int`, or a number is none.
+            TOO_OLD if the sample is older than the limit; KNOWN if an equal sample is stored;
+            PARENT_CHANGED if the sample changes the set of the link's parents; else STORED.
+            NEEDS_CHECK, with nothing changed, if the stamp is not an `int` or the pose has
+            something other than numbers.
 
         Raises:
-            struct.error: If the stamp does not fit 64 bits; nothing was done.
+            struct.error: If the stamp does not fit into 64 bits; nothing was changed.
         """
         (x, y, z), (qx, qy, qz, qw) = pose
         if not validated:
@@ -550,7 +552,7 @@ class History(Fields):
         return PARENT_CHANGED if changes else STORED
 
     def _make_room_in_front(self) -> int:
-        """Return the free slot before the oldest sample, for samples in reverse order."""
+        """Return a free record before the oldest sample, for samples that arrive in reverse order."""
         if self.start == 0:
             room = max(_LEAST_SLACK, self.count >> _SLACK)
             self._splice(0, 0, array("q", bytes(RECORD * room)))
@@ -586,7 +588,7 @@ class History(Fields):
         return False
 
     def _have_room(self) -> None:
-        """Reserve space behind the newest sample, for those that the kernel inserts."""
+        """Reserve space after the newest sample, for samples that the kernel inserts."""
         if self.count == len(self.records) // WORDS:
             room = max(_LEAST_ROOM, min(self.count, _MOST_ROOM), self.count >> _ROOM)
             self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
@@ -596,8 +598,8 @@ class History(Fields):
     def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
         """Append records with increasing stamps, and prune those before a stamp.
 
-        All records have the origin of the existing samples; there is at least one sample, and the
-        records reach past the pruned ones.
+        All records have the origin of the existing samples. There must be at least one sample, and
+        the last record must be newer than `oldest_kept`.
         """
         if self.newest_stamp < oldest_kept:
             self.replace(records, array("q", [self.origin]) * (len(records) // WORDS))
@@ -610,7 +612,9 @@ class History(Fields):
             self._prune(oldest_kept)
 
     def replace(self, records: "Words", origins: "array[int]") -> None:
-        """Replace all samples; at least one, oldest first, of equal stamps the newest last."""
+        """Replace all samples by at least one sample, oldest first; of equal stamps the newest
+        last.
+        """
         # Borrowed records are only used in ways that a read-only view supports.
         self.records = cast("array[int]", records)
         self.count = len(records) // WORDS
@@ -624,10 +628,10 @@ class History(Fields):
         self.mixed = self._newest_parent_start > 0
 
     def borrow(self, records: "Words", origin: int) -> None:
-        """Replace all samples by borrowed ones with increasing stamps and one origin.
+        """Replace all samples by borrowed samples with increasing stamps and one origin.
 
-        They are copied only at an insertion or pruning: until then they may be in foreign memory,
-        and `records` is a read-only view.
+        The borrowed samples are copied only at an insertion or pruning: until then they may be in
+        foreign memory, and `records` is a read-only view.
         """
         self.replace(memoryview(records).toreadonly(), array("q", [origin]))
 
@@ -635,12 +639,13 @@ class History(Fields):
         """Share the samples up to a stamp with another history, without a copy.
 
         Args:
-            other: An empty one.
-            origin: Their origin there.
-            until: The last stamp it is to know.
+            other: An empty history.
+            origin: Origin of the samples in the other history.
+            until: The last stamp to share, nanoseconds.
 
         Returns:
-            Whether that could be: some were pruned here, or they are of several origins, if not.
+            Whether the samples could be shared; false if some were pruned here, or have several
+            origins.
         """
         if self.origins is not None or self.start or not self.count:
             return False
@@ -659,7 +664,7 @@ class History(Fields):
         return True
 
     def _find_newest_parent_start(self) -> int:
-        """Return the index of the oldest of the newest samples that share a parent."""
+        """Return the index from which on all samples have the newest sample's parent."""
         if self.origins is None:
             return self.start
         first = self.count - 1
@@ -676,8 +681,9 @@ class History(Fields):
     def use_large_pages(self) -> None:
         """Move many samples into large pages, if the system has them.
 
-        Random lookups over five links of 100 000 samples take a quarter less time. A sample without
-        room makes the array grow again; it moves to large pages again only at twice the length.
+        Random lookups over five links of 100 000 samples take a quarter less time. When the memory
+        is full, the array grows on ordinary pages; it moves to large pages again only at twice the
+        length.
         """
         self.large_from = 2 * self.count
         records = self.records
@@ -707,7 +713,7 @@ class History(Fields):
             self._let_go(self.count - number)
 
     def _prune(self, oldest_kept: Stamp) -> None:
-        """Drop the samples before that stamp; the newest always stays."""
+        """Drop the samples before that stamp; the newest sample always stays."""
         start = self.start + 1
         if self._stamp(start) < oldest_kept:
             # Where equal stamps are the oldest, all of them stay.
@@ -715,7 +721,7 @@ class History(Fields):
         self._let_go(start)
 
     def _let_go(self, start: int) -> None:
-        """Drop the samples before a record."""
+        """Drop the samples before the record with index `start`."""
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:
@@ -739,7 +745,7 @@ class History(Fields):
         self._begin(start)
 
     def _begin(self, start: int) -> None:
-        """Make the samples begin at a record."""
+        """Make the samples begin at the record with index `start`."""
         self.start = start
         self.oldest_stamp = self._stamp(start)
 

@@ -1,4 +1,4 @@
-"""The native kernel, where it was built: one C file that implements the usual cases."""
+"""The native kernel, if it was built: one C file that implements the usual cases."""
 
 from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
 
@@ -21,13 +21,13 @@ BUILD: Final = "native" if IS_NATIVE else "pure Python"
 if TYPE_CHECKING or not IS_NATIVE:
 
     class Door:
-        """Fields that a buffer's methods read first, in native form where C code reads them.
+        """Fields that a buffer's methods read first; a native base class where the kernel is built.
 
         Attributes:
-            _paths: The solver's.
-            _senders: The tree's.
+            _paths: Paths of the solver.
+            _senders: Child frames of moving links in the tree, by name.
             _listening: Functions called with each accepted sample.
-            _pending: Requests that wait, by handle.
+            _pending: Waiting requests, by handle.
         """
 
         __slots__ = ("_listening", "_paths", "_pending", "_senders")
@@ -42,7 +42,7 @@ else:
 
 
 class _NativeFirst:
-    """Decorator's result that the class replaces by the kernel's method of the same name."""
+    """Result of the decorator; the class replaces it by the kernel's method of the same name."""
 
     def __init__(self, plain: Any) -> None:
         self._plain = plain
@@ -55,7 +55,8 @@ class _NativeFirst:
 def native_first(plain: _Method) -> _Method:
     """Decorate a method that the kernel implements for ordinary arguments.
 
-    For all other cases (a new frame, a refusal, a long chain) the kernel calls the decorated
-    method, as `_plain_` and its name. Without the kernel, the name is the method itself.
+    For all other cases (a new frame, a refusal, a long chain) the kernel calls the decorated method
+    under the name `_plain_` plus its own name. Without the kernel, the decorated method is used
+    directly.
     """
     return cast(_Method, _NativeFirst(plain)) if IS_NATIVE else plain

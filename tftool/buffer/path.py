@@ -1,7 +1,7 @@
-"""Path between two frames: found once, evaluated at many times.
+"""Path between two frames: found once, and evaluated at many times.
 
-A path is valid while none of its links changes its parent. If a link has no data for a moment, a
-path gives no answer: following the tree then finds the reason, or another way.
+A path is valid while no link of it changes its parent. If a link has no data at a time, the path
+has no result; a walk through the tree then finds the reason, or another path.
 """
 
 from collections.abc import Iterable
@@ -67,11 +67,11 @@ class Path(NamedTuple):
 
 
 def chain(links: tuple[Link, ...], time: Stamp) -> Sample:
-    """Multiply the poses of several links, lowest first; NO_POSE if one has none.
+    """Multiply the poses of several links, lowest first; NO_POSE if a link has no pose.
 
     Args:
-        links: Each one's parent is the next one's child.
-        time: The moment; 0 for each link's newest.
+        links: Links in order; the parent of each link is the child of the next link.
+        time: Nanoseconds; 0 for each link's newest sample.
 
     Returns:
         The pose of the first link's child in the last link's parent.

@@ -25,7 +25,7 @@ _NAME_SHOWN: Final = 32
 def unknown(
     frame: str, argument: str, call: str, known: Collection[str], *, target: str, source: str
 ) -> LookupException:
-    """Return the error for an unknown frame; `known` is only iterated when the remedy is read."""
+    """Return the error for an unknown frame; `known` is read only when the remedy is read."""
     return LookupException(
         f'"{frame}" passed to {call} argument {argument} does not exist. ',
         frame=frame,
@@ -102,7 +102,7 @@ _EXTRAPOLATIONS: dict[int, type[ExtrapolationException]] = {
 def extrapolation(
     refusal: Refusal, frame: str, time: Stamp, target: str, source: str
 ) -> ExtrapolationException:
-    """Return the error for a link, that of `frame`, without data for the time."""
+    """Return the error for the link of `frame`, which has no data at the time."""
     kind, available = refusal
     return _EXTRAPOLATIONS[kind](
         f"{shortfall(refusal, time)}, when looking up transform from frame [{source}] "
@@ -131,15 +131,15 @@ def objections(
     rotation: tuple[float, float, float, float],
     authority: str,
 ) -> list[str]:
-    """Return everything wrong with a sample, a line each; empty if it is valid.
+    """Return everything wrong with a sample, one line per fault; empty if the sample is valid.
 
     Args:
-        child: Without its leading slash.
-        parent: Without its leading slash.
+        child: Child frame, without its leading slash.
+        parent: Parent frame, without its leading slash.
         stamp: Nanoseconds.
-        translation: The translation as given.
-        rotation: Scaled to length one; NaN if that cannot be done.
-        authority: Its sender.
+        translation: The translation as given, metres.
+        rotation: Quaternion scaled to unit length; NaN if it cannot be scaled.
+        authority: Sender of the sample.
     """
     lines: list[str] = []
     if child == parent:
@@ -202,7 +202,7 @@ def denormalized(child: str, authority: str, rotation: Iterable[float]) -> str:
 
 
 def old_data(child: str, stamp: Stamp, authority: str) -> str:
-    """Return the line for a sample older than everything remembered."""
+    """Return the line for a sample older than the oldest stamp that the buffer keeps."""
     return (
         f"TF_OLD_DATA ignoring data from the past for frame {child} at time {display(stamp)} "
         f"according to authority {authority}\nPossible reasons are listed at "
@@ -237,7 +237,7 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
 
 
 def long_name(child: str, parent: str, authority: str, limit: int) -> str:
-    """Return the name that is longer than the buffer allows; empty if neither is."""
+    """Return the line for a frame name longer than the buffer allows; empty if both names fit."""
     for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
         # In UTF-8 no character takes more than four bytes: a short name is not written out.
         if 4 * len(name) <= limit:

@@ -44,7 +44,7 @@ class Request:
 class Requests:
     """Pending requests, indexed by the frames they wait for.
 
-    A change costs nothing for requests that wait for other frames, however many there are.
+    A change of a frame costs no time for requests that wait for other frames.
 
     Attributes:
         pending: Waiting requests by handle.
@@ -60,10 +60,10 @@ class Requests:
         self._watchers: dict[str, dict[int, None]] = {}
 
     def add(self, callback: Callback, lookup: Lookup) -> int:
-        """Ask at once; keep the request pending if there is no answer yet.
+        """Try the lookup at once; keep the request pending if the lookup may succeed later.
 
         Returns:
-            NOW if it can be answered, NEVER if it no longer can, else a handle.
+            NOW if the lookup succeeds, NEVER if it cannot succeed any more, else a handle.
         """
         request = Request(self._last + 1, callback, lookup)
         status = self._ask(request, True)
@@ -85,7 +85,7 @@ class Requests:
         """Check every request that waits for one of these frames again, oldest first.
 
         Returns:
-            Exceptions of callbacks; all others were called nevertheless.
+            The exceptions that callbacks raised; all other callbacks were called nevertheless.
         """
         due: set[int] = set()
         for frame in frames:
@@ -107,7 +107,7 @@ class Requests:
         return failures
 
     def _ask(self, request: Request, first: bool) -> int:
-        """Ask; without an answer, wait for the frames that prevent it."""
+        """Try the lookup; if it fails, wait for the frames that prevent it."""
         status, blocked = self._examine(request.lookup, first)
         if status == PENDING:
             self._watch(request, blocked)

@@ -11,14 +11,14 @@ from tftool.geometry.rigid import Transform, refuses_arithmetic
 class TransformStamped(NamedTuple):
     """Pose of `child_frame_id` in `frame_id` at one time.
 
-    The result of `lookup_transform(target, source)` is one too: the pose of the source
+    `lookup_transform(target, source)` also returns a `TransformStamped`: the pose of the source
     (`child_frame_id`) in the target (`frame_id`).
 
     Attributes:
         stamp: Nanoseconds.
         frame_id: The parent, or the target of a lookup.
         child_frame_id: The child, or the source of a lookup.
-        transform: Moves points given in the child into the parent.
+        transform: Maps points from the child frame to the parent frame.
     """
 
     stamp: Stamp
@@ -32,20 +32,21 @@ class FrameInfo(NamedTuple):
     """One frame and its link to its parent.
 
     Attributes:
-        frame: Its name.
-        parent: Its parent at the shown time; None for a root.
-        is_static: Whether that link holds at all times.
-        authority: Sender of its newest sample; None for a frame without samples.
-        samples: How many are remembered.
-        rate: Samples per second by tf2's formula, hertz: a single one, or a static, shows 10000.
-        oldest: Stamp of its oldest sample; 0 for a static.
-        newest: Stamp of its newest sample; 0 for a static.
+        frame: Name of the frame.
+        parent: Parent at the shown time; None for a root.
+        is_static: Whether the link to the parent is static.
+        authority: Sender of the newest sample; None for a frame without samples.
+        samples: Number of stored samples.
+        rate: Samples per second by tf2's formula, hertz; 10000 for a single sample and for a static
+            link.
+        oldest: Stamp of the oldest sample; 0 for a static link.
+        newest: Stamp of the newest sample; 0 for a static link.
         buffer_length: `newest` − `oldest`, nanoseconds.
-        age: Nanoseconds from `newest` to the snapshot's `now`; 0 for statics and roots.
-        transform: Its pose in its parent at the moment shown, identity for a root; None where
-            its history does not reach that moment.
-        root: The root it hangs from; None where its chain runs in a loop.
-        root_from_frame: Its pose in that root; None where a link on the way has no data.
+        age: Nanoseconds from `newest` to the snapshot's `now`; 0 for static links and roots.
+        transform: Pose in the parent at the shown time, identity for a root; None if there is no
+            data at that time.
+        root: Root of the frame's tree; None if the chain to the root contains a loop.
+        root_from_frame: Pose in the root; None if a link of the chain has no data.
     """
 
     frame: str
@@ -70,7 +71,7 @@ class Snapshot:
     Attributes:
         now: The clock's time.
         at: The moment shown; 0 for the latest data of every chain.
-        frames: Frames, roots included, in the order in which their names appeared.
+        frames: All frames including roots, in the order in which their names were first seen.
     """
 
     now: Stamp
@@ -91,7 +92,7 @@ class Snapshot:
         return frame in self._by_name
 
     def roots(self) -> tuple[str, ...]:
-        """Return every frame without a parent: one for each tree."""
+        """Return every frame without a parent: one frame for each tree."""
         return tuple(info.frame for info in self.frames if info.parent is None)
 
     def children(self, name: str) -> tuple[str, ...]:
@@ -102,7 +103,7 @@ class Snapshot:
         """Return the entry of one frame.
 
         Raises:
-            KeyError: If there is none of that name.
+            KeyError: If there is no frame with that name.
         """
         return self._by_name[name]
 

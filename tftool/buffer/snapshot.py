@@ -18,7 +18,7 @@ _Located: TypeAlias = tuple[int, Sample | None, Sample | None]
 
 
 def snapshot(tree: FrameTree, now: Stamp, at: Stamp) -> Snapshot:
-    """Return every frame at one time; 0: each at the latest time for which its chain has data."""
+    """Return every frame at one time; for 0, at the latest time at which its chain has data."""
     sweep = _Sweep(tree, at)
     return Snapshot(now, at, tuple(sweep.info(frame, now) for frame in tree.frames))
 
@@ -29,7 +29,7 @@ def rate(link: Link) -> float:
 
 
 def rate_of(samples: int, span: Duration) -> float:
-    """Return hertz by tf2's formula, for some samples from first to last."""
+    """Return hertz by tf2's formula, for some samples that span this many nanoseconds."""
     return samples * 1e9 / max(span, _SHORTEST)
 
 
@@ -152,12 +152,13 @@ def as_yaml(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
     """Format the frames as tf2's YAML.
 
     Args:
-        frames: In the order to be written; those that hang from nothing are left out.
-        current_time: If not 0, each frame also says how old its newest sample was then.
+        frames: Frames in the order to be written; frames without a parent are left out.
+        current_time: Nanoseconds; if not 0, the text gives the age of each frame's newest sample at
+            this time.
 
     Returns:
-        tf2's text, names unquoted: "[]" when there are no frames at all, and nothing
-        when none has data.
+        tf2's text, with names unquoted: "[]" if there are no frames at all, and "" if no frame has
+        data.
     """
     frames = list(frames)
     if not frames:

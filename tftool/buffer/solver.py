@@ -24,7 +24,7 @@ class Solver:
     """Solver of lookups between two frames.
 
     Attributes:
-        paths: Paths by target and then by source; cleared when a frame gets another parent.
+        paths: Cached paths by target and then by source; cleared when a frame gets another parent.
     """
 
     __slots__ = ("_cache_time", "_kept", "_tree", "paths")
@@ -49,7 +49,8 @@ class Solver:
     def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
         """Return the effective time and the path at that time, by walking the trees.
 
-        The path is kept for the next lookup if possible; the last value tells whether it was.
+        The path is cached for the next lookup if possible; the last value returned says whether the
+        path was cached.
 
         Raises:
             TransformException: As in `Buffer.lookup_transform`.
@@ -71,10 +72,10 @@ class Solver:
         return time, path, self._remember(target_number, source_number, walk, path)
 
     def latest_common(self, target: int, source: int) -> Stamp:
-        """Return the newest moment for which every link between two frames has data.
+        """Return the newest time at which every link between two frames has data.
 
         Raises:
-            TransformException: If nothing joins them, or a chain does not end.
+            TransformException: If no chain joins the frames, or a chain contains a loop.
         """
         # tf2 looks for the latest common time before it walks, so its refusals come first.
         ended, latest = self._tree.latest_common(target, source)
@@ -87,7 +88,9 @@ class Solver:
         raise refusals.unconnected(target_name, source_name)
 
     def why_not(self, target: str, source: str, time: Stamp) -> str | TransformException | None:
-        """Return why a lookup would fail, as `can_transform` says it; None if it would succeed."""
+        """Return why a lookup would fail, in the words of `can_transform`; None if it would
+        succeed.
+        """
         if target == source:
             return None
         for frame, argument in ((target, "target_frame"), (source, "source_frame")):
@@ -151,7 +154,7 @@ class Solver:
         """Return a frame's number.
 
         Raises:
-            TransformException: If it can never have one, or has none yet.
+            TransformException: If the frame name is invalid, or unknown.
         """
         if why := tree.fault(frame):
             raise refusals.invalid(frame, argument, call, why, target=target, source=source)
@@ -163,7 +166,7 @@ class Solver:
         return number
 
     def fault(self, frame: str) -> str:
-        """Return the fault of a frame name, as `can_transform` says it; empty if valid."""
+        """Return the fault of a frame name, in the words of `can_transform`; empty if valid."""
         if why := tree.fault(frame):
             return why
         return "" if frame in self._tree.numbers else "frame does not exist"
@@ -179,7 +182,7 @@ class Solver:
         """Cache the path of a successful walk if none of its links ever changes its parent.
 
         Returns:
-            Whether it is kept.
+            Whether the path was cached.
         """
         trees = self._tree
         if not walk.timeless:

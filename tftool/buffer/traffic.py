@@ -1,9 +1,9 @@
 """Rate and delay of arriving transforms: the figures of `tf2_monitor`.
 
-There are two sets of numbers. The plain properties are exact. Those that begin with `tf2_` are
-computed like `tf2_monitor`'s, for comparison with its output: its rates are too high by one
-message, its net delay starts at zero and rises for minutes, and a static transform counts as very
-late.
+There are two sets of numbers. The plain properties are exact. The properties that begin with `tf2_`
+repeat the formulas of `tf2_monitor`, for comparison with its output: its rates are too high by one
+message, its net delay starts at zero and rises for minutes, and it counts a static transform as
+very late.
 """
 
 from collections import deque
@@ -28,7 +28,7 @@ class Series:
     """Recent messages of one frame or one publisher.
 
     Attributes:
-        total: How many messages came, forgotten ones included.
+        total: Number of messages received, including messages that are no longer kept.
     """
 
     def __init__(self) -> None:
@@ -42,9 +42,9 @@ class Series:
         """Record a message.
 
         Args:
-            now: When it arrived.
-            tf2_delay: `now` less its stamp, seconds.
-            dated: Whether its stamp says when it was measured; a static one's does not.
+            now: Arrival time, nanoseconds.
+            tf2_delay: `now` minus the message's stamp, seconds.
+            dated: Whether the stamp is the time of measurement; false for a static transform.
         """
         self.total += 1
         self._arrivals.append(now)
@@ -54,11 +54,11 @@ class Series:
             self._delays.append(tf2_delay)
 
     def add_many(self, arrivals: "Stamps", delays: "Floats") -> None:
-        """Record many messages with dated stamps, as if one by one.
+        """Record many messages whose stamps are times of measurement, as if one by one.
 
         Args:
-            arrivals: When each arrived, nanoseconds, in that order, shape (n,).
-            delays: Each of these less its stamp, seconds, shape (n,), n > 0.
+            arrivals: Arrival times, nanoseconds, ascending, shape (n,).
+            delays: Arrival time minus stamp of each message, seconds, shape (n,), n > 0.
         """
         self.total += len(arrivals)
         newest = delays[-KEEP:].tolist()
@@ -80,19 +80,17 @@ class Series:
 
     @property
     def average_delay(self) -> float | None:
-        """Mean seconds from stamp to arrival; None if no message has a stamp."""
+        """Mean delay from stamp to arrival, seconds; None if no message has a stamp."""
         return sum(self._delays) / len(self._delays) if self._delays else None
 
     @property
     def latest_delay(self) -> float | None:
-        """Seconds from stamp to arrival of the newest message; None if it has no stamp."""
+        """Delay of the newest message from stamp to arrival, seconds; None without a stamp."""
         return self._delays[-1] if self._delays else None
 
     @property
     def maximum_delay(self) -> float | None:
-        """Greatest number of seconds from stamp to arrival; negative if all stamps are in the
-        future.
-        """
+        """Greatest delay from stamp to arrival, seconds; negative if all stamps are in the future."""
         return max(self._delays) if self._delays else None
 
     @property
@@ -120,11 +118,11 @@ class FrameTraffic:
     """Traffic of one frame.
 
     Attributes:
-        frame: Its name.
-        parent: Parent in its newest message.
-        sender: The sender of that message.
-        is_static: Whether that was a static one.
-        series: Its messages.
+        frame: Name of the frame.
+        parent: Parent frame in the newest message.
+        sender: Sender of the newest message.
+        is_static: Whether the newest message was static.
+        series: Recent messages about the frame.
     """
 
     def __init__(self, frame: str) -> None:
@@ -159,7 +157,7 @@ class Traffic:
         *,
         is_static: bool = False,
     ) -> None:
-        """Record one message of one publisher."""
+        """Record the arrival of one message of one publisher."""
         delays = []
         for sample in transforms:
             delay = as_seconds(now - sample.stamp)

@@ -18,8 +18,8 @@ class Velocity:
     """A linear and an angular velocity.
 
     Attributes:
-        stamp: The middle of the time it was taken over.
-        frame: The frame the two vectors are given in.
+        stamp: Middle of the averaging interval, nanoseconds.
+        frame: The frame in which the two vectors are expressed.
         body: The frame that moves.
         linear: Metres per second.
         angular: Radians per second.
@@ -44,13 +44,13 @@ def full(
 ) -> Velocity:
     """Return tf2's `lookup_velocity_full`, including its known errors.
 
-    The result is a spatial twist if the reference does not rotate relative to the tracked frame;
-    otherwise tf2 rotates the vectors by the wrong rotation, and moves to another point element by
-    element instead of by a cross product. `twist` is right.
+    The result is a spatial twist if the reference does not rotate relative to the tracked frame.
+    Otherwise tf2 applies the wrong rotation to the vectors, and moves the reference point with an
+    element-wise product instead of a cross product. `twist` has neither error.
 
     Raises:
-        TransformException: If a lookup it is computed from is refused.
-        TypeError: If a moment or the interval is not a whole number.
+        TransformException: If one of the lookups fails.
+        TypeError: If the time or the interval is not a whole number.
     """
     # Times run through float seconds as they do in tf2, which rounds them the same way.
     at, over = as_seconds(whole(time)), as_seconds(whole(interval))
@@ -74,13 +74,14 @@ def full(
 def twist(
     buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
 ) -> Velocity:
-    """Return linear and angular velocity of `tracking`'s origin, expressed in `observation`.
+    """Return the linear velocity of `tracking`'s origin and its angular velocity, in `observation`.
 
-    The mean over `interval` around `time`, or over the part of it that the buffer holds.
+    The result is the mean over `interval` around `time`, or over the part of the interval for which
+    the buffer has data.
 
     Raises:
-        TransformException: If a lookup of its two ends is refused.
-        TypeError: If a moment or the interval is not a whole number.
+        TransformException: If a lookup at an end of the interval fails.
+        TypeError: If the time or the interval is not a whole number.
         ValueError: If the interval is not positive.
     """
     time, interval = whole(time), whole(interval)

@@ -86,7 +86,7 @@ class Finding:
         frames: Frames concerned.
         topics: Topics concerned.
         publishers: Nodes concerned, where they are known.
-        since: Log time of the first evidence, else its stamp; None where it is no moment.
+        since: Log time of the first evidence, else its stamp; None where it is not a moment.
         until: The same of the last.
         count: How often it was seen.
         facts: Its numbers; stamps and durations in whole nanoseconds.

@@ -86,7 +86,7 @@ class Stream:
     def wild(self) -> Mask:
         """Return a mask of stamps far from the arrivals around them, shape (n,).
 
-        None does if they are many: alternating clocks are no accident.
+        None does if they are many: alternating clocks are not accident.
         """
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:

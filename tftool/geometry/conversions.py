@@ -85,7 +85,7 @@ def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, floa
 def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
     """Return the 3×3 rotation matrix, row by row.
 
-    Any finite quaternion but zero gives a proper rotation; zero gives NaN.
+    Any finite quaternion except zero gives a proper rotation; zero gives NaN.
     """
     return quaternions.matrix(_quad(quaternion))
 
@@ -94,7 +94,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
     """Return the rotation of a 3×3 matrix (of a 4×4 one, its upper left), with tf2's sign.
 
     Raises:
-        ValueError: If it is no proper rotation (within 1e-6).
+        ValueError: If it is not a proper rotation (within 1e-6).
     """
     try:
         (a, b, c), (d, e, f), (g, h, i) = (

@@ -130,7 +130,7 @@ def angle_between(first: Quad, second: Quad) -> float:
 def matrix(quaternion: Quad) -> Matrix3:
     """Return the rotation matrix.
 
-    Any finite quaternion but zero gives a proper rotation; zero gives NaN.
+    Any finite quaternion except zero gives a proper rotation; zero gives NaN.
     """
     x, y, z, w = unit(quaternion)
     xx, yy, zz = x * x, y * y, z * z

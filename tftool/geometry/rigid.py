@@ -149,7 +149,7 @@ class Transform(_Parts):
         """Make a transform from three and four numbers.
 
         Raises:
-            ValueError: If there are not three and four of them, one is no number, or the
+            ValueError: If there are not three and four of them, one is not a number, or the
                 four are all zero.
         """
         turn = _floats(rotation, 4, "rotation")

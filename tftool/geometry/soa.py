@@ -88,7 +88,7 @@ def tan_ratio(squares: Floats, out: Floats, terms: int) -> None:
 
     Args:
         squares: x².
-        out: Is written to, of the same shape.
+        out: Output, of the same shape.
         terms: How many terms of the series it takes; 0 for the tangent itself.
     """
     if terms == 0:

@@ -74,7 +74,7 @@ class Message:
         """Set every field to its default, then the named ones to their values.
 
         Raises:
-            AssertionError: If a name is no field, or a value does not fit its field.
+            AssertionError: If a name is not a field, or a value does not fit its field.
         """
         for field in self.fields__:
             if field.name in kwargs:
@@ -261,7 +261,7 @@ class Interfaces(Schema):
         """Return the class of an interface.
 
         Raises:
-            InputError: If there is none of that name.
+            InputError: If there is nothing with that name.
         """
         full = f"{package}/{kind}/{name}"
         if kind == "msg":
@@ -275,7 +275,7 @@ class Interfaces(Schema):
         """Return the class of a message by "package/msg/Name" or "package/Name".
 
         Raises:
-            InputError: If there is none of that name, or it contains itself.
+            InputError: If there is nothing with that name, or it contains itself.
         """
         return self.part(full_name(name))
 
@@ -316,7 +316,7 @@ class Interfaces(Schema):
         """Return the class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.
 
         Raises:
-            InputError: If there is none of that name, or it contains itself.
+            InputError: If there is nothing with that name, or it contains itself.
         """
         return self._part(full, ())
 

@@ -46,7 +46,7 @@ def type_hash(schema: Schema, full: str) -> str:
             "turtlesim/action/RotateAbsolute_SendGoal".
 
     Raises:
-        InputError: If there is none of that name, or a part of it is missing.
+        InputError: If there is nothing with that name, or a part of it is missing.
     """
     described: dict[str, dict[str, Any]] = {}
     _describe(schema, schema.structure(full), described)

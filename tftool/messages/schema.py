@@ -208,7 +208,7 @@ class Schema:
         """Return a structure by its full name.
 
         Raises:
-            InputError: If there is none of that name, or its definition is wrong.
+            InputError: If there is nothing with that name, or its definition is wrong.
         """
         found = self._read.get(full)
         if found is None:

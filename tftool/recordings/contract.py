@@ -31,7 +31,7 @@ class RecordedTopic:
     Attributes:
         name: Its name as recorded; some ROS 2 recordings have `tf` without a slash.
         type: Name of the message type as ROS 2 writes it short: "tf2_msgs/TFMessage". As
-            recorded where it is no ROS type: "foxglove.FrameTransform".
+            recorded where it is not a ROS type: "foxglove.FrameTransform".
         encoding: "cdr", "ros1", "json", "protobuf", or whatever else is recorded.
         count: How many messages; up to the damage, where there is any.
         definition: The text of the message definition; empty where the recording has none.

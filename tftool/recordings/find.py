@@ -98,7 +98,7 @@ class Found:
         kind: Its kind. ROSBAG2 is a folder with rosbag2's metadata.
         paths: The file or the folder; of SEVERAL, each of its recordings in the order of
             their names, files and folders.
-        passed_over: Files beside them, in the folder or of the glob, that are no recordings.
+        passed_over: Files beside them, in the folder or of the glob, that are not recordings.
     """
 
     name: str
@@ -197,7 +197,7 @@ def _kind_with_options(word: str, path: Path) -> Kind:
     """Return the kind of one file; refuse options for pose files for other kinds.
 
     Raises:
-        UsageError: If it has such options and is no pose file.
+        UsageError: If it has such options and is not a pose file.
     """
     options = options_of(word)
     if options.pose_format is not None:

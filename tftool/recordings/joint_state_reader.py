@@ -142,7 +142,7 @@ class _Layout:
 
         Raises:
             struct.error: If it is cut off.
-            ValueError: If it is no JointState.
+            ValueError: If it is not a JointState.
         """
         order = self.order(payload)
         number = struct.Struct(f"{order}I")

@@ -185,7 +185,7 @@ class RobotDescription:
 
     Attributes:
         name: The robot's name.
-        root: The link that is no joint's child.
+        root: The link that is not a joint's child.
         links: Contents by name, in the order of the file.
         joints: Contents by name, in the order of the file.
         notes: Oddities that are still readable, as sentences.

@@ -67,7 +67,7 @@ class Robot:
 
     @property
     def root(self) -> str:
-        """The root link, which is no joint's child."""
+        """The root link, which is not a joint's child."""
         return self.description.root
 
     @property

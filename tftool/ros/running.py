@@ -32,7 +32,7 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
     Raises:
         UsageError: If no executable is named, or there is none of that name, or the rest
             `--ros-args` is malformed.
-        InputError: If the file cannot be read or is no Python.
+        InputError: If the file cannot be read or is not valid Python.
     """
     words = rest
     if is_file(target):
@@ -82,7 +82,7 @@ def start_program(
 
     Raises:
         UsageError: If there is no such executable, or its arguments are malformed.
-        InputError: If the file cannot be read or is no Python.
+        InputError: If the file cannot be read or is not valid Python.
     """
     package: str | None = None
     if is_file(target):

@@ -107,7 +107,7 @@ class RosRuntime:
                 ends the world and fails the test.
 
         Raises:
-            InputError: If the file cannot be read or is no Python.
+            InputError: If the file cannot be read or is not valid Python.
             UsageError: If the part after `--ros-args` is malformed.
         """
         if callable(what):

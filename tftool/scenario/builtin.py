@@ -55,7 +55,7 @@ def path_of(name: str) -> Path | None:
 
 
 def is_like_a_name(word: str) -> bool:
-    """Whether a word that is no file was probably meant as a scenario's name."""
+    """Whether a word that is not a file was probably meant as a scenario's name."""
     path = Path(word)
     return path.name == word and not path.suffix
 

@@ -96,7 +96,7 @@ class Document:
         """Parse the tree.
 
         Raises:
-            ScenarioError: When the text is no YAML, is empty, holds more than one
+            ScenarioError: When the text is not YAML, is empty, holds more than one
                 document, or is too large, too deep or too much.
         """
         try:
@@ -202,7 +202,7 @@ def text_of(path: Path | str) -> str:
     """Return a file's text, limited to the size of a scenario.
 
     Raises:
-        InputError: If it cannot be read, or is no UTF-8.
+        InputError: If it cannot be read, or is not UTF-8.
     """
     try:
         with open_named(Path(path)) as file:

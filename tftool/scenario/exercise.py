@@ -64,7 +64,7 @@ class Exercise:
 
         Raises:
             UsageError: If there is no such node, package or executable.
-            InputError: If a file cannot be read or is no Python.
+            InputError: If a file cannot be read or is not valid Python.
         """
         failures: list[str] = []
         clock = SimClock()

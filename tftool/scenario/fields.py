@@ -187,7 +187,7 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
     Args:
         read: Reader of its value.
         default: Its value when it is left out; without one it must be given.
-        key: Its key, where that is no name in Python.
+        key: Its key, where that is not a name in Python.
         beside: Whether the key is a sibling of the one that names the kind, not inside it.
     """
     metadata: dict[str, Any] = {"read": read, "beside": beside}

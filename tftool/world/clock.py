@@ -426,7 +426,7 @@ class FollowedClock(WallClock):
         """Set the time; call in the loop that runs on this clock.
 
         Args:
-            moment: Nanoseconds; 0 and less, which are no moment, count as 1.
+            moment: Nanoseconds; 0 and less, which are not moment, count as 1.
         """
         before, is_first = self.now(), self._told is None
         self._told = max(moment, 1)

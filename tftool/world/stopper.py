@@ -324,7 +324,7 @@ def _say(sentence: str) -> None:
 
 
 def _terminal_settings() -> Any:
-    """Return the settings of the terminal on stdin; None if it is no terminal."""
+    """Return the settings of the terminal on stdin; None if it is not a terminal."""
     try:
         import termios
 

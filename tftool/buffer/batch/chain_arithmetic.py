@@ -1,7 +1,7 @@
 """Arithmetic of a batch lookup: one chain of links at many times.
 
-Work is done in blocks of a few thousand moments, in arrays that are allocated once and stay in the
-processor's cache.
+The arithmetic works on blocks of a few thousand times. Its arrays are allocated once and stay in
+the processor's cache.
 """
 
 from collections.abc import Iterator, Sequence
@@ -43,23 +43,25 @@ _WXYZ = [6, 3, 4, 5]
 
 
 class Intervals:
-    """Intervals between neighbouring samples of one link, with what interpolation needs.
+    """Intervals between neighbouring samples of one link, with precomputed numbers for
+    interpolation.
 
-    Computed once for all moments of the interval: at the fraction f the position is P + f·D, and
-    the rotation is as in `soa.Arcs`. Quaternions are in wxyz order. Four numbers share a row
-    because loading 32 bytes costs as much as loading 8.
+    At the fraction f of an interval the position is P + f·D, and the rotation is computed as in
+    `soa.Arcs`. Quaternions are in wxyz order. Four numbers share a row because loading 32 bytes
+    costs as much as loading 8.
 
     Attributes:
-        stamps: Start of each interval, int64, shape (k,).
-        lengths: How many nanoseconds it is long, shape (k,); endless where nothing moves.
+        stamps: Start of each interval, nanoseconds, int64, shape (k,).
+        lengths: Length of each interval, nanoseconds, shape (k,); infinite where the link does not
+            move.
         half_angle_squared: θ² of the arcs, shape (k,).
-        places: P, shape (k, 4); the last number is of no use, as in `paths`.
-        paths: D, shape (k, 4).
+        places: P in metres, shape (k, 4); the last column is unused, as in `paths`.
+        paths: D in metres, shape (k, 4).
         starts: A of the arcs, shape (k, 4).
         directions: C of the arcs, shape (k, 4).
-        endless: Whether one of them begins or ends at infinity.
-        row_by_row: Whether they were worked out for given samples, one for each moment.
-        terms: How many terms of the series the largest turn needs; 0 if too many.
+        endless: Whether an interval begins or ends at infinity.
+        row_by_row: Whether there is one interval for each requested time.
+        terms: Number of series terms that the largest turn needs; 0 if too many.
     """
 
     __slots__ = (
@@ -80,7 +82,8 @@ class Intervals:
 
         Args:
             column: The samples.
-            first: Their first samples. An empty sample follows the last one.
+            first: Row of the first sample of each interval. An infinite interval follows the last
+                sample.
         """
         last = len(column.stamps) - 1
         self.row_by_row = not isinstance(first, slice)
@@ -117,8 +120,8 @@ class Intervals:
 
         Args:
             table: Shape (k,) or (k, 4).
-            index: The interval of each moment, shape (n,).
-            out: Is written to, shape (n,) or (n, 4).
+            index: The interval of each time, shape (n,).
+            out: Output, shape (n,) or (n, 4).
         """
         if self.row_by_row:
             np.copyto(out, table)
@@ -149,7 +152,7 @@ class MovingEdge:
 
 
 class StaticEdge:
-    """A static link prepared for a batch: one column, used for every time."""
+    """A static link prepared for a batch: one column, valid at every time."""
 
     __slots__ = ("place", "turn")
 
@@ -208,8 +211,8 @@ def blocks(count: int, most: int) -> Iterator[slice]:
 def room(count: int) -> Floats:
     """Allocate working memory for blocks of at most `count` times.
 
-    One piece, because the system maps a large piece by large pages: it is allocated and accessed
-    faster than many small ones.
+    The memory is one piece, because the system puts a large piece on large pages, which are faster
+    than many small pieces.
     """
     numbers = np.empty(ROWS * (count + _LINE) + _LINE)
     address: int = numbers.__array_interface__["data"][0]
@@ -249,12 +252,12 @@ class BlockArrays:
         """Write the pose of source in target for each time.
 
         Args:
-            up: Links from the source to where both sides meet.
-            down: Links from the target to there.
-            times: Moments for which every link has data, shape (n,), n as allocated.
-            in_order: Whether no moment is earlier than the one before.
-            translations: Is written to, shape (n, 3).
-            rotations: Is written to, shape (n, 4).
+            up: Links from the source up to the common ancestor.
+            down: Links from the target up to the common ancestor.
+            times: Nanoseconds at which every link has data, shape (n,), n as allocated.
+            in_order: Whether the times never decrease.
+            translations: Output in metres, shape (n, 3).
+            rotations: Output, unit quaternions in xyzw order, shape (n, 4).
         """
         # NaN and infinity are answers here: they spread to the rows they belong to, and no further.
         with np.errstate(all="ignore"):
@@ -294,8 +297,9 @@ class BlockArrays:
         """Find the interval of each time in some links.
 
         Returns:
-            For each link its intervals, and rows: the interval of each moment, the share of
-            the way, that of the turn, and the factor for `rotate`.
+            For each link its intervals and four arrays with one entry per time: the index of the
+                interval, the fraction of the translation, the fraction of the rotation, and the
+                factor for `rotate`.
         """
         count = len(edges)
         if not count:
@@ -328,7 +332,7 @@ class BlockArrays:
         return list(zip(found, self._index, shares, ratios, squares, strict=False))
 
     def _find(self, edge: MovingEdge, times: Stamps, in_order: bool, index: Indices) -> Intervals:
-        """Return the intervals used, and for each time the index of its interval."""
+        """Return the intervals in use, and write the interval of each time into `index`."""
         column = edge.column
         if in_order:
             find_sorted(column.stamps, times, index)
@@ -397,8 +401,8 @@ class BlockArrays:
         multiply(turn.w, scale, rotations.T[3])
 
     def _square(self, turn: QuaternionRows) -> Floats:
-        """Return the squared lengths of quaternions; exactly 1 if they differ from it by rounding
-        only.
+        """Return the squared lengths of quaternions; exactly 1 where only rounding makes a
+        difference.
         """
         square: Floats = self._shares[0]
         off, spare, near = self._ratios[0], self._spare, self._flags
@@ -414,7 +418,9 @@ class BlockArrays:
         return square
 
     def _lead(self, turn: QuaternionRows) -> Floats:
-        """Return the components whose sign tf2 makes positive; see `quaternions.canonical`."""
+        """Return the component of each quaternion that tf2 makes positive; see
+        `quaternions.canonical`.
+        """
         small, large, size = self._ratios[0], self._flags, self._spare
         lead: Floats = self._shares[0]
         multiply(turn.w, turn.w, small)

@@ -23,16 +23,16 @@ _MOST_STEPS = 3
 class Column:
     """Samples of a moving link at the time of the question, oldest first.
 
-    While it exists, its records do not change; see `History.columns`.
+    While a column exists, its records do not change; see `History.columns`.
 
     Attributes:
         records: Samples in memory order, shape (k, 8); see `history`.
-        stamps: Nanoseconds, shape (k,); a copy, made when first asked for, like `samples`.
+        stamps: Nanoseconds, shape (k,). A copy, made at the first use, like `samples`.
         samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7).
-        origin: The newest sample's parent and authority in one word; see `history`.
-        origins: A parent's and an authority's number in one word for each sample; see `history`.
-            None where all have the same ones.
-        parents: A parent's number for each sample; None where all have the same one.
+        origin: Parent and authority of the newest sample in one word; see `history`.
+        origins: Parent and authority of each sample in one word; see `history`. None if all samples
+            have the same parent and authority.
+        parents: Number of each sample's parent; None if all samples have the same parent.
     """
 
     __slots__ = ("_samples", "_stamps", "origin", "origins", "parents", "records")
@@ -56,26 +56,26 @@ class Column:
 
     @property
     def stamps(self) -> Stamps:
-        """See above."""
+        """Nanoseconds, shape (k,)."""
         if self._stamps is None:
             self._stamps = np.ascontiguousarray(self.records[:, 0])
         return self._stamps
 
     @property
     def samples(self) -> Floats:
-        """See above."""
+        """Positions and unit quaternions, shape (k, 7)."""
         if self._samples is None:
             self._samples = np.ascontiguousarray(self.records.view(np.float64)[:, 1:])
         return self._samples
 
     @property
     def oldest(self) -> int:
-        """Return the first stamp; if there is none, a value later than every stamp."""
+        """Return the first stamp; without samples, a value later than every stamp."""
         return int(self.records[0, 0]) if len(self.records) else 2**63 - 1
 
     @property
     def newest(self) -> int:
-        """Return the last stamp; if there is none, a value earlier than every stamp."""
+        """Return the last stamp; without samples, a value earlier than every stamp."""
         return int(self.records[-1, 0]) if len(self.records) else -(2**63)
 
     def changes(self) -> Stamps:
@@ -146,8 +146,8 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
         name: Their name in an error message.
 
     Raises:
-        TypeError: If they are no whole numbers.
-        ValueError: If the shape is another, or one does not fit 64 bits.
+        TypeError: If the times are not whole numbers.
+        ValueError: If the shape is not (n,), or a time does not fit into 64 bits.
     """
     given = np.asarray(times)
     if given.ndim == 0:
@@ -181,9 +181,9 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
 class Buckets:
     """Index that divides a history's time into short, equal spans to find samples quickly.
 
-    For moments in random order: two loads and a comparison replace a binary search. Buckets last a
-    power of two of nanoseconds, and at most half the distance of the samples, so that one
-    comparison nearly always decides.
+    For times in random order, two loads and a comparison replace a binary search. A bucket spans a
+    power of two of nanoseconds and at most half the distance between samples, so that one
+    comparison is nearly always enough.
     """
 
     __slots__ = ("_before", "_next", "_oldest", "_shift", "_stamps", "_steps")
@@ -223,7 +223,7 @@ class Buckets:
 def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
     """Write into `index` the last sample at or before each time; the times are sorted.
 
-    If there are fewer samples than moments, the samples are searched among the moments.
+    If there are fewer samples than times, the function searches the samples among the times.
     """
     first, last = (stamps.searchsorted(times[[0, -1]], "right") - 1).tolist()
     if last - first > len(times):

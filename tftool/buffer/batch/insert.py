@@ -40,10 +40,10 @@ class Insertion:
     """Outcome of a bulk insertion; true if every sample was accepted.
 
     Attributes:
-        accepted: For each row whether it was taken, shape (n,). A row that was known already
-            counts as taken, as it does one by one.
-        reasons: The rows that were not, by tf2's code for the reason (TF_NAN_INPUT,
-            TF_OLD_DATA, …), each an array of row numbers.
+        accepted: Whether each row was accepted, shape (n,). A row that is already stored counts as
+            accepted, as in `set_transform`.
+        reasons: Row numbers of the rejected rows, by tf2's code for the reason (TF_NAN_INPUT,
+            TF_OLD_DATA, …).
     """
 
     accepted: Flags
@@ -82,8 +82,8 @@ class CheckedRows:
 
         Args:
             stamps: Whole nanoseconds, shape (n,).
-            translations: Shape (n, 3).
-            rotations: Shape (n, 4).
+            translations: Metres, shape (n, 3).
+            rotations: Quaternions in xyzw order, shape (n, 4).
             rest: Child, parent and authority.
         """
         self.stamps = stamps_of(stamps, "stamps")
@@ -105,7 +105,7 @@ class CheckedRows:
         self.validated: Flags = ~np.any(list(self.reasons.values()), axis=0)
 
     def taken(self, accepted: Flags) -> Iterator[tuple[int, Sample]]:
-        """Return stamps and poses of those rows, in the order of insertion."""
+        """Yield row number, stamp and pose of the accepted rows, in the order of insertion."""
         for row in np.flatnonzero(accepted).tolist():
             x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
             yield int(self.stamps[row]), (x, y, z, qx, qy, qz, qw)
@@ -131,15 +131,15 @@ def insert(
 
     Args:
         tree: The tree to insert into.
-        log: Takes the sentences about refused samples.
-        max_frames: How many names there may be.
+        log: Function called with a sentence about each rejected sample.
+        max_frames: Maximum number of frame names in the tree.
         link: Parent, child and authority.
-        stamps: Shape (n,).
-        translations: Shape (n, 3).
-        rotations: Shape (n, 4).
+        stamps: Nanoseconds, shape (n,).
+        translations: Metres, shape (n, 3).
+        rotations: Quaternions in xyzw order, shape (n, 4).
 
     Returns:
-        The outcome of each row, and the rows as read.
+        The outcome of each row, and the checked rows.
     """
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     rows = CheckedRows(stamps, translations, rotations, (child, parent, authority))
@@ -197,17 +197,18 @@ def adopt(
 
     Args:
         tree: The tree to insert into.
-        max_frames: How many names there may be.
+        max_frames: Maximum number of frame names in the tree.
         link: Parent, child and authority.
-        records: Samples in the layout of a history, shape (n, 8): stamps and seven doubles.
-        kept: How many from the first on are known to be as a history keeps them.
+        records: Samples in the memory layout of `History`, shape (n, 8): stamps and seven doubles.
+        kept: Number of records at the beginning that need no check: their stamps increase and their
+            quaternions are in stored form.
 
     Returns:
-        Whether they were taken, all of them. If not, nothing was done: something about them
-        is for `insert` to look at row by row.
+        Whether all records were accepted. If not, nothing was changed, and `insert` must check them
+        row by row.
 
     Raises:
-        TypeError: If they are no rows of eight whole numbers.
+        TypeError: If the records are not rows of eight whole numbers.
     """
     if records.dtype != np.int64 or records.ndim != 2 or records.shape[1] != WORDS:
         raise TypeError(
@@ -254,7 +255,7 @@ def adopt(
 
 
 def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
-    """Return the records' memory as flat words, as far as it is contiguous."""
+    """Return the records' memory as a flat array of words, up to where it is contiguous."""
     if not records.flags.c_contiguous:
         return _words(records)
     return records.data.cast("B").cast("q")
@@ -273,7 +274,7 @@ def _is_canonical(turns: Floats) -> bool:
 
 
 def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Flags:
-    """Insert validated samples in their order; return which were too old."""
+    """Insert validated samples in their order; return a mask of the samples that were too old."""
     n = len(stamps)
     limit = min(history.limit, 2**63 - 1)
     # The newest stamp there was before each row: what it is too old for, and what it prunes by.
@@ -316,7 +317,7 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Return the rows that differ from the previous samples with the same stamp."""
+    """Return the rows that differ from all earlier samples with the same stamp."""
     # tf2 ignores a sample that equals one at the same stamp; only runs of equal stamps matter.
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]

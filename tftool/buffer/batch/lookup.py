@@ -160,7 +160,7 @@ class _Batch:
         self.valid = np.empty(n, dtype=np.bool_)
 
     def run(self, complete: bool, workers: int) -> None:
-        """Solve every row; if all must be valid, raise for the first that is refused."""
+        """Solve every row; if every row must have a result, raise for the first row without one."""
         n = len(self.times)
         # More threads than two share the memory that two take.
         crowd = max(workers / 2, 1)
@@ -219,7 +219,7 @@ class _Batch:
                 self.put(row, self.ask(int(self.times[row])))
 
     def begin(self, times: Stamps, start: int) -> Indices:
-        """Solve the rows this path covers; return the indices still open."""
+        """Solve the rows that the steady path covers; return the indices still open."""
         rows = slice(start, start + len(times))
         usable = (times >= self.first) & (times <= self.last) & (times != 0)
         self.valid[rows] = False
@@ -273,7 +273,7 @@ class _Batch:
         """Solve rows natively with one path; rows without data become NaN.
 
         Returns:
-            Their number; None, with nothing done, if the kernel cannot solve this path.
+            Number of solved rows; None, with nothing changed, if the kernel cannot solve this path.
         """
         up, down = self.held(path.up), self.held(path.down)
         if isinstance(rows, slice):
@@ -287,7 +287,9 @@ class _Batch:
         return missing
 
     def held(self, links: Iterable[Link]) -> tuple[Link, ...]:
-        """Return the links' samples as of the question; later insertions do not change them."""
+        """Return the links' samples as of the start of the call; later insertions do not change
+        them.
+        """
         found: list[Link] = []
         for link in links:
             held = self.columns.of(link)
@@ -304,7 +306,7 @@ class _Batch:
         return tuple(found)
 
     def room(self) -> Floats:
-        """Return work arrays that no other thread uses now."""
+        """Return work arrays that no other thread is using."""
         try:
             # `pop` of a list is atomic: no two threads get the same arrays.
             return self.rooms.pop()
@@ -312,7 +314,7 @@ class _Batch:
             return kernel.room(min(len(self.times), self.block))
 
     def edges(self, links: Iterable[Link]) -> list[kernel.Edge]:
-        """Return the links prepared for the arithmetic, each once."""
+        """Return the links prepared for the arithmetic; each link is prepared once."""
         ready: list[kernel.Edge] = []
         for link in links:
             edge = self.ready.get(id(link))
@@ -350,7 +352,7 @@ class _Batch:
 
 
 def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
-    """Return the path valid for all times it has data for; None if the path changes."""
+    """Return the path if it is the same at all times with data; None if the path changes."""
     walk = tree.walk(target, source, 0)
     if walk.ended != ARRIVED or not tree.is_steady(walk):
         return None
@@ -360,10 +362,10 @@ def _steady_path(tree: FrameTree, target: int, source: int) -> Path | None:
 def _paths_by_moment(
     tree: FrameTree, columns: Columns, target: int, source: int, times: Stamps
 ) -> Iterator[tuple[Path, Indices]]:
-    """Yield each path that some times need, with their rows.
+    """Yield each path that some times need, with the rows of these times.
 
-    All moments between two changes (a link begins, ends, or changes its parent) share one path.
-    Indices without a path are refused.
+    All times between two changes (a link begins, ends, or changes its parent) share one path. Rows
+    without a path are refused.
     """
     # Between two marks no link changes, so one walk answers for all moments there.
     marks = _marks(tree, columns, (target, source))
@@ -417,7 +419,9 @@ def _marks(tree: FrameTree, columns: Columns, frames: tuple[int, ...]) -> Stamps
 
 
 def _identities(tree: FrameTree, frame: str, times: Stamps) -> TransformArray:
-    """Return identities, for a frame in itself; as in a single lookup, any name is accepted."""
+    """Return identities, for a frame relative to itself; any name is accepted, as in a single
+    lookup.
+    """
     number = tree.numbers.get(frame)
     newest = 0 if number is None else tree.newest_stamp(number)
     n = len(times)

@@ -37,8 +37,8 @@ class SampleColumns:
 
     Attributes:
         frame: The child.
-        is_static: Whether the link holds at all times; then there is one sample, of stamp 0.
-        stamps: Nanoseconds, int64, shape (n,), in order.
+        is_static: Whether the link is static; a static link has one sample, with stamp 0.
+        stamps: Nanoseconds, int64, shape (n,), ascending.
         parents: The parent of each sample, `str` objects, shape (n,).
         poses: x, y, z in metres and a unit quaternion x, y, z, w, shape (n, 7).
         authorities: Sender of each sample, `str` objects, shape (n,).
@@ -72,9 +72,9 @@ class SampleColumns:
 class TransformArray:
     """Poses of one frame in another at many times.
 
-    Row i is the pose of `child_frame_id` in `frame_id` at `stamps[i]`: it maps points from the
-    child to the parent frame. An index gives a `TransformStamped`; a slice, a mask or an array of
-    indices gives a `TransformArray`.
+    Row i is the pose of `child_frame_id` in `frame_id` at `stamps[i]`: the transform maps points
+    from the child frame to the parent frame. An index gives a `TransformStamped`; a slice, a mask
+    or an array of indices gives a `TransformArray`.
 
     Attributes:
         frame_id: The target of the lookup.
@@ -82,7 +82,7 @@ class TransformArray:
         stamps: Nanoseconds, int64, shape (n,).
         translations: Metres, shape (n, 3).
         rotations: Unit quaternions in xyzw order, shape (n, 4).
-        valid: Whether a row holds a pose, shape (n,); the others are NaN.
+        valid: Whether a row holds a pose, bool, shape (n,); rows without a pose are NaN.
     """
 
     frame_id: str
@@ -133,14 +133,14 @@ class TransformArray:
         """Transform points from `child_frame_id` to `frame_id`.
 
         Args:
-            points: Shape (3,): one point, moved by each row. Shape (n, 3): point i moved by
-                row i. Shape (n, k, 3): k points for each row.
+            points: Metres. Shape (3,): one point, moved by each row. Shape (n, 3): point i, moved
+                by row i. Shape (n, k, 3): k points for each row.
 
         Returns:
-            Shape (n, 3) or (n, k, 3), new.
+            A new array of shape (n, 3) or (n, k, 3).
 
         Raises:
-            ValueError: If the shape is another.
+            ValueError: If the points have another shape.
         """
         given = np.asarray(points, dtype=np.float64)
         n = len(self)
@@ -170,12 +170,12 @@ class TransformArray:
     def __matmul__(self, other: "TransformArray | Transform") -> "TransformArray":
         """Chain row by row: `a_from_b @ b_from_c` is `a_from_c`.
 
-        With a `Transform`, each row is chained with it; names and stamps stay.
+        If `other` is a `Transform`, each row is chained with that transform; names and stamps stay.
 
-        A row is valid if both of its factors are valid; a rotation of zeros is not.
+        A row is valid if both of its factors are valid; a quaternion of zeros is not valid.
 
         Raises:
-            ValueError: If the number of rows differs, or the inner frames do.
+            ValueError: If the numbers of rows differ, or the inner frame names differ.
         """
         if isinstance(other, Transform):
             translations = np.array(other.translation)
@@ -207,8 +207,9 @@ class TransformArray:
         """Return the velocity of the child's origin and its angular velocity, expressed in
         `frame_id`.
 
-        The mean velocity from the previous to the next row; at the ends, to the only neighbour. NaN
-        if one of the two is not valid, or both have the same stamp.
+        Each row is the mean velocity from the previous to the next row; the first and the last row
+        use their only neighbour. A row is NaN if one of these two rows is not valid, or both have
+        the same stamp.
         """
         n = len(self)
         here = np.arange(n)
@@ -220,7 +221,7 @@ class TransformArray:
         return Velocities(moved / lasted, batch.rotation_vectors(turned) / lasted)
 
     def to_scipy(self) -> "tuple[RigidTransform, Rotation]":
-        """Return scipy's `RigidTransform`, and its `Rotation` separately.
+        """Return scipy's `RigidTransform`, and the rotations separately as scipy's `Rotation`.
 
         Raises:
             UsageError: If scipy is not installed, or older than 1.16.

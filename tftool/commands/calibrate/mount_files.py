@@ -91,7 +91,7 @@ def _publish(output: Path, buffer: Buffer) -> None:
 def joint_to_change(output: Path, published: PublishedMount, name: str | None) -> RobotJoint | None:
     """Return the named joint, else the first fixed one on the way from moving_a.
 
-    None if there is none, and the output is no description.
+    None if there is none, and the output is not a description.
 
     Raises:
         UsageError: If it has no such joint, or that is not on the way.
@@ -134,7 +134,7 @@ def with_origin(text: bytes, joint: str, origin: str) -> bytes:
     """Return a description with a new origin of one joint and no other byte changed.
 
     Raises:
-        InputError: If the text is no XML, or has no such joint.
+        InputError: If the text is not XML, or has no such joint.
     """
     parser = expat.ParserCreate()
     depth = 0

@@ -32,7 +32,7 @@ def judge_with(
         verbose: Whether every line of their logs is shown.
 
     Raises:
-        UsageError: If a text is no command line.
+        UsageError: If a text is not a command line.
     """
     entrants = [_entrant(text) for text in programs]
     launch = () if launched is None else _words("--launch", launched)

@@ -145,7 +145,7 @@ def pairs_of_sides(words: list[str]) -> tuple[Pair | None, Pair | None]:
     """Return the pairs of A and of B named by --pair; without it, the only chain of each.
 
     Raises:
-        UsageError: If there are more than two, or a word is no pair.
+        UsageError: If there are more than two, or a word is not a pair.
     """
     pairs, _ = pairs_and_place([], words)
     if len(pairs) > 2:

@@ -84,7 +84,7 @@ class CheckSelection:
         """Return the thresholds.
 
         Raises:
-            UsageError: If one is no threshold.
+            UsageError: If one is not a threshold.
         """
         given: dict[str, dict[str, float]] = {}
         for text in self.limits:

@@ -23,7 +23,7 @@ def connected(address: str) -> Iterator[Executor]:
         address: "tcp://HOST:8786".
 
     Raises:
-        UsageError: If Dask is not installed, or this is no address.
+        UsageError: If Dask is not installed, or this is not an address.
         InputError: If no scheduler answers there.
     """
     try:

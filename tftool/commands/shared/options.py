@@ -113,7 +113,7 @@ def _nanoseconds(text: str) -> "tuple[int, Decimal]":
     """Return a number of seconds in nanoseconds, rounded and unrounded.
 
     Raises:
-        ValueError: If it is no number.
+        ValueError: If it is not a number.
     """
     # Imported here: the help of a command does without it.
     from decimal import Decimal, InvalidOperation

@@ -14,8 +14,8 @@ class Gains:
         kp: Output per unit of error.
         ki: Output per unit of error kept up for a second.
         kd: Output per unit of error gained in a second.
-        integral_limit: Bound on the size of the integral's share of the output; None for none.
-        output_limit: Bound on the size of the output; None for none. While the
+        integral_limit: Bound on the size of the integral's share of the output; None for no limit.
+        output_limit: Bound on the size of the output; None for no limit. While the
             output is held at the bound, the integral does not grow against it.
     """
 

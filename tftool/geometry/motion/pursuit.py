@@ -27,7 +27,7 @@ class Law:
         distance: Gains from distance in metres to speed in m/s.
         bearing: Gains from bearing in radians to turn rate in rad/s.
         dead_band: Distance in metres within which the goal counts as reached.
-        speed_limit: Largest speed in m/s; None for none.
+        speed_limit: Largest speed in m/s; None for no limit.
     """
 
     distance: pid.Gains = TUTORIAL_DISTANCE

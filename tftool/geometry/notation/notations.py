@@ -32,7 +32,7 @@ class Notation:
     Attributes:
         title: Its title beside its numbers.
         count: How many numbers it has.
-        plain: How many of them, from the first on, are no angles.
+        plain: How many of them, from the first on, are not angles.
         read: Makes a quaternion of its numbers, in xyzw order.
         write: Makes its numbers of a unit quaternion.
         as_object: Its entries in JSON; empty where another notation says the same.

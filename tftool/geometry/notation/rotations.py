@@ -68,7 +68,7 @@ class Written:
     """One transform read from a text.
 
     Attributes:
-        transform: The pose; its quaternion of length 1.
+        transform: The pose; its quaternion of unit length.
         has_translation: Whether the text said where, too.
         form: Name of the notation that was recognised.
         notes: Oddities, as sentences.

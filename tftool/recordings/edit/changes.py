@@ -487,7 +487,7 @@ class Renamer:
         """Return the bytes with new names; None if none changes.
 
         Raises:
-            MalformedMessage: If it is no message of the type.
+            MalformedMessage: If it is not a message of the type.
         """
         if self._marks and not any(mark in payload for mark in self._marks):
             return None

@@ -132,7 +132,7 @@ class EditedDatabase:
         """Yield the messages of some topics in parts, each with its row numbers.
 
         Raises:
-            Unsound: If a timestamp is no whole number.
+            Unsound: If a timestamp is not a whole number.
         """
         which = {self._tape.topic_ids[number]: number for number in numbers}
         # Numbers of its own rows, no text of a stranger's.

@@ -145,7 +145,7 @@ def open_tape(path: Path, kind: Kind | None = None, *, unpacks: bool = False) ->
     """Open one file.
 
     Raises:
-        InputError: If it is no recording, or cannot be read.
+        InputError: If it is not a recording, or cannot be read.
         OSError: If it cannot be opened.
     """
     tape = container_in(path, kind or kind_of_file(path)).open(path, by_index=False)

@@ -154,7 +154,7 @@ def _quaternions(matrices: Floats, file: PoseFile) -> Floats:
     """Return the quaternions x y z w of rotation matrices, shape (n, 3, 3).
 
     Raises:
-        InputError: If one is no rotation.
+        InputError: If one is not a rotation.
 
     Source:
         Shepperd, "Quaternion from Rotation Matrix", 1978.

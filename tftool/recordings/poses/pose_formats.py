@@ -239,7 +239,7 @@ def format_named(name: str) -> PoseFormat:
 
 
 def recognised(data: bytes, name: str) -> PoseFormat | None:
-    """Return the format of a file with these first bytes; None if it is no pose file.
+    """Return the format of a file with these first bytes; None if it is not a pose file.
 
     Raises:
         InputError: If it fits several formats.
@@ -270,7 +270,7 @@ def format_of_file(word: str, path: Path) -> tuple[PoseFormat, PoseOptions]:
     """Return the format of a file, and its options.
 
     Raises:
-        InputError: If it is no pose file.
+        InputError: If it is not a pose file.
         UsageError: If --pose-format names none.
     """
     options = options_of(word)

@@ -358,7 +358,7 @@ def start(
     Raises:
         HasItsOwnCommand: If it is one for a terminal of its own.
         UsageError: If there is no such package or executable, with the nearest name.
-        InputError: If its file cannot be read or is no Python.
+        InputError: If its file cannot be read or is not valid Python.
     """
     # As where a workspace is sourced: each of its packages can import the others.
     importing.look_behind(workspace.module_folders())

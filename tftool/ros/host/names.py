@@ -159,7 +159,7 @@ def check_node_name(name: str) -> None:
     """Refuse an invalid node name.
 
     Raises:
-        UsageError: If it is no name.
+        UsageError: If it is not a name.
     """
     fault = node_name_fault(name)
     if fault is not None:
@@ -316,7 +316,7 @@ def strict_yaml_value(text: str) -> Any:
     """Parse strictly: text that is not valid YAML is refused.
 
     Raises:
-        ValueError: If it is no YAML.
+        ValueError: If it is not YAML.
     """
     import yaml
 
@@ -364,7 +364,7 @@ def read_parameters(
         substitute: Makes the text that is read of the one in the file.
 
     Raises:
-        InputError: If it cannot be read, is no YAML, or is laid out otherwise.
+        InputError: If it cannot be read, is not YAML, or is laid out otherwise.
     """
     import yaml
 

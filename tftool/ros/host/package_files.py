@@ -147,7 +147,7 @@ def read_text(path: Path) -> str:
     """Return a file's text.
 
     Raises:
-        InputError: If it cannot be read, or is no UTF-8.
+        InputError: If it cannot be read, or is not UTF-8.
     """
     try:
         return read_named_text(path)

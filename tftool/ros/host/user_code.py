@@ -21,7 +21,7 @@ def file_body(path: Path) -> Callable[[], None]:
     script, as the tutorial's listings are: its `main` is called.
 
     Raises:
-        InputError: If the file cannot be read or is no Python; the line is shown.
+        InputError: If the file cannot be read or is not valid Python; the line is shown.
     """
     code = compile_file(path)
 
@@ -48,7 +48,7 @@ def load_module(path: Path, name: str = "", code: CodeType | None = None) -> Mod
         code: Its code, if it is compiled already.
 
     Raises:
-        InputError: If it cannot be read or is no Python; the line is shown.
+        InputError: If it cannot be read or is not valid Python; the line is shown.
     """
     code = compile_file(path) if code is None else code
     folder = path.resolve().parent
@@ -78,7 +78,7 @@ def compile_file(path: Path) -> CodeType:
     """Compile a file.
 
     Raises:
-        InputError: If it cannot be read or is no Python.
+        InputError: If it cannot be read or is not valid Python.
     """
     try:
         with open_regular(path) as file:

@@ -325,7 +325,7 @@ class TimerAction(Action):
         """Schedule the actions.
 
         Raises:
-            UsageError: If the period is no number of seconds.
+            UsageError: If the period is not a number of seconds.
         """
         period = seconds_of(context, self.period, "a TimerAction's period")
         context.launch.later(self, period, self.actions)

@@ -109,7 +109,7 @@ def read_xml(data: bytes, path: Path) -> list[Element]:
     """Read the elements of an XML text.
 
     Raises:
-        InputError: If it is no launch file, with the line.
+        InputError: If it is not a launch file, with the line.
     """
     parser = expat.ParserCreate()
     stack: list[Element] = [Element("", str(path))]
@@ -145,7 +145,7 @@ def read_yaml(data: bytes, path: Path) -> list[Element]:
     """Read the elements of a YAML text.
 
     Raises:
-        InputError: If it is no YAML or has another structure, with the line.
+        InputError: If it is not YAML or has another structure, with the line.
     """
     try:
         root = yaml_guard.compose(data.decode("utf-8"))
@@ -210,7 +210,7 @@ class _Yaml:
         """Convert a key.
 
         Raises:
-            InputError: If it is no single word.
+            InputError: If it is not a single word.
         """
         if not isinstance(node, yaml.ScalarNode):
             raise InputError(f"{self.where(node)}: a key is one word, not a list or a mapping")

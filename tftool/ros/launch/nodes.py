@@ -145,7 +145,7 @@ def python_file(executable: str) -> str:
     """Return the file of a node without a package, searched as a shell does.
 
     Raises:
-        UsageError: If there is none, or it is no Python.
+        UsageError: If there is none, or it is not valid Python.
     """
     found = shutil.which(executable) or executable
     try:

@@ -153,7 +153,7 @@ def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], 
     """Flatten a mapping of parameters: the texts of a dotted name, and its value.
 
     Raises:
-        TypeError: If a name is no text, or a value can be no parameter's.
+        TypeError: If a name is not a string, or a value can be no parameter's.
     """
     if not isinstance(parameters, Mapping):
         raise TypeError(f"parameters are a mapping from names to values, not {parameters!r}")

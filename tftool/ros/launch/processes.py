@@ -120,7 +120,7 @@ class Startable(Action):
         """Return the delay of its restart in seconds; None for no restart.
 
         Raises:
-            UsageError: If that is no number.
+            UsageError: If that is not a number.
         """
         if not is_true(perform(context, self.respawn)):
             return None

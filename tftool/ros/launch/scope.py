@@ -51,7 +51,7 @@ def namespace_in(context: LaunchContext, own: Any) -> str | None:
         own: Namespace of the node itself, or None.
 
     Raises:
-        UsageError: If it is no namespace.
+        UsageError: If it is not a namespace.
     """
     given = None if own is None else perform(context, own)
     base = context.launch_configurations.get(_NAMESPACE)
@@ -65,7 +65,7 @@ def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
     """Return a remapping as two lists of substitutions.
 
     Raises:
-        TypeError: If it is no pair.
+        TypeError: If it is not a pair.
     """
     if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
         raise TypeError(f"a remapping is a pair like ('old', 'new'), not {remap_rule!r}")
@@ -77,7 +77,7 @@ def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any
     """Return each remapping as two lists of substitutions.
 
     Raises:
-        TypeError: If one is no pair.
+        TypeError: If one is not a pair.
     """
     return (normalize_remap_rule(rule) for rule in remap_rules)
 

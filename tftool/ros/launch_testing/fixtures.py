@@ -147,7 +147,7 @@ def launched(name: str, options: tuple[bool, bool], service: LaunchedService, va
     """Start the launch of a fixture of that name, which has given a value.
 
     Raises:
-        AssertionError: If that is no description.
+        AssertionError: If that is not a description.
     """
     description = value[0] if isinstance(value, tuple | list) and value else value
     if not isinstance(description, LaunchDescription):

@@ -34,7 +34,7 @@ class Context:
         Raises:
             RuntimeError: If it has been started, or the domain is negative.
             UsageError: If the part after `--ros-args` is malformed.
-            UnicodeEncodeError: If an argument is no text.
+            UnicodeEncodeError: If an argument is not a string.
         """
         if self._valid:
             raise RuntimeError("Context.init() must only be called once")

@@ -20,7 +20,7 @@ class ROSInterruptException(Exception):
 
 
 class NoTypeSupportImportedException(Exception):
-    """Error for a type that is no message, service or action."""
+    """Error for a type that is not a message, service or action."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("no type_support imported", *args)

@@ -239,7 +239,7 @@ def get_logging_severity_from_string(level: str) -> LoggingSeverity:
     """Return the level of a name.
 
     Raises:
-        RuntimeError: If there is none of that name.
+        RuntimeError: If there is nothing with that name.
     """
     try:
         return LoggingSeverity[level.upper()]

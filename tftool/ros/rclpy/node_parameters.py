@@ -237,7 +237,7 @@ class NodeParameters:
 
         Raises:
             ParameterNotDeclaredException: If one is not declared; those before it are set.
-            TypeError: If something is no Parameter.
+            TypeError: If something is not a Parameter.
         """
         return [self.set_parameters_atomically([one]) for one in parameter_list]
 
@@ -246,7 +246,7 @@ class NodeParameters:
 
         Raises:
             ParameterNotDeclaredException: If one, or one that a callback added, is not declared.
-            TypeError: If something is no Parameter.
+            TypeError: If something is not a Parameter.
         """
         self.__settable(parameter_list)
         changes = list(parameter_list)

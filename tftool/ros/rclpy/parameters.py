@@ -128,7 +128,7 @@ def parameter_value_to_python(parameter_value: Any) -> Any:
     """Return the Python value of a ParameterValue; None if it is not set.
 
     Raises:
-        RuntimeError: If its type is no type of a parameter.
+        RuntimeError: If its type is not a type of a parameter.
     """
     try:
         return value_of(parameter_value)
@@ -161,7 +161,7 @@ def parameter_dict_from_yaml_file(
 
     Raises:
         FileNotFoundError: If there is no such file.
-        InputError: If it cannot be read, is no YAML, or is laid out otherwise.
+        InputError: If it cannot be read, is not YAML, or is laid out otherwise.
     """
     if not Path(parameter_file).exists():
         raise FileNotFoundError(f"there is no parameter file '{parameter_file}'")

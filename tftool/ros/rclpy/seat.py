@@ -220,7 +220,7 @@ def seat_of(node: Any) -> NodeSeat:
     """Return the seat of a user's node.
 
     Raises:
-        TypeError: If it is no node, or one whose `__init__` did not call `super().__init__`.
+        TypeError: If it is not a node, or one whose `__init__` did not call `super().__init__`.
     """
     seat = getattr(node, "_tftool", None)
     if not isinstance(seat, NodeSeat):

@@ -337,7 +337,7 @@ class ROSClock(Clock):
         """Set the clock's time while its time source is active.
 
         Raises:
-            TypeError: If that is no Time.
+            TypeError: If that is not a Time.
         """
         if not isinstance(time, Time):
             raise TypeError(

@@ -63,7 +63,7 @@ class TimeSource:
         """Follow a node's parameter `use_sim_time`.
 
         Raises:
-            TypeError: If it is no node.
+            TypeError: If it is not a node.
         """
         if not isinstance(node, Node):
             raise TypeError("Node must be of type rclpy.node.Node")

@@ -26,7 +26,7 @@ def serialize_message(message: Any) -> bytes:
     """Return the bytes of a message.
 
     Raises:
-        TypeError: If it is no message.
+        TypeError: If it is not a message.
     """
     if not isinstance(message, Message):
         raise TypeError(f"expected a message, got {type(message).__name__}")

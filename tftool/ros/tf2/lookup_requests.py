@@ -58,7 +58,7 @@ def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
     """Return the lookup requested by a user's code.
 
     Raises:
-        TypeError: If a frame is no text, or the time no time.
+        TypeError: If a frame is not a string, or the time no time.
     """
     _require_names(target_frame=target_frame, source_frame=source_frame)
     return LookupRequest(target_frame, source_frame, stamp(time))
@@ -70,7 +70,7 @@ def full_question(
     """Return the lookup between two times requested by a user's code.
 
     Raises:
-        TypeError: If a frame is no text, or a time no time.
+        TypeError: If a frame is not a string, or a time no time.
     """
     _require_names(target_frame=target_frame, source_frame=source_frame, fixed_frame=fixed_frame)
     return LookupRequest(

@@ -61,7 +61,7 @@ class Sliders:
     Attributes:
         robot: The robot.
         entry: The typed part of a position; empty while nothing is.
-        refusal: Why the last typed text is no position; empty where it was one.
+        refusal: Why the last typed text is not a position; empty where it was one.
     """
 
     def __init__(self, robot: Robot, mover: Positions | None, *, seed: int = 0) -> None:

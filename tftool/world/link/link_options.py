@@ -80,7 +80,7 @@ def domain_here() -> int:
     """Return the domain in ROS_DOMAIN_ID, else 0.
 
     Raises:
-        UsageError: If it is no domain.
+        UsageError: If it is not a domain.
     """
     text = os.environ.get("ROS_DOMAIN_ID", "")
     if not text:

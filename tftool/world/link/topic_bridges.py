@@ -273,7 +273,7 @@ class TransformBridge:
         """Insert long histories of few links in bulk; return False if that would not be faster.
 
         Raises:
-            MalformedMessage: If the bytes are no transforms.
+            MalformedMessage: If the bytes are not transforms.
         """
         # A subscriber of the topic gets every single one, so they are made anyway.
         listened_to = self._topic.near_subscribers > 0
