@@ -130,7 +130,7 @@ class Command(Shown, TyperCommand):
             self.params.append(_help_session())
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
-        """Parse the command line; a word such as NAME:=VALUE is an argument of a robot description."""
+        """Parse the command line; a word like NAME:=VALUE is an argument of a robot description."""
         if any(param.name == "argument" for param in self.params):
             args = [
                 part

@@ -552,7 +552,7 @@ class History(Fields):
         return PARENT_CHANGED if changes else STORED
 
     def _make_room_in_front(self) -> int:
-        """Return a free record before the oldest sample, for samples that arrive in reverse order."""
+        """Return a free record before the oldest sample, for samples inserted in reverse order."""
         if self.start == 0:
             room = max(_LEAST_SLACK, self.count >> _SLACK)
             self._splice(0, 0, array("q", bytes(RECORD * room)))

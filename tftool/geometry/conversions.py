@@ -1,9 +1,10 @@
 """Conversions of rotations: roll pitch yaw, matrix, axis and angle, Euler, w first.
 
-Roll, pitch, yaw are rotations about fixed axes: x, then y, then z. These, and axis and angle of a
-quaternion, are computed here with plain floats: commands print them, and importing transforms3d
-takes 120 ms. transforms3d computes all other Euler angles, and quaternions from matrices and from
-axis and angle; it is imported at the first call, and only this module handles its order, w first.
+Roll, pitch, yaw are rotations about fixed axes: x, then y, then z. This module computes them, and
+the axis and angle of a quaternion, with plain floats: commands print these numbers, and importing
+transforms3d takes 120 ms. transforms3d computes all other Euler angles, and quaternions from
+matrices and from axis and angle. It is imported at the first call. Only this module converts to its
+quaternion order, w first.
 """
 
 import math
@@ -35,8 +36,8 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
     """Return roll, pitch, yaw in radians, pitch within a quarter turn.
 
-    At the poles (pitch of a quarter turn) yaw is 0 and roll holds the sum of both, so that the
-    angles always mean the same rotation as the quaternion. NaN for a zero quaternion.
+    At the poles (pitch of ±π/2) yaw is 0 and roll contains the whole turn, so that the angles
+    always mean the same rotation as the quaternion. NaN for a zero quaternion.
     """
     return quaternions.rpy(_quad(quaternion))
 
@@ -91,10 +92,10 @@ def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
 
 
 def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
-    """Return the rotation of a 3×3 matrix (of a 4×4 one, its upper left), with tf2's sign.
+    """Return the rotation of a 3×3 matrix, or of the upper left of a 4×4 matrix, with tf2's sign.
 
     Raises:
-        ValueError: If it is not a proper rotation (within 1e-6).
+        ValueError: If the matrix is not a proper rotation (within 1e-6).
     """
     try:
         (a, b, c), (d, e, f), (g, h, i) = (
@@ -126,8 +127,8 @@ def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]
     """Return the proper rotation nearest to a 3×3 matrix, and the distance to it.
 
     Returns:
-        The rotation, and the largest difference between two of their numbers; infinite for
-        a matrix that has none, or mirrors.
+        The rotation, and the largest difference between an entry of the rotation and the same entry
+        of the matrix. The difference is infinite if the matrix is singular or mirrors.
 
     Source:
         Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 1986, by
@@ -148,7 +149,7 @@ def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]
 
 
 def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, float]:
-    """Return the unit axis and the angle from 0 to π; x for no rotation."""
+    """Return the unit axis and the angle, radians from 0 to π; the x axis if there is no rotation."""
     x, y, z, w = quaternions.unit(_quad(quaternion))
     if w < 0.0:
         x, y, z, w = -x, -y, -z, -w
@@ -182,7 +183,7 @@ def wxyz_from_xyzw(quaternion: Iterable[float]) -> tuple[float, float, float, fl
 
 
 def xyzw_from_wxyz(quaternion: Iterable[float]) -> Quaternion:
-    """Reorder wxyz to w last, as in ROS and here."""
+    """Reorder wxyz to w last, as in ROS and tftool."""
     w, x, y, z = quaternion
     return Quaternion(x, y, z, w)
 
@@ -195,7 +196,7 @@ def quaternion_from_euler(angles: Sequence[float], axes: str = "sxyz") -> Quater
         axes: One of `AXES`; "sxyz" is roll, pitch, yaw.
 
     Raises:
-        ValueError: If `axes` is no such order.
+        ValueError: If `axes` is not one of `AXES`.
     """
     from transforms3d.euler import euler2quat
 
@@ -210,7 +211,7 @@ def euler_from_quaternion(
     """Return Euler angles in any order, radians; see `quaternion_from_euler`.
 
     Raises:
-        ValueError: If `axes` is no such order.
+        ValueError: If `axes` is not one of `AXES`.
     """
     from transforms3d.euler import quat2euler
 
@@ -221,12 +222,12 @@ def euler_from_quaternion(
 def euler_from_matrix(
     matrix: Sequence[Sequence[float]], axes: str = "sxyz"
 ) -> tuple[float, float, float]:
-    """Return Euler angles of a 3×3 rotation matrix (of a 4×4 one, its upper left).
+    """Return Euler angles, radians, of a 3×3 matrix or of the upper left of a 4×4 matrix.
 
-    If they are not unique, the last angle is 0.
+    If the angles are not unique, the last angle is 0.
 
     Raises:
-        ValueError: If `axes` is no such order.
+        ValueError: If `axes` is not one of `AXES`.
     """
     # An array as it keeps it itself: of anything else it wants no copy, which numpy 2 refuses.
     import numpy as np

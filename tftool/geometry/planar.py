@@ -15,19 +15,19 @@ def transform_from_pose(x: float, y: float, heading: float) -> Transform:
 def heading(transform: Transform) -> float:
     """Return the yaw of a transform, radians from −π to π.
 
-    It is the yaw of roll, pitch, yaw. For a pose in the plane, it is the direction of its x axis.
+    The yaw belongs to roll, pitch, yaw. For a pose in the plane, it is the direction of the x axis.
     """
     x, y, z, w = transform.rotation
     return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
 
 
 def bearing(transform: Transform) -> float:
-    """Return the direction of the other frame's origin, radians; 0 at zero distance."""
+    """Return the direction of the child frame's origin in the plane, radians; 0 at zero distance."""
     return math.atan2(transform.translation.y, transform.translation.x)
 
 
 def distance(transform: Transform) -> float:
-    """Return the distance of the other frame's origin in the plane, metres."""
+    """Return the distance of the child frame's origin in the plane, metres."""
     return math.hypot(transform.translation.x, transform.translation.y)
 
 

@@ -1,8 +1,8 @@
 """Arithmetic of poses as seven plain floats: x, y, z and a unit quaternion x, y, z, w.
 
-Lookups of a buffer spend their time here. Each formula is written out in one function and makes one
-tuple: calls of `quaternions.rotate`, `multiply` and a separate slerp would take 15 to 35 % of a
-lookup.
+Lookups of a buffer spend their time in this module. Each formula is written out in one function and
+creates one tuple: calls of `quaternions.rotate`, `multiply` and a separate slerp would add 15 to 35
+% to a lookup.
 """
 
 from math import acos, sin
@@ -25,8 +25,8 @@ def interpolate(pair: Pair, time: float) -> Pose:
     stamp the result is exactly the first pose.
 
     Args:
-        pair: The two poses, each after its stamp: 16 numbers.
-        time: From the first stamp to the second.
+        pair: Stamp and pose of the first sample, then of the second: 16 numbers.
+        time: Nanoseconds, from the first stamp to the second.
 
     Source:
         Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985.
@@ -91,8 +91,8 @@ def compose(outer: Pose, inner: Pose) -> Pose:
 def between(first: Pose, second: Pose) -> Pose:
     """Return the second pose relative to the first: `b_from_c` from `a_from_b` and `a_from_c`.
 
-    The difference of the two positions is rotated, not each of them, so that equal positions give
-    exactly zero.
+    The function rotates the difference of the two positions, so that equal positions give exactly
+    zero.
     """
     ox, oy, oz, ax, ay, az, aw = first
     x, y, z, bx, by, bz, bw = second

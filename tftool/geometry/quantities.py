@@ -1,7 +1,7 @@
 """Application of transforms to points, vectors, poses, covariances and wrenches.
 
-Arguments are plain numbers in the transform's child frame, results are in its parent; arguments are
-never changed. A rotation of zeros means the identity, as in tf2's own conversions.
+Arguments are plain numbers in the transform's child frame; results are in the parent frame.
+Arguments are never changed. A quaternion of zeros means the identity, as in tf2's own conversions.
 """
 
 from collections.abc import Iterable, Sequence
@@ -74,14 +74,14 @@ def points(a_from_b: Transform, xyz: "npt.ArrayLike") -> "npt.NDArray[np.float64
     """Transform many points in numpy.
 
     Args:
-        a_from_b: Moves them.
-        xyz: Shape (n, 3).
+        a_from_b: The transform to apply.
+        xyz: Points in b, metres, shape (n, 3).
 
     Returns:
-        Shape (n, 3), new.
+        A new array of points in a, shape (n, 3).
 
     Raises:
-        ValueError: If the shape is another.
+        ValueError: If `xyz` has another shape.
     """
     import numpy as np
 

@@ -108,7 +108,7 @@ def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
 
     Args:
         start: Unit quaternion.
-        end: Unit quaternion; where the shorter arc asks for it, its negative is used.
+        end: Unit quaternion; its negative is used if that makes the arc shorter.
         fraction: Share of the arc, from 0 to 1.
 
     Returns:

@@ -1,7 +1,7 @@
 """One rigid transform in plain floats: composition, inverse, application.
 
-A transform `a_from_b` is the pose of b in a, and moves points given in b into a:
-`a_from_c == a_from_b @ b_from_c`, `point_in_a == a_from_b.apply(point_in_b)`.
+A transform `a_from_b` is the pose of b in a, and maps points from b to a: `a_from_c == a_from_b @
+b_from_c`, `point_in_a == a_from_b.apply(point_in_b)`.
 """
 
 import math
@@ -131,8 +131,8 @@ class _Parts(NamedTuple):
 class Transform(_Parts):
     """A rotation followed by a translation; immutable, hashable, compared by value.
 
-    The quaternion is kept unchanged. In use, every finite one except zero means the rotation of its
-    direction. (A message may have a zero one, which makes results NaN.)
+    The quaternion is stored unchanged. Calculations normalise it if it is finite and not zero. A
+    zero quaternion, which a message may have, makes results NaN.
 
     Attributes:
         translation: `Vector3`, metres.
@@ -146,11 +146,11 @@ class Transform(_Parts):
         translation: Iterable[float] = (0.0, 0.0, 0.0),
         rotation: Iterable[float] = (0.0, 0.0, 0.0, 1.0),
     ) -> "Transform":
-        """Make a transform from three and four numbers.
+        """Create a transform from a translation (three numbers) and a quaternion (four numbers).
 
         Raises:
-            ValueError: If there are not three and four of them, one is not a number, or the
-                four are all zero.
+            ValueError: If the count of numbers is wrong, an entry is not a number, or the
+                quaternion is zero.
         """
         turn = _floats(rotation, 4, "rotation")
         if not any(turn):
@@ -168,8 +168,8 @@ class Transform(_Parts):
                 translation in the last column.
 
         Raises:
-            ValueError: If it is not 4×4, its last row is not 0 0 0 1, or its upper left is no
-                proper rotation (within 1e-6).
+            ValueError: If the matrix is not 4×4, its last row is not 0 0 0 1, or its upper left is
+                not a proper rotation (within 1e-6).
         """
         # Only this constructor needs it, and it makes the quaternions that are defined here.
         from tftool.geometry.conversions import quaternion_from_matrix
@@ -230,7 +230,7 @@ def _floats(numbers: Iterable[float], count: int, what: str) -> tuple[float, ...
 
 
 def transform(translation: quaternions.Triple, rotation: quaternions.Quad) -> Transform:
-    """Make a transform of seven floats without checks, for computed numbers."""
+    """Create a transform from three and four floats without checks, for computed numbers."""
     new = tuple.__new__
     return new(Transform, (new(Vector3, translation), new(Quaternion, rotation)))
 
@@ -265,7 +265,7 @@ def apply(a_from_b: Transform, point: Iterable[float]) -> Vector3:
 
 
 def canonical(pose: Transform) -> Transform:
-    """Return the pose with tf2's sign of the quaternion (NaN for a zero one)."""
+    """Return the pose with tf2's sign of the quaternion (NaN for a zero quaternion)."""
     return transform(pose.translation, quaternions.canonical(quaternions.unit(pose.rotation)))
 
 

@@ -1,7 +1,7 @@
 """The functions of `rigid` and `quaternions` for arrays: shapes (..., 3) and (..., 4).
 
-Quaternions are in xyzw order and leading axes broadcast. Each row of a result is that of the
-function of the same name for plain floats.
+Quaternions are in xyzw order, and leading axes broadcast. Each row of a result equals the result of
+the function of the same name for plain floats.
 """
 
 from typing import TypeAlias
@@ -104,7 +104,9 @@ def matrices(translations: Floats, rotations: Floats) -> Floats:
 
 
 def roll_pitch_yaw(quaternions: Floats) -> Floats:
-    """Return radians, shape (..., 3), of unit quaternions; see `precise_rpy_from_quaternion`."""
+    """Return roll, pitch and yaw, radians, shape (..., 3), of unit quaternions; see
+    `precise_rpy_from_quaternion`.
+    """
     x, y, z, w = np.moveaxis(quaternions, -1, 0)
     a, b, c, d = w - y, x + z, y + w, z - x
     near, far = np.hypot(a, b), np.hypot(c, d)

@@ -1,8 +1,8 @@
 """Rotation and composition of many poses: components in rows, a pose per column.
 
-The fast half of `batch`, for reused arrays: nothing is allocated. Vectors are rows x, y, z, x, y,
-so that a cross product is three operations on three rows each; a quaternion's w precedes them. A
-single column serves all rows.
+Batch lookups use these functions with reused arrays: no function allocates memory. Vectors are rows
+x, y, z, x, y, so that a cross product is three operations on three rows each. Quaternions have a
+row w before these rows. An array with a single column applies to all columns of the other.
 """
 
 from typing import NamedTuple
@@ -31,12 +31,13 @@ _NEGLIGIBLE = 2e-17
 class Arcs(NamedTuple):
     """Shorter arcs from quaternions A to others, at constant angular speed.
 
-    At the fraction f, the rotation is that of the quaternion A + s·C with s = f·tan(fθ)/(fθ) and
-    length √(1 + s²θ²): `tan_ratio` gives tan(fθ)/(fθ).
+    At the fraction f, the rotation is the quaternion A + s·C with s = f·tan(fθ)/(fθ); its length is
+    √(1 + s²θ²). `tan_ratio` computes tan(fθ)/(fθ).
 
     Attributes:
-        directions: C, at right angles to A and θ long, shape (n, 4).
-        half_angle_squared: θ², where θ is half the turn between the two, shape (n,).
+        directions: C, at right angles to A and of length θ, shape (n, 4).
+        half_angle_squared: θ², where θ is half the angle between start and end, radians, shape
+            (n,).
         terms: How many terms of the series of tan(x)/x the largest turn needs; 0 if too many.
     """
 
@@ -49,8 +50,8 @@ def arcs(starts: Floats, ends: Floats) -> Arcs:
     """Prepare the arcs between unit quaternions, shapes (n, 4), in any component order.
 
     Source:
-        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985, divided by the
-        cosine of the angle so far, which one square root at the end of a chain makes good.
+        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985, divided by the cosine
+        of the angle so far; one square root at the end of a chain restores the length.
     """
     ends = np.where(_dot(starts, ends) < 0.0, -ends, ends)
     apart = ends - starts
@@ -84,12 +85,12 @@ def _terms(square: float) -> int:
 
 
 def tan_ratio(squares: Floats, out: Floats, terms: int) -> None:
-    """Write tan(x)/x.
+    """Compute tan(x)/x.
 
     Args:
         squares: x².
         out: Output, of the same shape.
-        terms: How many terms of the series it takes; 0 for the tangent itself.
+        terms: Number of terms of the series to use; 0 to compute the tangent itself.
     """
     if terms == 0:
         angles = np.sqrt(squares)
@@ -153,8 +154,8 @@ def rotate(
         quaternions: Rotations to apply.
         factor: 2 over the square of the quaternions' lengths.
         vectors: Vectors to turn.
-        cross: Is overwritten.
-        spare: Three rows that are overwritten.
+        cross: Work rows, overwritten.
+        spare: Three work rows, overwritten.
     """
     multiply(quaternions.yzx, vectors.zxy, cross.xyz)
     multiply(quaternions.zxy, vectors.yzx, spare)

@@ -1,8 +1,8 @@
 """Message, service and action classes, made from their definitions.
 
-They behave as the classes that ROS 2 generates: every field has a default, the constructor takes
-keywords, an assignment is checked for type and range, messages compare by value and print all their
-fields.
+These classes behave like the classes that ROS 2 generates: every field has a default, the
+constructor takes keywords, an assignment is checked for type and range, messages compare by value
+and print all their fields.
 """
 
 import array
@@ -41,14 +41,14 @@ class MessageField:
     """One field of a class.
 
     Attributes:
-        name: Its name.
-        kind: Its element's type: a primitive's name, or a message class.
+        name: Name of the field.
+        kind: Type of the field or of its elements: a primitive's name, or a message class.
         size: None for a single value, a number for a fixed array, -1 for a sequence.
-        bound: The most elements a bounded sequence may hold, None without a bound.
-        text_bound: The most characters of a bounded text, None without a bound.
+        bound: Maximum length of a bounded sequence; None without a bound.
+        text_bound: Maximum number of characters of a bounded string; None without a bound.
         check: Function that checks an assigned value.
-        make: Gives the default.
-        described: Its type as ROS 2 writes it.
+        make: Function that returns the default.
+        described: Type of the field as ROS 2 writes it.
     """
 
     name: str
@@ -71,10 +71,10 @@ class Message:
     interface__: ClassVar[str] = ""
 
     def __init__(self, **kwargs: Any) -> None:
-        """Set every field to its default, then the named ones to their values.
+        """Set every field to its default, then set the fields given by keyword.
 
         Raises:
-            AssertionError: If a name is not a field, or a value does not fit its field.
+            AssertionError: If a keyword is not a field's name, or a value does not fit its field.
         """
         for field in self.fields__:
             if field.name in kwargs:
@@ -165,7 +165,7 @@ def _duplicated(field: MessageField, value: Any) -> Any:
 
 
 def _layout_of(kind: type[Message]) -> tuple[Any, ...]:
-    """Return names and types of all fields, those of messages inside included."""
+    """Return names and types of all fields, including the fields of nested messages."""
     return tuple(
         (
             field.name,
@@ -183,7 +183,7 @@ def interface_name(kind: Any) -> str:
 
 
 def recast(message: Any, kind: type[Message]) -> Any:
-    """Copy a message to a class with the same fields, for example of another release."""
+    """Copy a message to another class with the same fields, for example of another ROS release."""
     copy = duplicate(message)
     if type(copy) is kind:
         return copy
@@ -194,7 +194,7 @@ def recast(message: Any, kind: type[Message]) -> Any:
 
 
 def completed(message: Any, kind: type[Message]) -> Any:
-    """Return a message as one of a class that has more fields; those get their defaults."""
+    """Copy a message to a class that has more fields; the additional fields get their defaults."""
     if type(message) is kind:
         return message
     made = kind()
@@ -212,12 +212,12 @@ def completed(message: Any, kind: type[Message]) -> Any:
 
 
 def is_part(asked: Any, part: str, kind: Any) -> bool:
-    """Whether a message is the request or goal of a service's or action's class.
+    """Whether a message is the request or goal of a service or action.
 
     Args:
         asked: The message.
         part: "Request" or "Goal".
-        kind: The class.
+        kind: The class of the service or action.
     """
     return isinstance(asked, Message) and plain_name(asked.interface__) == plain_name(
         f"{kind.interface__}_{part}"
@@ -225,7 +225,7 @@ def is_part(asked: Any, part: str, kind: Any) -> bool:
 
 
 def plain_name(ros_type: str) -> str:
-    """Return a type's name, which is the same for turtlesim's types of every release."""
+    """Return a type's name; turtlesim's types have the same name in every ROS release."""
     # Newer ROS 2 releases moved turtlesim's interfaces to a package of their own.
     return ros_type.replace("turtlesim_msgs/", "turtlesim/")
 
@@ -240,8 +240,8 @@ MOST_NESTED: Final = 64
 class Interfaces(Schema):
     """Classes of all interfaces by name, made on first use.
 
-    The process has one set, `INTERFACES`; a recording has its own, as its definitions may be
-    those of another release, or of ROS 1.
+    The process has one set, `INTERFACES`. Each recording has its own set, because its definitions
+    may come from another release or from ROS 1.
     """
 
     def __init__(self) -> None:
@@ -261,7 +261,7 @@ class Interfaces(Schema):
         """Return the class of an interface.
 
         Raises:
-            InputError: If there is nothing with that name.
+            InputError: If there is no interface with that name.
         """
         full = f"{package}/{kind}/{name}"
         if kind == "msg":
@@ -275,22 +275,23 @@ class Interfaces(Schema):
         """Return the class of a message by "package/msg/Name" or "package/Name".
 
         Raises:
-            InputError: If there is nothing with that name, or it contains itself.
+            InputError: If there is no message with that name, or the message contains itself.
         """
         return self.part(full_name(name))
 
     def recorded(self, name: str, text: str = "") -> type[Message]:
         """Return the class of a message in a recording.
 
-        If the recording has two definitions of one type, each message is read by its own.
+        If the recording has two definitions of one type, each message is read by the definition of
+        its channel.
 
         Args:
-            name: Its type, "geometry_msgs/PoseStamped" or "geometry_msgs/msg/PoseStamped".
-            text: The recorded definition, followed by those of its parts
-                (see `define`); "" to take ROS 2's own.
+            name: Name of the type, "geometry_msgs/PoseStamped" or "geometry_msgs/msg/PoseStamped".
+            text: The recorded definition, followed by the definitions of its parts (see `define`);
+                "" to use ROS 2's own definition.
 
         Raises:
-            InputError: If it is not known, contains itself, or its definition is wrong.
+            InputError: If the type is unknown or contains itself, or the definition is wrong.
         """
         full = full_name(name)
         if text.strip() and not self.define(full, text):
@@ -298,9 +299,9 @@ class Interfaces(Schema):
         return self.part(full)
 
     def earlier(self, full: str) -> list[type[Message]]:
-        """Return the classes that earlier distributions had for a message; often none.
+        """Return the classes of a message in earlier ROS distributions; often empty.
 
-        The fields of each, or of a message in it, differ from the present class.
+        In each class, a field or a field of a nested message differs from the present class.
         """
         found: list[type[Message]] = []
         for texts in definitions.EARLIER:
@@ -313,10 +314,11 @@ class Interfaces(Schema):
         return found
 
     def part(self, full: str) -> type[Message]:
-        """Return the class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.
+        """Return the class of any structure: a message, or a part such as
+        "std_srvs/srv/SetBool_Request".
 
         Raises:
-            InputError: If there is nothing with that name, or it contains itself.
+            InputError: If there is no structure with that name, or the structure contains itself.
         """
         return self._part(full, ())
 
@@ -465,10 +467,10 @@ def _nothing(kind: str) -> Any:
 
 
 def _literal(place: str, kind: str, text: str) -> Any:
-    """Return a constant or default as a value; errors name its place in the message.
+    """Convert the text of a constant or default to a value; errors name its place in the message.
 
     Raises:
-        InputError: If it is no such value.
+        InputError: If the text is not a value of that type.
     """
     text = text.strip()
     try:

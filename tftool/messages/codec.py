@@ -1,8 +1,8 @@
 """Serialisation of messages by their definitions.
 
-A type is compiled once for each layout into a list of steps: a run of numbers, a text, an array, a
-list of messages. Each step writes its part of a message, and reads the values of its fields. Arrays
-of numbers are copied once when writing and once when reading.
+For each layout, a type is compiled once into a list of steps: a run of numbers, a string, an array,
+a list of messages. Each step writes and reads its part of a message. Arrays of numbers are copied
+once when writing and once when reading.
 """
 
 import array
@@ -45,11 +45,11 @@ class Codec:
 
         Args:
             kind: The class of the messages.
-            layout: The rules that the bytes follow.
+            layout: Byte layout of the messages.
 
         Raises:
-            MalformedMessage: If a field is of a type whose bytes differ between ROS 2
-                releases, or the type has more fields than `MOST_FIELDS`.
+            MalformedMessage: If the byte layout of a field's type differs between ROS 2 releases,
+                or the type has more fields than `MOST_FIELDS`.
         """
         self.kind = kind
         self.layout = layout
@@ -70,10 +70,10 @@ class Codec:
             raise MalformedMessage(self.name, f"a value does not fit its field: {error}") from error
 
     def decode(self, payload: Payload) -> Any:
-        """Return the message in some bytes, without references to them.
+        """Return the message in some bytes; the message does not refer to the bytes.
 
         Raises:
-            MalformedMessage: If they are not one.
+            MalformedMessage: If the bytes are not a message of this type.
         """
         reader = Reader(self.name, payload, self.layout)
         if len(payload) == len(self.layout.header) and not self.kind.fields__:
@@ -85,9 +85,10 @@ class Codec:
 
 
 class RecordedCodec:
-    """Serialiser of a recorded type without definition, whose distribution only bytes tell.
+    """Serialiser of a type that was recorded without a definition.
 
-    A message of an earlier distribution becomes one of its own class, and is written as such.
+    The serialiser tries the definitions of all distributions. A message of an earlier distribution
+    gets a class of its own, and is written with that class.
     """
 
     def __init__(self, interfaces: Interfaces, full: str, layout: Layout) -> None:
@@ -96,7 +97,7 @@ class RecordedCodec:
         Args:
             interfaces: The present definitions.
             full: The type's full name.
-            layout: The rules that the bytes follow.
+            layout: Byte layout of the messages.
 
         Raises:
             InputError: If the type is not known.
@@ -117,7 +118,7 @@ class RecordedCodec:
         """Return the message in some bytes, of the class that fits them.
 
         Raises:
-            MalformedMessage: If none does.
+            MalformedMessage: If no class fits the bytes.
         """
         first: MalformedMessage | None = None
         for one in self._codecs:
@@ -133,7 +134,7 @@ _codecs: dict[Any, Codec] = {}
 
 
 def codec(kind: type[Message]) -> Codec:
-    """Return the CDR codec of a message class, made once."""
+    """Return the CDR codec of a message class; each codec is created once."""
     found = _codecs.get(kind)
     if found is None:
         found = _codecs[kind] = Codec(kind)
@@ -176,7 +177,7 @@ class _Run:
 
 
 class _Text:
-    """A text: length and bytes."""
+    """A string: length and bytes."""
 
     smallest = _SMALLEST_TEXT
 
@@ -249,14 +250,14 @@ class _Array:
             values.append(found if self._count is None else packed(self._kind, count, found))
 
     def _turned(self, numbers: "array.array[Any]", order: str) -> "array.array[Any]":
-        """Swap the bytes of numbers between this machine's order and the other."""
+        """Convert numbers in place between this machine's byte order and another; return them."""
         if order != _NATIVE and self._item > 1:
             numbers.byteswap()
         return numbers
 
 
 class _List:
-    """Texts or messages: a fixed number, or a sequence with its length."""
+    """Strings or messages: a fixed number, or a sequence with its length."""
 
     def __init__(
         self, path: str, field: MessageField, plan: "_Plan | None", layout: Layout
@@ -295,7 +296,7 @@ _Step = _Run | _Text | _Array | _List
 
 
 class _Planner:
-    """Planner of a type's layout and of the types in its lists, each once."""
+    """Planner of the layout of a type; each nested type of a list is planned once."""
 
     def __init__(self, name: str, layout: Layout) -> None:
         self._name = name
@@ -386,7 +387,7 @@ def _letter_of(view: memoryview) -> str:
 
 
 def _getter(paths: list[str]) -> Callable[[Any], tuple[Any, ...]]:
-    """Return a function that returns some attributes as a tuple."""
+    """Return a function that returns the attributes at these paths as a tuple."""
     if len(paths) > 1:
         return attrgetter(*paths)
     getters = [attrgetter(path) for path in paths]

@@ -1,8 +1,8 @@
 """Definitions of the ROS 2 interfaces supported here.
 
-Each block is an interface: its full name, then its fields as in a .msg, .srv or .action file, with
-`;` for a line break. `---` separates the parts of a service or an action. `classes` makes classes
-from these.
+Each block is one interface: its full name, then its fields as in a .msg, .srv or .action file, with
+`;` for a line break. `---` separates the parts of a service or an action. The module `classes`
+creates classes from these definitions.
 """
 
 from functools import cache

@@ -21,7 +21,7 @@ def element_check(name: str, kind: str | type[Any], text: int | None) -> Check:
     Args:
         name: The field's name.
         kind: A primitive's name, or the class of a message.
-        text: The most characters of a text, None without a bound.
+        text: Maximum number of characters of a string; None without a bound.
     """
     if not isinstance(kind, str):
         return _check_message(name, kind)
@@ -42,9 +42,9 @@ def array_check(
     Args:
         name: The field's name.
         kind: The elements' type.
-        size: How many there are; -1 for a sequence.
-        bound: The most elements of a sequence, None without a bound.
-        element: The check of one.
+        size: Number of elements; -1 for a sequence.
+        bound: Maximum length of a sequence; None without a bound.
+        element: The check of one element.
     """
     code = typecode(kind)
     word = kind if isinstance(kind, str) else kind.__name__

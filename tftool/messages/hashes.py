@@ -1,7 +1,7 @@
 """ROS 2's hash of a type's version (REP 2016, RIHS01).
 
-The hash is the SHA-256 of a fixed JSON form of a type's description and those of all its parts.
-Names and types of fields are included; defaults, constants and comments are not.
+The hash is the SHA-256 of a fixed JSON form of the type's description and the descriptions of its
+parts. Names and types of fields are included; defaults, constants and comments are not.
 """
 
 import hashlib
@@ -42,11 +42,11 @@ def type_hash(schema: Schema, full: str) -> str:
 
     Args:
         schema: Schema with the definition.
-        full: Its full name: "std_msgs/msg/String", "std_srvs/srv/Empty",
+        full: Full name of the structure: "std_msgs/msg/String", "std_srvs/srv/Empty",
             "turtlesim/action/RotateAbsolute_SendGoal".
 
     Raises:
-        InputError: If there is nothing with that name, or a part of it is missing.
+        InputError: If there is no structure with that name, or the definition of a part is missing.
     """
     described: dict[str, dict[str, Any]] = {}
     _describe(schema, schema.structure(full), described)

@@ -1,10 +1,10 @@
 """Byte layouts of messages: ROS 2's plain CDR, and ROS 1's.
 
-CDR has a header of four bytes with the byte order; after it every number is aligned to its size,
-and a text ends with a zero byte, which its length includes. We write little endian and read both.
-ROS 1 has no header, no alignment and no end of texts.
+CDR has a header of four bytes with the byte order. After the header, every number is aligned to its
+size, and a string ends with a zero byte, which its length includes. tftool writes little endian and
+reads both byte orders. ROS 1 has no header, no alignment and no zero byte after strings.
 
-Bytes are untrusted: a length is compared with the available bytes before anything is allocated, and
+Bytes are untrusted: a length is compared with the available bytes before memory is allocated, and
 bytes that do not fit are refused with a sentence.
 """
 
@@ -39,20 +39,20 @@ _LENGTH = _LENGTHS[LITTLE]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Layout:
-    """Rules of one way to serialise messages.
+    """Rules of one serialisation of messages.
 
     Attributes:
-        name: Its name in messages.
-        header: Bytes before the first field when we write.
-        headers: The byte order that each header we read announces; empty without a header.
-        alignment: The largest power of two that positions are rounded up to; 1 for none.
-        word: The same for lengths.
-        texts_end_with_zero: Whether a text's length counts a closing zero byte.
+        name: Name of the layout in error messages.
+        header: Bytes that are written before the first field.
+        headers: Byte order by header, for all readable headers; empty if there is no header.
+        alignment: Largest alignment of a number, bytes; 1 for no alignment.
+        word: Alignment of a length, bytes.
+        texts_end_with_zero: Whether a string ends with a zero byte, which its length includes.
         empty_size: Bytes of a structure without a field.
         letters: Codes of `struct` for single fields that differ from their definition, by
             (structure, field).
-        hidden: Name and `struct` padding of a structure's first field, where definitions of
-            ROS 2 leave it out.
+        hidden: Name and `struct` padding of a structure's first field, for fields that ROS 2's
+            definitions leave out.
     """
 
     name: str
@@ -66,10 +66,10 @@ class Layout:
     hidden: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
     def order(self, kind: str, payload: Payload) -> str:
-        """Byte order of a message, as `struct` writes it.
+        """Return the byte order of a message, in `struct`'s notation.
 
         Raises:
-            MalformedMessage: If it is too short, too long or written another way.
+            MalformedMessage: If the message is too short, too long or has an unknown header.
         """
         if len(payload) < len(self.header):
             raise MalformedMessage(kind, f"{len(payload)} bytes are too few for a header")
@@ -123,7 +123,7 @@ def check_rest(kind: str, rest: int) -> None:
     """Refuse a message with bytes after its end.
 
     Raises:
-        MalformedMessage: If it does.
+        MalformedMessage: If bytes remain.
     """
     # Some writers round a message up to a full word.
     if rest > 7:
@@ -131,10 +131,10 @@ def check_rest(kind: str, rest: int) -> None:
 
 
 def text_bytes(text: str) -> bytes:
-    """Return a text as CDR encodes it, without its length: UTF-8 and a final zero.
+    """Return a string as CDR encodes it, without the length: UTF-8 and a final zero.
 
     Raises:
-        ValueError: If it holds a zero character, which would end it.
+        ValueError: If the string contains a zero character, which would end it early.
     """
     raw = text.encode()
     if b"\x00" in raw:
@@ -143,10 +143,10 @@ def text_bytes(text: str) -> bytes:
 
 
 def read_text(raw: bytes) -> str:
-    """Return the text of a CDR string's bytes, final zero included.
+    """Return the text of a CDR string; `raw` includes the final zero.
 
     Raises:
-        MalformedMessage: If it is none.
+        MalformedMessage: If the bytes are not a CDR string.
     """
     if raw and raw[-1] != 0:
         raise MalformedMessage("string", "a text does not end with its zero byte")
@@ -170,7 +170,7 @@ class Writer(bytearray):
     when everything is joined.
 
     Attributes:
-        before: Bytes in front of those it holds.
+        before: Number of bytes before the current bytearray.
         parts: Parts of the message so far.
     """
 
@@ -186,7 +186,7 @@ class Writer(bytearray):
         """Append a text.
 
         Raises:
-            ValueError: If the layout ends texts with zero and it holds one.
+            ValueError: If the layout ends strings with zero and the text contains a zero character.
         """
         raw = text_bytes(text) if layout.texts_end_with_zero else text.encode()
         self += bytes(-(self.before + len(self)) % layout.word) + _LENGTH.pack(len(raw)) + raw
@@ -256,7 +256,7 @@ class Reader:
         return count
 
     def admit(self, items: int) -> None:
-        """Add to the number of allowed list items."""
+        """Add to the number of list items that may still be read."""
         self._items += items
         if self._items > MOST_ITEMS:
             raise MalformedMessage(

@@ -1,4 +1,4 @@
-"""The native scan of recorded messages, where it was built; see `tftool.base.native`."""
+"""The native scan of recorded messages, if it was built; see `tftool.base.native`."""
 
 from typing import Any, Final
 

@@ -28,7 +28,7 @@ def value_of(message: Any) -> Any:
     """Return the Python value of an rcl_interfaces ParameterValue; None if not set.
 
     Raises:
-        ValueError: If its type is none that ROS 2 knows.
+        ValueError: If ROS 2 has no such type of value.
     """
     if message.type >= len(FIELDS):
         raise ValueError(f"{message.type} is no known type of a parameter")
@@ -38,7 +38,7 @@ def value_of(message: Any) -> Any:
 
 
 def value_message(value: Any, number: int) -> Any:
-    """Return the rcl_interfaces ParameterValue of a typed value; of None one that is not set."""
+    """Return the rcl_interfaces ParameterValue of a typed value; of None, a value that is not set."""
     message: Any = INTERFACES.message("rcl_interfaces/ParameterValue")(type=number)
     field = FIELDS[number]
     if field is not None and value is not None:
@@ -50,9 +50,9 @@ def list_result(names: Iterable[str], prefixes: Sequence[str], depth: int) -> An
     """Return the ListParametersResult of the names below some prefixes.
 
     Args:
-        names: The parameters there are.
-        prefixes: Names, and prefixes before a dot; all parameters without one.
-        depth: How many levels below a prefix to list, 0 for all.
+        names: All parameters.
+        prefixes: Names, or prefixes that end before a dot; an empty list selects all parameters.
+        depth: Number of levels below a prefix to list; 0 for all levels.
     """
     starts = [f"{one}." for one in prefixes] or [""]
 

@@ -1,11 +1,11 @@
 """Parsed definitions: fields of each interface, and structures derived from it.
 
-A service consists of a request and a response, an action of the messages of three services. ROS 2
-derives these, and an event for every service, from the definition. Each is a `Structure` with its
-own name: "std_srvs/srv/SetBool_Request".
+A service consists of a request and a response; an action consists of three services and two
+messages. ROS 2 derives these structures, and an event for every service, from the definition. Each
+`Structure` has its own name, such as "std_srvs/srv/SetBool_Request".
 
-Definitions are those of ROS 2, included in tftool, those of a workspace, and those in a recording,
-of ROS 1 or ROS 2.
+Definitions come from three places: ROS 2's own are included in tftool; others come from a
+workspace, or from a recording of ROS 1 or ROS 2.
 """
 
 import re
@@ -67,12 +67,12 @@ class FieldDefinition:
     """One field of a structure.
 
     Attributes:
-        name: Its name.
-        type: Its element's type: a primitive, or a structure's full name.
+        name: Name of the field.
+        type: Type of the field or of its elements: a primitive, or a structure's full name.
         size: None for a single value, a number for a fixed array, -1 for a sequence.
-        bound: The most elements a bounded sequence may hold, None without a bound.
-        text_bound: The most characters of a bounded text, None without a bound.
-        default: The text after the name, if any.
+        bound: Maximum length of a bounded sequence; None without a bound.
+        text_bound: Maximum number of characters of a bounded string; None without a bound.
+        default: Text of the default value; None without a default.
     """
 
     name: str
@@ -102,7 +102,7 @@ def full_name(name: str) -> str:
     """Return an interface's full name: "std_msgs/msg/String" for "std_msgs/String".
 
     Raises:
-        InputError: If it cannot be the name of an interface.
+        InputError: If the text cannot be an interface's name.
     """
     found = _NAME.fullmatch(name)
     if found is None:
@@ -115,7 +115,7 @@ def full_name(name: str) -> str:
 class Schema:
     """Structures of every interface by name, parsed on first use.
 
-    Definitions of a workspace's own packages can be added, and those of a recording.
+    Definitions of a workspace's packages, and of a recording, can be added.
     """
 
     def __init__(self) -> None:
@@ -133,12 +133,12 @@ class Schema:
 
         Args:
             full: The type's full name.
-            text: Its definition as in a .msg or .srv file; definitions of the types it is made
-                of may follow, each behind a line of '=' and a line "MSG: package/Name".
+            text: The definition as in a .msg or .srv file. Definitions of nested types may follow,
+                each after a line of '=' and a line "MSG: package/Name".
 
         Returns:
-            Whether they are in use now; False if a structure was read before whose
-            definition differs, as where two releases recorded into one file.
+            Whether the definitions are in use now. False if a structure with another definition was
+            parsed before, for example if two releases recorded into one file.
 
         Raises:
             InputError: If a definition is wrong, or in IDL.
@@ -208,7 +208,7 @@ class Schema:
         """Return a structure by its full name.
 
         Raises:
-            InputError: If there is nothing with that name, or its definition is wrong.
+            InputError: If there is no structure with that name, or its definition is wrong.
         """
         found = self._read.get(full)
         if found is None:
@@ -279,7 +279,7 @@ def _sections(full: str, text: str) -> dict[str, str]:
 
 
 def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Structure:
-    """Parse one definition; `recorded` ones with ROS 1 types by ROS 1's rules."""
+    """Parse one definition; a recorded definition with ROS 1 types follows ROS 1's rules."""
     fields: list[FieldDefinition] = []
     constants: list[tuple[str, str, str]] = []
     for raw in text.splitlines():

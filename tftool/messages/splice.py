@@ -1,4 +1,4 @@
-"""Editing of single transforms in a recorded tf2_msgs/TFMessage; other bytes are kept."""
+"""Editing of single transforms in a recorded tf2_msgs/TFMessage; all other bytes are kept."""
 
 import struct
 from collections.abc import Sequence
@@ -19,10 +19,10 @@ class TransformRow(NamedTuple):
 
     Attributes:
         stamp: Nanoseconds.
-        parent: Name as it was sent.
-        child: Likewise.
+        parent: Name of the parent, as sent.
+        child: Name of the child, as sent.
         numbers: x y z in metres, and x y z w of the quaternion.
-        sequence: The number in its header; ROS 2 has none.
+        sequence: Sequence number of a ROS 1 header; 0 in ROS 2.
     """
 
     stamp: Stamp
@@ -36,8 +36,8 @@ class TransformRows:
     """A parsed TFMessage with the byte range of each transform.
 
     Attributes:
-        payload: Its bytes.
-        rows: Its transforms.
+        payload: Bytes of the message.
+        rows: Transforms of the message.
     """
 
     __slots__ = ("_layout", "_walked", "payload", "rows")
@@ -46,7 +46,7 @@ class TransformRows:
         """Parse the message.
 
         Raises:
-            MalformedMessage: If the bytes are none.
+            MalformedMessage: If the bytes are not a TFMessage.
         """
         self._layout = layout
         self.payload = payload
@@ -61,7 +61,7 @@ class TransformRows:
         return TransformRow(stamp, place.parent, place.child, numbers, sequence)
 
     def rewritten(self, rows: Sequence[TransformRow]) -> bytes:
-        """Return the message with other transforms.
+        """Return the bytes of the message with other transforms.
 
         If only stamps and numbers differ, everything else is kept bit by bit.
 

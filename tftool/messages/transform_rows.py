@@ -1,8 +1,9 @@
-"""Bulk decoding of recorded tf2_msgs/TFMessages: equal layouts as table rows in numpy.
+"""Fast decoding of many recorded tf2_msgs/TFMessages as rows of a numpy table.
 
-A publisher sends the same frames again and again: its messages differ only in stamps and numbers,
-at fixed places. One message is parsed in Python; for others of the same length, only equality of
-the remaining words is checked.
+A publisher sends the same frames again and again: its messages have equal lengths and names, and
+differ only in stamps and numbers. Python parses the first message and notes the byte positions of
+stamps and numbers. A later message of the same length is not parsed: numpy only checks that all its
+other bytes equal those of the first message.
 """
 
 import struct
@@ -43,10 +44,10 @@ class Place:
     """Byte positions of one transform in a message.
 
     Attributes:
-        parent: Name as it was sent.
-        child: Likewise.
-        stamp: Byte at which its stamp begins, two words of 4 bytes.
-        numbers: Byte at which its seven doubles begin.
+        parent: Name of the parent, as sent.
+        child: Name of the child, as sent.
+        stamp: Offset of the stamp, two words of 4 bytes.
+        numbers: Offset of the seven doubles.
     """
 
     parent: str
@@ -60,10 +61,9 @@ class Walked:
     """Transforms found in one message.
 
     Attributes:
-        order: Its byte order, as `struct` writes it.
-        places: Its transforms.
-        fixed: Places of the bytes that are equal in every message of its kind, as
-            (begin, end).
+        order: Byte order of the message, in `struct`'s notation.
+        places: Byte positions of each transform.
+        fixed: Ranges (begin, end) of the bytes that are equal in all messages with the same frames.
     """
 
     order: str
@@ -75,7 +75,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
     """Find the transforms of a message.
 
     Raises:
-        MalformedMessage: If the bytes are not one.
+        MalformedMessage: If the bytes are not a TFMessage.
     """
     is_cdr = layout is CDR
     order = _byte_order(payload) if is_cdr else "<"
@@ -149,9 +149,9 @@ def row_span(layout: Layout, length: int) -> tuple[int, int]:
     """Return the row length for a message of that length, in whole words.
 
     Returns:
-        Offset of the row from the first byte of the message, and its length. Rows begin
-        before the message: ROS 1's up to 7 bytes; ROS 2's 4, so that its doubles, which lie on
-        a grid of 8 behind the header, do so in the row.
+        Offset of the row from the first byte of the message, and its length. A row begins before
+            its message, so that the doubles of the message are aligned to 8 bytes in the row: 4
+            bytes before for ROS 2, up to 7 bytes for ROS 1.
     """
     if layout is CDR:
         return -4, (length + 4) & ~7
@@ -164,11 +164,11 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
 
     Args:
         buffer: Buffer with the rows.
-        starts: Offset of each, shape (n,), all of it within the buffer.
+        starts: Offset of each row, shape (n,); every row is within the buffer.
         width: Bytes of a row, a multiple of 8.
 
     Returns:
-        Shape (n, width / 8).
+        The rows as 64-bit words, shape (n, width / 8).
     """
     # As single items of that many bytes: numpy then copies a row in one go.
     items: npt.NDArray[np.void] = np.ndarray(
@@ -178,7 +178,7 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
 
 
 def _items(rows: npt.NDArray[Any], begin: int, size: int) -> npt.NDArray[np.void]:
-    """Return a byte slice of every row as one item each, which numpy copies in one step."""
+    """Return a byte range of every row as one item per row, which numpy copies in one step."""
     return np.ndarray(
         (len(rows),), f"V{size}", buffer=rows.data, offset=begin, strides=rows.strides[:1]
     )
@@ -188,7 +188,7 @@ class Template:
     """Common part of all messages of one layout, length and set of frames.
 
     Attributes:
-        places: Its transforms.
+        places: Byte positions of each transform.
     """
 
     __slots__ = ("_begin", "_masks", "_values", "_words", "places")
@@ -210,7 +210,7 @@ class Template:
         self._values = row.view(np.uint64)[self._words]
 
     def value(self, word: int, mask: int) -> int:
-        """Return a word's value, as far as all its rows share it.
+        """Return the value of a word in the bytes that are equal in all rows.
 
         Returns:
             The word under the mask; -1 if the covered bytes may differ.
@@ -221,11 +221,15 @@ class Template:
         return int(self._values[place]) & mask if int(self._masks[place]) & mask == mask else -1
 
     def constants(self) -> list[tuple[int, int]]:
-        """Return the words that are equal in all rows, at least in part, with a mask."""
+        """Return the words that are equal in all rows, at least in part: the word's index and a
+        mask.
+        """
         return list(zip(self._words.tolist(), self._masks.tolist(), strict=True))
 
     def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
-        """Return the rows with the template's frames, shape (n,); None if all have them."""
+        """Return a mask of the rows with the template's frames, shape (n,); None if all rows have
+        them.
+        """
         apart = rows.take(self._words, axis=1)
         apart ^= self._values
         apart &= self._masks

@@ -1,6 +1,6 @@
 """Fast serialiser of tf2_msgs/TFMessage, which makes up most of a session's traffic.
 
-Results equal those of the general codec, at a fraction of the cost; large messages can be read as
+The bytes equal those of the general codec, at a fraction of the cost. Large messages can be read as
 arrays, without an object for each transform.
 """
 
@@ -39,8 +39,8 @@ def encode_transforms(transforms: Sequence[TransformStamped]) -> bytes:
     """Return the bytes of a tf2_msgs/TFMessage.
 
     Raises:
-        MalformedMessage: If a stamp does not fit into ROS's 32-bit seconds, or a name
-            holds a zero character.
+        MalformedMessage: If a stamp does not fit into ROS's 32-bit seconds, or a name contains a
+            zero character.
     """
     parts = [CDR.header, _LENGTH.pack(len(transforms))]
     # Behind the count the first transform starts 4 bytes off the grid of 8, and every
@@ -67,7 +67,7 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
     """Return the transforms of a tf2_msgs/TFMessage.
 
     Raises:
-        MalformedMessage: If the bytes are not one.
+        MalformedMessage: If the bytes are not a TFMessage.
     """
     count = _count_of_transforms(payload)
     size = len(payload)
@@ -149,7 +149,7 @@ def decode_columns(payload: bytes) -> TransformColumns:
     """Return the transforms of a large tf2_msgs/TFMessage as arrays.
 
     Raises:
-        MalformedMessage: If the bytes are not one.
+        MalformedMessage: If the bytes are not a TFMessage.
     """
     import numpy as np
 
@@ -197,7 +197,7 @@ def _skim_name(payload: bytes, words: "memoryview[int]", word: int, names: list[
 
 
 def _head(key: tuple[str, str, int]) -> bytes:
-    """Return both names with lengths, padded up to the first double."""
+    """Return the bytes of both names with their lengths, padded up to the first double."""
     parent, child, phase = key
     head = _text(parent)
     head += bytes(-len(head) % 4) + _text(child)

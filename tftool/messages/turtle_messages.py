@@ -56,7 +56,7 @@ def pose(
 
 
 def planar_velocity(message: Any) -> Twist2D:
-    """Return the three numbers of a Twist that turtlesim uses."""
+    """Return the planar velocity of a Twist: the three numbers that turtlesim uses."""
     linear = message.linear
     return Twist2D(linear.x, message.angular.z, linear.y)
 

@@ -12,11 +12,11 @@ class Gains:
 
     Attributes:
         kp: Output per unit of error.
-        ki: Output per unit of error kept up for a second.
-        kd: Output per unit of error gained in a second.
-        integral_limit: Bound on the size of the integral's share of the output; None for no limit.
-        output_limit: Bound on the size of the output; None for no limit. While the
-            output is held at the bound, the integral does not grow against it.
+        ki: Output per unit of error that lasts for one second.
+        kd: Output per unit by which the error grows in one second.
+        integral_limit: Bound on the size of the integral term of the output; None for no limit.
+        output_limit: Bound on the size of the output; None for no limit. While the output is
+            limited, the integral does not grow further in that direction.
     """
 
     kp: float
@@ -72,11 +72,11 @@ def step(
 ) -> tuple[float, PidState]:
     """Update a controller with one measurement; return its output and new state.
 
-    The derivative is that of the measurement, so that a jump of the setpoint has no effect on it;
-    before the second step it is 0.
+    The derivative term uses the measurement, not the error, so that a jump of the setpoint does not
+    affect it. The derivative is 0 at the first step.
 
     Args:
-        gains: How to answer.
+        gains: Gains and limits of the controller.
         memory: State after the previous step; `FRESH` at first.
         measured: Measured value.
         interval: Seconds since the previous step, above zero.

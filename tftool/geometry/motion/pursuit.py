@@ -61,15 +61,15 @@ def steer(
     """Return the velocity command towards a goal.
 
     Args:
-        law: How to steer.
+        law: The control law.
         memory: State after the previous step; `FRESH` at first.
         x: Distance of the goal ahead, in metres.
         y: Distance of the goal to the left, in metres.
         interval: Seconds since the previous step.
 
     Returns:
-        The command, and the new state. Within the dead band the command is to
-        stop, and the state is dropped.
+        The command, and the new state. Within the dead band the command is zero, and the state is
+        reset.
     """
     distance = math.hypot(x, y)
     if distance < law.dead_band:

@@ -58,8 +58,9 @@ class Turning(NamedTuple):
     """Result of one update of the rotate action.
 
     Attributes:
-        remaining: Angle still to go, the short way, in rad.
-        delta: Start minus now, in rad: a left turn counts as negative, as in turtlesim.
+        remaining: Remaining angle to the goal, the short way, in rad.
+        delta: Start heading minus present heading, in rad: negative for a left turn, as in
+            turtlesim.
         speed: Turn rate to use, in rad/s; 0 when done.
         done: True when less than the tolerance remains.
     """
@@ -140,7 +141,7 @@ def float32_finite(value: float, what: str) -> float:
     """Round a request's number to 32 bits, or refuse it.
 
     Args:
-        value: The number as it came in.
+        value: The number of the request.
         what: Name of the number in the error message.
 
     Raises:

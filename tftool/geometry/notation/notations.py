@@ -27,17 +27,17 @@ Numbers: TypeAlias = Sequence[float]
 
 @dataclass(frozen=True, slots=True)
 class Notation:
-    """One notation; angles are radians here.
+    """One notation of a rotation; angles are in radians.
 
     Attributes:
-        title: Its title beside its numbers.
-        count: How many numbers it has.
-        plain: How many of them, from the first on, are not angles.
-        read: Makes a quaternion of its numbers, in xyzw order.
-        write: Makes its numbers of a unit quaternion.
-        as_object: Its entries in JSON; empty where another notation says the same.
-        read_as: Its name as an input; its title if empty.
-        aliases: Other words that name it in a text.
+        title: Title that is printed beside the numbers.
+        count: Number of values in the notation.
+        plain: Number of values at the beginning that are not angles.
+        read: Function that converts the values to a quaternion in xyzw order.
+        write: Function that converts a unit quaternion to the values.
+        as_object: Keys of the values in JSON; empty if another notation has the same values.
+        read_as: Name of the notation as an input; the title if empty.
+        aliases: Other words that name the notation in a text.
         wraps: Whether an angle of more than a full turn is likely a mistake.
     """
 

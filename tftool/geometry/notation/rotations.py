@@ -69,8 +69,8 @@ class Written:
 
     Attributes:
         transform: The pose; its quaternion of unit length.
-        has_translation: Whether the text said where, too.
-        form: Name of the notation that was recognised.
+        has_translation: Whether the text contains a translation.
+        form: Name of the recognised notation.
         notes: Oddities, as sentences.
     """
 
@@ -86,11 +86,11 @@ def read(text: str, form: str | None = None, *, degrees: bool = False) -> Writte
     Args:
         text: The pasted text.
         form: Notation of bare numbers, one of `FORMS`; None to recognise it from the text.
-        degrees: Whether angles are degrees; the text may say so itself. What URDF and
-            static_transform_publisher's lines hold are radians whatever is said.
+        degrees: Whether angles are in degrees; the text itself may name the unit. Angles of URDF
+            and of static_transform_publisher are always radians.
 
     Raises:
-        UsageError: If it is none, or may be one of several.
+        UsageError: If the text has no known notation, or fits several notations.
     """
     if len(text) > LONGEST:
         raise UsageError(f"That text is longer than {LONGEST} characters: paste one rotation.")
@@ -111,7 +111,7 @@ def _listed() -> str:
 
 
 def _publisher(text: str, _degrees: bool) -> Written | None:
-    """Parse a static_transform_publisher command, also of ROS 1."""
+    """Parse a static_transform_publisher command of ROS 2 or ROS 1."""
     if "static_transform_publisher" not in text and not re.search(
         r"(?<!\S)--(q?[xyz]|qw|roll|pitch|yaw|(child-)?frame-id)(?=[\s=])", text
     ):

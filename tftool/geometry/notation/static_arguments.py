@@ -35,12 +35,12 @@ class StaticArguments:
     """One static transform as given on the command line.
 
     Attributes:
-        transform: The pose of `child` in `parent`; its quaternion exactly as it was given.
-        parent: Frame the transform starts from, as written.
-        child: Frame it leads to, as written.
-        old_style: Whether the numbers came without names.
-        rotation: How the turn was said.
-        angles: Roll, pitch and yaw in radians as they were given; zeros for a quaternion.
+        transform: The pose of `child` in `parent`; the quaternion is exactly as given.
+        parent: The parent frame, as written.
+        child: The child frame, as written.
+        old_style: Whether the numbers were given without option names.
+        rotation: Notation of the rotation in the arguments.
+        angles: Roll, pitch and yaw in radians, as given; zeros for a quaternion.
     """
 
     transform: Transform
@@ -59,7 +59,7 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
     words `x y z yaw pitch roll parent child`; or nine, `x y z qx qy qz qw parent child`.
 
     Returns:
-        The parsed arguments; None if they ask for help.
+        The parsed arguments; None if help is requested.
 
     Raises:
         UsageError: With tf2's own text and a remedy.
@@ -110,18 +110,18 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
 
 
 def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
-    """Parse a whole shell line, also of ROS 1's publisher.
+    """Parse a whole shell line, of ROS 2's or ROS 1's publisher.
 
     Args:
-        line: The line; the part after "static_transform_publisher", or all of it if that word is
-            not there.
-        frames: Parent and child where options leave them out.
+        line: The line. If it contains "static_transform_publisher", only the rest of the line is
+            parsed.
+        frames: Parent and child to use where the options do not name them.
 
     Returns:
-        The parsed arguments; None if it asks for help.
+        The parsed arguments; None if help is requested.
 
     Raises:
-        UsageError: If it cannot be read.
+        UsageError: If the line cannot be parsed.
     """
     try:
         words = shlex.split(line.replace("\\\n", " "), comments=True)

@@ -1,4 +1,4 @@
-"""One transform as text for others: URDF's origin, static_transform_publisher's options."""
+"""One transform as text for other programs: URDF's origin, static_transform_publisher's options."""
 
 from tftool.geometry.conversions import precise_rpy_from_quaternion
 from tftool.geometry.rigid import Transform
