@@ -149,7 +149,7 @@ def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]
 
 
 def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, float]:
-    """Return the unit axis and the angle, radians from 0 to π; the x axis if there is no rotation."""
+    """Return the unit axis and the angle, radians from 0 to π; the x axis for no rotation."""
     x, y, z, w = quaternions.unit(_quad(quaternion))
     if w < 0.0:
         x, y, z, w = -x, -y, -z, -w

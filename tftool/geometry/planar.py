@@ -22,7 +22,9 @@ def heading(transform: Transform) -> float:
 
 
 def bearing(transform: Transform) -> float:
-    """Return the direction of the child frame's origin in the plane, radians; 0 at zero distance."""
+    """Return the direction of the child frame's origin, radians in the plane; 0 at zero
+    distance.
+    """
     return math.atan2(transform.translation.y, transform.translation.x)
 
 

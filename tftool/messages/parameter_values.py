@@ -38,7 +38,7 @@ def value_of(message: Any) -> Any:
 
 
 def value_message(value: Any, number: int) -> Any:
-    """Return the rcl_interfaces ParameterValue of a typed value; of None, a value that is not set."""
+    """Return the rcl_interfaces ParameterValue of a value; for None, a value that is not set."""
     message: Any = INTERFACES.message("rcl_interfaces/ParameterValue")(type=number)
     field = FIELDS[number]
     if field is not None and value is not None:
