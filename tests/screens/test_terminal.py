@@ -13,9 +13,12 @@ from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.drawing import theme
 from tftool.geometry.rigid import Transform
+from tftool.messages.classes import build
+from tftool.messages.turtle_messages import Kill
 from tftool.screens.terminal.screen_options import Setting, setting_from
 from tftool.screens.terminal.turtle_app import TurtleApp
 from tftool.screens.terminal.world_app import Panel, input_events
+from tftool.world.node import Node
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 
 BANNER = ("Reading from keyboard", "'q' to quit.")
@@ -261,6 +264,34 @@ def test_a_turtle_that_draws_by_itself_is_said_and_a_key_stops_it(turtles):
     assert "turtle1 draws by itself; a key stops it" in "\n".join(shown_before)
     assert "by itself;" not in "\n".join(shown_after)
     assert not idle.is_drawing
+
+
+def test_a_removed_turtle_is_not_said_to_draw(turtles):
+    drawing = []
+
+    class Script(Node):
+        async def run(self):
+            await self.clock.sleep(seconds(7.0))
+            await self.world.call("kill", build(Kill.Request, "turtle1"))
+
+    def remove(world):
+        drawing.append(IdleDrawing(world))
+        Script(world, "script")
+
+    scene = turtles(9.0, (), followed=False, extra=remove)
+    (idle,) = drawing
+
+    lines = []
+
+    async def main():
+        app = TurtleApp(scene, lambda key: None, Setting(), idle)
+        async with app.run_test(size=(100, 30)) as pilot:
+            await settled(pilot)
+            lines.extend(screen(app))
+
+    asyncio.run(main())
+    assert idle.is_drawing
+    assert "turtle1 draws by itself;" not in "\n".join(lines)
 
 
 def test_the_key_help_comes_and_goes(danced):

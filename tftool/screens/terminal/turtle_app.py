@@ -285,10 +285,11 @@ class TurtleApp(PanelApp):
         field.border_title = Content(
             panels.field_title(moment, is_chosen=bool(self._question.fixed))
         )
-        is_idle = self._idle is not None and self._idle.is_drawing
         told = ""
-        if is_idle and self._idle:
-            told = f"{self._idle.turtle} draws by itself"
+        idle = self._idle
+        turtles = {frame.name for frame in moment.picture.frames if frame.is_turtle}
+        if idle is not None and idle.is_drawing and idle.turtle in turtles:
+            told = f"{idle.turtle} draws by itself"
             told += "; a key stops it" if width > len(told) + 22 else ""
         field.border_subtitle = Content(told)
         if field.in_space:
