@@ -83,7 +83,7 @@ def test_what_makes_a_scenario_run_is_refused(tftool, file, word):
     result = tftool("demo", file, word)
 
     assert result.status == 2
-    assert "A recording does not move" in result.err
+    assert "The demo only displays a recording" in result.err
 
 
 def test_monitor_reports_a_whole_recording_at_once(tftool, file):

@@ -222,7 +222,7 @@ class Container(Protocol):
 
     @property
     def damage(self) -> list[str]:
-        """Return the damage as sentences; reading may find more."""
+        """Return the damage found so far, as sentences; reading on may find more damage."""
 
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
@@ -299,7 +299,7 @@ class File:
         while len(found) < count:
             more = os.pread(self._file.fileno(), count - len(found), place + len(found))
             if not more:
-                raise InputError(f"the file ends at byte {place + len(found)}: it was shortened")
+                raise InputError(f"the file ends at byte {place + len(found)}: it was truncated")
             found += more
         self.read += count
         return found
@@ -315,7 +315,7 @@ class File:
             while room:
                 found = os.preadv(self._file.fileno(), [room], place)
                 if not found:
-                    raise InputError(f"the file ends at byte {place}: it was shortened")
+                    raise InputError(f"the file ends at byte {place}: it was truncated")
                 room, place = room[found:], place + found
         else:
             room[:] = self.at(place, len(room))

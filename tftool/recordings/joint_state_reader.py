@@ -26,8 +26,9 @@ class RecordedJoints:
     """Joint states of a recording.
 
     Attributes:
-        states: One for each list of names that messages had, in the order they came up.
-        ignored: Messages that say no positions, and why, as sentences; how many of each.
+        states: Joint states grouped by the list of joint names in the messages, in the order in
+            which the lists were first seen.
+        ignored: Number of messages without positions, by the reason as a sentence.
     """
 
     states: tuple[JointStates, ...] = ()

@@ -24,7 +24,7 @@ def refuse_stdout(path: Path) -> None:
     """Refuse `-` as a file name: stdout is not supported.
 
     Raises:
-        UsageError: If it is that.
+        UsageError: If the file name is `-`.
     """
     if str(path) == "-":
         raise UsageError("'-' means stdout, to which this cannot be written: name a file.")

@@ -206,8 +206,8 @@ def run(
     if scenario is not None and named(scenario).kind.is_recording:
         if arguments or rate != 1.0 or lasting is not None or for_programs:
             raise UsageError(
-                "A recording does not move: leave out --set, --source-frame, --rate, --for and "
-                "--json. 'tftool play' plays it."
+                "The demo only displays a recording: leave out --set, --source-frame, --rate, "
+                "--for and --json. 'tftool play' plays it."
             )
         _show_recording(connection, scenario, ascii_only=ascii_only, light=light)
         return ExitStatus.DONE

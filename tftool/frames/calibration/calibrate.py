@@ -70,11 +70,13 @@ Trio = tuple[float | None, float | None, float | None]
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """Half-widths of a pose's 95 % interval; None along what the motion does not show.
+    """Half-widths of a pose's 95 % interval; None in directions that the motion does not determine.
 
     Attributes:
-        translation: Metres: of the mount along moving_a's axes, of the fixed one along fixed_a's.
-        rotation_deg: Degrees: about moving_b's axes, of the fixed one about fixed_b's.
+        translation: Metres; of the mount along the axes of moving_a, of the fixed mount along the
+            axes of fixed_a.
+        rotation_deg: Degrees; of the mount about the axes of moving_b, of the fixed mount about the
+            axes of fixed_b.
     """
 
     translation: Trio

@@ -81,7 +81,9 @@ def _aligned(target: Floats, source: Floats) -> Floats:
 
 
 def _weights(off: Floats) -> Floats:
-    """Return weights that errors above twice their median lose."""
+    """Return weights near 1 for small errors; an error of twice the median error gets weight
+    0.5.
+    """
     return np.asarray(1.0 / (1.0 + (off / max(2.0 * np.median(off), 1e-9)) ** 2))
 
 

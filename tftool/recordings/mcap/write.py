@@ -219,7 +219,7 @@ class McapWriter:
         return number
 
     def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
-        """Whether the schema numbers are free here, or mean the same."""
+        """Whether the schema ids are unused in this file, or already stand for the same schemas."""
         here = {number: key for key, number in self._schemas.items()}
         return all(
             here[number] == schema if number in here else number not in self._schema_records

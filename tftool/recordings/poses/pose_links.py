@@ -172,10 +172,11 @@ class PoseFile:
         return stamp
 
     def at_rate(self, link: PoseLink) -> None:
-        """Give a link's poses stamps by --pose-rate, the first one period after 0.
+        """Compute stamps for a link's poses from --pose-rate; the first stamp is one period after
+        0.
 
         Raises:
-            InputError: If there is no rate.
+            InputError: If --pose-rate was not given.
         """
         rate = self.options.pose_rate
         if rate is None:
@@ -188,7 +189,7 @@ class PoseFile:
         """Refuse a file with more poses than the limit.
 
         Raises:
-            InputError: If there are more.
+            InputError: If the file has more poses.
         """
         if len(link.numbers) > MOST_POSES * link.width:
             raise InputError(f"'{self.path}' has more than {MOST_POSES:,} poses: split it.")
@@ -197,7 +198,7 @@ class PoseFile:
         """Make a frame name from a text in the file.
 
         Raises:
-            InputError: If it is empty or too long.
+            InputError: If the name is empty, too long, or contains a zero character.
         """
         if not 0 < len(word.encode()) <= 4096 or "\0" in word:
             raise InputError(f"'{self.path}' has an invalid frame name: '{word[:40]}'.")

@@ -143,7 +143,7 @@ def _warn_of_unserved(owner: program.Program) -> None:
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:
-    """Wrap a program's body so that everything it leaves is destroyed at the end."""
+    """Wrap a program's body so that everything it leaves behind is destroyed when it ends."""
 
     def run() -> None:
         owner = program.current()

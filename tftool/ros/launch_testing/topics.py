@@ -50,7 +50,7 @@ class WaitForTopics:
         timeout: float = 5.0,
         messages_received_buffer_length: int | None = 10,
     ) -> None:
-        """Make a node of its own.
+        """Create a node that only this helper uses.
 
         Args:
             topic_tuples: The topics, each with the type of its messages.

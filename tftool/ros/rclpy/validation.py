@@ -43,7 +43,7 @@ def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
     """Return True for a valid topic (or service) name before expansion; else raise.
 
     Raises:
-        InvalidTopicNameException: If it cannot be a topic's.
+        InvalidTopicNameException: If the name is not a valid topic name.
         InvalidServiceNameException: If it cannot be a service's.
     """
     kind = InvalidServiceNameException if is_service else InvalidTopicNameException
@@ -54,7 +54,7 @@ def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
     """Return True for a valid full topic (or service) name; else raise.
 
     Raises:
-        InvalidTopicNameException: If it cannot be a topic's.
+        InvalidTopicNameException: If the name is not a valid topic name.
         InvalidServiceNameException: If it cannot be a service's.
     """
     kind = InvalidServiceNameException if is_service else InvalidTopicNameException

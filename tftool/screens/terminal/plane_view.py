@@ -19,10 +19,10 @@ ROOMY = 0.4
 
 
 class Camera:
-    """Keeps the view of the plane steady between pictures.
+    """Camera that keeps the view of the plane steady between pictures.
 
-    Fitted, it grows at once with what there is, and shrinks only when most of it is empty:
-    a picture that breathes cannot be read.
+    In fit mode the view grows immediately with its contents, but shrinks only when most of the view
+    is empty: a picture that changes its scale all the time cannot be read.
     """
 
     def __init__(self) -> None:

@@ -95,9 +95,9 @@ def test_python_opens_an_address(moving):
         (["echo", "a", "b", "ws://r:1", "--at", "3"], "which keeps no past"),
         (["doctor", "scenarios/turtles.yaml", "ws://r:1"], "two sources: name one at a time"),
         (["record", "-o", "x.mcap", "--in", "turtles", "ws://r:1"], "two sources"),
-        (["tree", "ws://:1"], "is no address of a server: write ws://HOST:8765"),
-        (["tree", "ws://robot:0"], "is no address of a server"),
-        (["tree", "ws://ro bot"], "is no address of a server"),
+        (["tree", "ws://:1"], "is not a server address: write ws://HOST:8765"),
+        (["tree", "ws://robot:0"], "is not a server address"),
+        (["tree", "ws://ro bot"], "is not a server address"),
         (["session", "run.mcap"], "'run.mcap' is no session that runs"),
     ],
 )

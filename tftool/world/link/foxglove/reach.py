@@ -38,7 +38,7 @@ class FoxgloveReach(Reach):
             return None
         found = _ADDRESS.fullmatch(word)
         if found is None or not 0 < int(found[1] or 1) < 65536:
-            raise UsageError(f"'{word}' is no address of a server: write ws://HOST:8765.")
+            raise UsageError(f"'{word}' is not a server address: write ws://HOST:8765.")
         return cls(word)
 
     @property
