@@ -292,7 +292,7 @@ function pathsTo(at) {
   past.look(fixed, frames.map(({ name }) => name), from, until, reach.newest, rate);
   return frames.map((frame) => {
     const line = trail(model, frame, choices, at, past.trail(frame.name, from, at));
-    if (whole) line.ahead = past.trail(frame.name, at, until) ?? [];
+    if (whole) line.ahead = past.trail(frame.name, at, until);
     return line;
   });
 }

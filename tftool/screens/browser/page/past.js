@@ -93,17 +93,21 @@ export class Past {
   }
 
   /**
-   * Where a frame was, oldest first; null while a piece of it has not come.
+   * Where a frame was, oldest first, as far back as every piece has come. What the page was sent
+   * of other moments is no stand-in: after a jump, it would show a path that was looked at before.
    * @param {string} name
    * @param {number} from
    * @param {number} until
-   * @returns {number[][] | null}
+   * @returns {number[][]}
    */
   trail(name, from, until) {
-    const points = [];
+    let points = [];
     for (let number = Math.floor(from / this.long); number * this.long <= until; number++) {
       const places = this.pieces.get(number)?.known.get(name);
-      if (!places) return null;
+      if (!places) {
+        points = [];
+        continue;
+      }
       const step = this.long / (places.length - 1);
       // The last place of a piece is the first of the next.
       for (let at = 0; at < places.length - 1; at++) {
