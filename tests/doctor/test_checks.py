@@ -118,6 +118,20 @@ def test_two_values_at_one_stamp_are_two_publishers_however_near():
     conflict = found(few, "publisher-conflict")
     assert (conflict.severity, conflict.confidence) == (Severity.WARNING, Confidence.POSSIBLE)
     assert [fix.text.split(":")[0] for fix in conflict.fixes] == ["find its publishers"]
+    assert "ros2 topic info /tf " in conflict.fixes[0].text
+
+
+def test_publishers_of_odometry_are_looked_for_on_its_topic():
+    made = robot()
+    made.odometry = Robot()
+    made.odometry.moving("odom", "base_link", topic="/odom")
+    for at in (2.0, 5.0):
+        shifted = (0.5 * at + 0.04, 0.0, 0.0, *NO_TURN)
+        made.odometry.sent("odom", "base_link", at, shifted, topic="/odom")
+
+    conflict = found(made, "publisher-conflict")
+
+    assert "ros2 topic info /odom " in conflict.fixes[0].text
 
 
 @pytest.mark.parametrize("speed", [15.0, 40.0])

@@ -209,7 +209,10 @@ def _values_at_one_stamp(track: Track, limits: Limits) -> Hit | None:
     hit = _conflict(track, ("A", "B"), owned, sure)
     hit = replace(hit, facts={**hit.facts, "told": f"{hit.count:,} stamps carry two values"})
     if sure is Confidence.POSSIBLE:
-        hit = replace(hit, fixes=(Fix("find its publishers: `ros2 topic info /tf --verbose`"),))
+        topic = track.topics[0] if track.topics else "/tf"
+        hit = replace(
+            hit, fixes=(Fix(f"find its publishers: `ros2 topic info {topic} --verbose`"),)
+        )
     return hit
 
 
