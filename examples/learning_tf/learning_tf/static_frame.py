@@ -1,4 +1,4 @@
-"""Say once where a frame is that never moves: a shelf, one metre above the world's corner."""
+"""Publish a static frame once: a shelf, one metre above the world's corner."""
 
 import rclpy
 from geometry_msgs.msg import TransformStamped

@@ -30,7 +30,7 @@ class TurtleFollower(Node):
             return
 
         try:
-            # Target first, source second; Time() is the latest moment that is known of both.
+            # Target first, source second; Time() asks for the latest time at which both are known.
             found = self.buffer.lookup_transform("turtle2", self.goal, Time())
         except TransformException as refused:
             self.get_logger().info(f"waiting: {refused}")
