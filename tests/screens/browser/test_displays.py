@@ -190,6 +190,20 @@ def test_a_marker_with_a_lifetime_ends_and_one_that_cannot_be_drawn_is_named():
     assert second.faults == ("no drawing for markers of type 10",)
 
 
+def test_of_too_many_markers_and_places_so_many_are_drawn_as_have_room():
+    many = [marker_of(CLASSES, number, CUBE) for number in range(2100)]
+    drawn = markers.draw(markers_of(CLASSES, *many), Arrival(0))
+    assert (len(drawn.shapes), drawn.shapes[-1].key) == (2000, "test/2099")
+    assert drawn.faults == ("more than 2,000 markers: the newest are drawn",)
+
+    places = [(float(number), 0, 0) for number in range(30)]
+    for kind, left in ((LIST, [0, 3, 6, 9, 12, 15, 18, 21, 24, 27]), (11, [0, 1, 2, 3, 4, 5])):
+        large = markers_of(CLASSES, marker_of(CLASSES, 1, kind, points=places))
+        (shape,) = markers.draw(large, Arrival(0, most=10)).shapes
+        assert shape.places[:, 0].tolist() == left
+        assert len(shape.colors) == len(left)
+
+
 def test_an_arrow_points_from_its_first_place_to_its_second():
     scale = CLASSES.new_message("geometry_msgs/msg/Vector3")
     scale.x, scale.y, scale.z = 0.1, 0.2, 0.5

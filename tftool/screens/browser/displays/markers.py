@@ -27,6 +27,9 @@ SINGLE: Final = "visualization_msgs/msg/Marker"
 
 DELETE, DELETE_ALL = 2, 3
 
+MOST_SHAPES: Final = 2000
+"""Shapes of one topic; a page draws more of them too slowly."""
+
 HEAD: Final = 0.23
 """Share of an arrow that is its head, as rviz draws it."""
 
@@ -83,8 +86,10 @@ def draw(message: Any, arrival: Arrival) -> DrawnMessage:
                     (stamp or arrival.stamp) + lifetime if lifetime > 0 else None,
                 ).thinned(arrival.most)
             )
-    alive = tuple(one for one in shapes if one.until is None or one.until > moment)
-    return DrawnMessage(moment, alive, tuple(dict.fromkeys(faults)))
+    alive = [one for one in shapes if one.until is None or one.until > moment]
+    if len(alive) > MOST_SHAPES:
+        faults.append(f"more than {MOST_SHAPES:,} markers: the newest are drawn")
+    return DrawnMessage(moment, tuple(alive[-MOST_SHAPES:]), tuple(dict.fromkeys(faults)))
 
 
 def _single(kind: str) -> Callable[[Any], Iterator[Part]]:

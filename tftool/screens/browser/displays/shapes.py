@@ -50,9 +50,16 @@ class Shape:
     placement: tuple[str | None, list[float] | None] | None = None
 
     def thinned(self, most: int) -> "Shape":
-        """Return the shape with at most `most` positions if it is a cloud of points or a line."""
-        if self.kind not in ("points", "line") or len(self.places) <= most:
+        """Return the shape with at most `most` positions: every second one, or every third.
+
+        Where several positions are one line or triangle, the first ones.
+        """
+        if len(self.places) <= most:
             return self
+        if self.kind in ("segments", "triangles"):
+            most -= most % 6
+            colors = None if self.colors is None else self.colors[:most]
+            return replace(self, places=self.places[:most], colors=colors)
         every = -(-len(self.places) // most)
         colors = None if self.colors is None else self.colors[::every]
         return replace(self, places=self.places[::every], colors=colors)
@@ -78,7 +85,7 @@ class DrawnMessage:
         return sum(len(shape.places) for shape in self.shapes)
 
     def thinned(self, most: int) -> "DrawnMessage":
-        """Return the message with at most `most` positions in each cloud of points or line."""
+        """Return the message with at most `most` positions in each shape."""
         return replace(self, shapes=tuple(shape.thinned(most) for shape in self.shapes))
 
 
