@@ -34,6 +34,7 @@ class Robot(foxglove.websocket.ServerListener):
         self.context = foxglove.Context()
         self.kept = {}
         self.subscribed = []
+        self.lock = threading.Lock()
         self.server = foxglove.start_server(
             host="127.0.0.1",
             port=port,
@@ -47,9 +48,10 @@ class Robot(foxglove.websocket.ServerListener):
         self.address = f"ws://127.0.0.1:{self.port}"
 
     def on_subscribe(self, client, channel):
-        self.subscribed.append(channel.topic)
-        for topic, payload in self.kept.get(channel.topic, ()):
-            topic.log(payload)
+        with self.lock:
+            self.subscribed.append(channel.topic)
+            for topic, payload in self.kept.get(channel.topic, ()):
+                topic.log(payload)
 
     def topic(self, name, ros_type=TF, *, encoding="cdr", definition="", schema_encoding="ros2msg"):
         schema = foxglove.Schema(name=ros_type, encoding=schema_encoding, data=definition.encode())
@@ -58,7 +60,11 @@ class Robot(foxglove.websocket.ServerListener):
         )
 
     def keep(self, topic, payload):
-        self.kept.setdefault(topic.topic(), []).append((topic, payload))
+        # A client may subscribe before or after this: either way it gets the message once.
+        with self.lock:
+            self.kept.setdefault(topic.topic(), []).append((topic, payload))
+            if topic.topic() in self.subscribed:
+                topic.log(payload)
 
     def stop(self):
         self.server.stop()
