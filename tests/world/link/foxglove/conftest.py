@@ -34,6 +34,7 @@ class Robot(foxglove.websocket.ServerListener):
         self.context = foxglove.Context()
         self.kept = {}
         self.subscribed = []
+        self.channels = {}
         self.lock = threading.Lock()
         self.server = foxglove.start_server(
             host="127.0.0.1",
@@ -48,16 +49,29 @@ class Robot(foxglove.websocket.ServerListener):
         self.address = f"ws://127.0.0.1:{self.port}"
 
     def on_subscribe(self, client, channel):
+        # The SDK calls this a moment before messages of the channel reach the client.
+        threading.Thread(target=self.subscribe, args=(channel.id,), daemon=True).start()
+
+    def subscribe(self, number):
+        for _ in range(10_000):
+            if number in self.channels and self.channels[number].has_sinks():
+                break
+            time.sleep(0.001)  # noqa: TID251
+        topic = self.channels[number].topic()
         with self.lock:
-            self.subscribed.append(channel.topic)
-            for topic, payload in self.kept.get(channel.topic, ()):
-                topic.log(payload)
+            self.subscribed.append(topic)
+            for channel, payload in self.kept.get(topic, ()):
+                channel.log(payload)
 
     def topic(self, name, ros_type=TF, *, encoding="cdr", definition="", schema_encoding="ros2msg"):
         schema = foxglove.Schema(name=ros_type, encoding=schema_encoding, data=definition.encode())
-        return foxglove.Channel(
-            name, message_encoding=encoding, schema=schema, context=self.context
+        return self.offer(
+            foxglove.Channel(name, message_encoding=encoding, schema=schema, context=self.context)
         )
+
+    def offer(self, channel):
+        self.channels[channel.id()] = channel
+        return channel
 
     def keep(self, topic, payload):
         # A client may subscribe before or after this: either way it gets the message once.

@@ -73,9 +73,13 @@ def test_a_late_joiner_gets_every_static_transform(robots):
 def test_protobuf_of_foxglove_is_heard_from_any_topic(robots):
     async def scene():
         robot = robots()
-        many = foxglove.channels.FrameTransformsChannel("/world/frames", context=robot.context)
-        one = foxglove.channels.FrameTransformChannel("/tf", context=robot.context)
-        still = foxglove.channels.FrameTransformsChannel("/arm/tf_static", context=robot.context)
+        many = robot.offer(
+            foxglove.channels.FrameTransformsChannel("/world/frames", context=robot.context)
+        )
+        one = robot.offer(foxglove.channels.FrameTransformChannel("/tf", context=robot.context))
+        still = robot.offer(
+            foxglove.channels.FrameTransformsChannel("/arm/tf_static", context=robot.context)
+        )
         with joined(robot.address) as (world, link):
             await subscribed(robot, "/world/frames", "/tf", "/arm/tf_static")
             many.log(

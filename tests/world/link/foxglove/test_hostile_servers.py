@@ -215,6 +215,46 @@ def test_a_wrong_definition_is_named_and_other_topics_are_read(definition, said)
     assert said in found
 
 
+@pytest.mark.parametrize(
+    "refusal", ["Unknown channel ID: 1", "Channel 1 is not available; ignoring subscription"]
+)
+def test_a_refused_subscription_is_asked_for_again(refusal):
+    def script(connection):
+        connection.send(INFO)
+        connection.send(advertised(channel()))
+        connection.recv()
+        connection.send(json.dumps({"op": "status", "level": 2, "message": refusal}))
+        again = json.loads(connection.recv())["subscriptions"]
+        assert [one["channelId"] for one in again] == [1]
+        connection.send(good(again[0]["id"]))
+        for _ in connection:
+            pass
+
+    with server(script) as address:
+        said, _ = heard_by(address, lambda world, _: "base" in world.buffer.frames())
+    assert not said
+
+
+def test_a_subscription_that_is_always_refused_is_given_up_with_a_word():
+    refusals = []
+
+    def script(connection):
+        connection.send(INFO)
+        connection.send(advertised(channel()))
+        for request in connection:
+            if json.loads(request)["op"] != "subscribe":
+                continue
+            refusals.append("Unknown channel ID: 1")
+            connection.send(json.dumps({"op": "status", "level": 2, "message": refusals[-1]}))
+            if len(refusals) == 6:
+                connection.send(advertised(channel(2, "/last", "p/msg/T")))
+
+    with server(script) as address:
+        said, _ = heard_by(address, lambda _, link: len(link.graph.entities()) == 2)
+    assert len(refusals) == 6
+    assert "says: Unknown channel ID: 1" in said
+
+
 def test_endless_advertise_is_bounded_and_the_frames_go_on():
     definition = "int8 x\n" * 1000
 

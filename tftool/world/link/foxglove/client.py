@@ -10,6 +10,7 @@ import os
 import re
 import ssl
 import threading
+from collections import Counter
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from typing import Any, Final, NamedTuple
 
@@ -45,6 +46,15 @@ TIMEOUT: Final = 10.0
 """Seconds for a connection to open; a server that does not answer a ping is as slow at most."""
 
 _NOT_FOXGLOVE: Final = "it speaks WebSocket, but not Foxglove's protocol"
+
+_REFUSED: Final = re.compile(r"unknown channel\D*(\d+)|channel (\d+) is not available", re.I)
+"""Sentences of Foxglove's SDK and of the older foxglove_bridge about a refused subscription."""
+
+_AGAIN: Final = 0.05
+"""Seconds before a refused subscription is asked for again."""
+
+_MOST_REFUSED: Final = 5
+"""Refusals of one channel after which its subscription is given up."""
 
 _WAITING: Final = 4
 """Frames that wait unread in `websockets`; then the server has to wait."""
@@ -113,6 +123,7 @@ class FoxgloveClient:
         self._wanted: set[tuple[str, str]] = set()
         self._heard: dict[int, FoxgloveChannel] = {}
         self._subscriptions: dict[int, int] = {}
+        self._refusals: Counter[int] = Counter()
         self._count = 0
         self._tasks: set[asyncio.Task[None]] = set()
         self._connection: ClientConnection | None = None
@@ -249,6 +260,7 @@ class FoxgloveClient:
         """Process everything received."""
         self._heard.clear()
         self._subscriptions.clear()
+        self._refusals.clear()
         quiet: asyncio.TimerHandle | None = None
         try:
             async for message in connection:
@@ -284,7 +296,8 @@ class FoxgloveClient:
             operation = self._state.take(text)
             warnings, self._state.warnings = self._state.warnings, []
         for one in warnings:
-            self._warn(f"{self._place} says: {one}")
+            if not self._ask_again_later(one):
+                self._warn(f"{self._place} says: {one}")
         if operation == "serverInfo" and "connectionGraph" in self._state.capabilities:
             await connection.send(protocol.request("subscribeConnectionGraph"))
         if operation in ("advertise", "unadvertise"):
@@ -342,6 +355,27 @@ class FoxgloveClient:
             self._heard[self._count] = channel
             asked.append({"id": self._count, "channelId": number})
         if asked:
+            self._send(protocol.request("subscribe", subscriptions=asked))
+
+    def _ask_again_later(self, sentence: str) -> bool:
+        """Return whether the sentence refuses a subscription that is asked for again.
+
+        Servers made with Foxglove's SDK announce a channel a moment before they know it: a quick
+        subscription is refused, and nothing would ever come.
+        """
+        found = _REFUSED.search(sentence)
+        channel = int(found[1] or found[2]) if found else None
+        if channel not in self._subscriptions:
+            return False
+        self._refusals[channel] += 1
+        if self._refusals[channel] > _MOST_REFUSED:
+            return False
+        self._loop.call_later(_AGAIN, self._ask_again, channel, self._subscriptions[channel])
+        return True
+
+    def _ask_again(self, channel: int, subscription: int) -> None:
+        if self._subscriptions.get(channel) == subscription:
+            asked = [{"id": subscription, "channelId": channel}]
             self._send(protocol.request("subscribe", subscriptions=asked))
 
     def _unsubscribe(self, channels: Sequence[int]) -> None:
