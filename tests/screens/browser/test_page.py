@@ -309,6 +309,28 @@ def test_numbers_stand_in_one_line_each_and_panels_keep_clear_of_the_bars(
         chromium.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
+def test_only_the_rows_of_frames_that_changed_are_written(chromium, stage):
+    stage.mount(("world", "mast"), ("mast", "lamp"))
+    stage.put(1.0)
+    page = Page(chromium, stage)
+    page.until(lambda: page.x_of("turtle") == 1.0)
+    chromium.execute_script(
+        "globalThis.written = new Set();"
+        "new MutationObserver((all) => all.forEach(({target}) => written.add("
+        "(target.closest ? target : target.parentElement).closest('li')"
+        "?.querySelector('.name').textContent ?? 'the list')))"
+        ".observe(document.getElementById('tree'),"
+        " {subtree: true, childList: true, attributes: true, characterData: true})"
+    )
+    for moment in range(2, 12):
+        stage.put(float(moment), at=float(moment))
+        page.until(lambda m=moment: page.x_of("turtle") == float(m))
+        if moment == 3:
+            # By now every row was written once.
+            chromium.execute_script("written.clear()")
+    assert page.said("[...written]") == ["turtle"]
+
+
 HOSTILE = "<img src=x onerror=\"document.title='owned'\">"
 
 

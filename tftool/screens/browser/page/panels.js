@@ -9,6 +9,15 @@ import { degrees, rpy } from "./maths.js";
  */
 export const $ = (id) => document.getElementById(id);
 
+/**
+ * Set a text that seldom changes: a browser lays out anew what is set, equal or not.
+ * @param {Element} element
+ * @param {string} text
+ */
+function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** Put rows of term and values into a list; a value is text, or an array of numbers. */
 export function fill(list, rows) {
   while (list.children.length > 2 * rows.length) list.lastElementChild.remove();
@@ -19,13 +28,14 @@ export function fill(list, rows) {
       list.append(name, document.createElement("dd"));
     }
     const cell = list.children[2 * at + 1];
-    if (name.textContent !== term) name.textContent = term;
+    setText(name, term);
     const texts = typeof value === "string" ? [value] : value.map((one) => number(one, digits));
-    cell.className = texts.length === 1 ? "one" : "";
+    const looks = texts.length === 1 ? "one" : "";
+    if (cell.className !== looks) cell.className = looks;
     while (cell.children.length > texts.length) cell.lastElementChild.remove();
     texts.forEach((text, place) => {
       if (!cell.children[place]) cell.append(document.createElement("span"));
-      if (cell.children[place].textContent !== text) cell.children[place].textContent = text;
+      setText(cell.children[place], text);
     });
   });
 }
@@ -42,9 +52,9 @@ function poseRows(pose) {
 export function showFrame(model, index, fixed, trouble) {
   const { poses } = model;
   const parent = model.parents[index];
-  $("chosen").textContent = model.names[index];
+  setText($("chosen"), model.names[index]);
   $("trouble").hidden = !trouble;
-  $("trouble").textContent = trouble;
+  setText($("trouble"), trouble);
   const facts = [["Status", trouble ? "Warning" : "Transform OK"], ["Parent", parent < 0 ? "none, a root" : model.names[parent]]];
   if (parent >= 0) {
     facts.push(["Broadcaster", model.authorities[index]]);
@@ -57,11 +67,11 @@ export function showFrame(model, index, fixed, trouble) {
   }
   fill($("link-facts"), facts);
   const same = parent >= 0 && model.names[parent] === fixed;
-  $("absolute-title").textContent = same ? `In ${fixed}, its parent and the fixed frame` : `In the fixed frame, ${fixed}`;
+  setText($("absolute-title"), same ? `In ${fixed}, its parent and the fixed frame` : `In the fixed frame, ${fixed}`);
   fill($("absolute"), poseRows(model.absolute[index]));
   $("relative-title").hidden = $("relative").hidden = parent < 0 || same;
   if (parent >= 0 && !same) {
-    $("relative-title").textContent = `In its parent, ${model.names[parent]}`;
+    setText($("relative-title"), `In its parent, ${model.names[parent]}`);
     fill($("relative"), poseRows(model.relative(index)));
   }
 }
@@ -71,11 +81,11 @@ export function showPair(pair) {
   $("answer").hidden = !pair || !pair.found;
   if (!pair) return;
   if (!pair.found) {
-    $("why").textContent = pair.why;
+    setText($("why"), pair.why);
     return;
   }
   const { translation, rpy: angles } = pair;
-  $("sentence").textContent = `${pair.source} in ${pair.target}`;
+  setText($("sentence"), `${pair.source} in ${pair.target}`);
   fill($("numbers"), [
     ["Translation", translation, 6],
     ["Quaternion", pair.rotation, 6],
@@ -84,17 +94,10 @@ export function showPair(pair) {
     ["Distance, m", [translation.includes(null) ? null : Math.hypot(...translation)], 6],
     ["At time", pair.moment === null ? "always (static)" : `${pair.stamp} s`],
   ]);
-  $("chain").textContent =
-    pair.chain.length > 1 ? `Chain, source to target: ${pair.chain.join(" · ")}` : "One and the same frame";
-}
-
-/**
- * Set a text that seldom changes: a browser lays out anew what is set, equal or not.
- * @param {HTMLElement} element
- * @param {string} text
- */
-function setText(element, text) {
-  if (element.textContent !== text) element.textContent = text;
+  setText(
+    $("chain"),
+    pair.chain.length > 1 ? `Chain, source to target: ${pair.chain.join(" · ")}` : "One and the same frame",
+  );
 }
 
 /**
@@ -152,11 +155,13 @@ function spell(seconds) {
 export function showEmpty(connection, model, fixed) {
   const missing = fixed && model.names.length && !model.index.has(fixed);
   $("empty").hidden = connection === "wait" ? false : model.names.length > 0 && !missing;
-  $("empty").textContent =
+  setText(
+    $("empty"),
     connection === "wait" ? "Connecting to the session…"
     : missing ? `Frame [${fixed}] does not exist.\nChoose another fixed frame.`
     : connection === "stored" ? "No tf data.  Actual error: no frame exists in this file."
-    : "No tf data.  Actual error: no frame exists yet.\nFrames appear here as soon as a transform is broadcast.";
+    : "No tf data.  Actual error: no frame exists yet.\nFrames appear here as soon as a transform is broadcast.",
+  );
 }
 
 export function showCounts(model, hidden) {
@@ -188,9 +193,11 @@ export function showReach({ at, ends, moves, reach, span: { oldest, newest } }) 
 export function showTime(timeline) {
   const { at, playing, reach: { oldest, newest, now }, forgotten } = timeline;
   showReach(timeline);
-  $("moment").textContent =
+  setText(
+    $("moment"),
     at !== null ? `${number(at, 3)} s (${number(at - newest, 2)})${forgotten ? ", left the buffer" : ""}`
-    : `${number(now, 2)} s, buffer ${number(newest - oldest, 1)} s`;
+    : `${number(now, 2)} s, buffer ${number(newest - oldest, 1)} s`,
+  );
   $("live").setAttribute("aria-pressed", String(at === null && !/gone|stale/.test(document.body.className)));
   const label = playing ? "Pause" : "Play";
   if ($("play").getAttribute("aria-label") !== label) {
