@@ -1,11 +1,12 @@
 """The page of `tftool view`: hundreds of frames in a browser without a graphics card."""
 
 import asyncio
+import contextlib
 import math
 import shutil
 import threading
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Iterator
 from typing import Any
 
 from tftool.base.stamps import seconds
@@ -49,10 +50,11 @@ async def crowd(world: World) -> None:
         )
 
 
-def pictures_a_second(
+@contextlib.contextmanager
+def shown(
     act: Callable[[World], Awaitable[None]], state: str, ready: str, robot: Any = None
-) -> float | None:
-    """How many pictures a second a headless browser draws; None without one.
+) -> Iterator[tuple[Any, Any, float]]:
+    """A page in a headless browser: the stage, the driver, seconds to the first picture.
 
     Args:
         act: What goes on in the world.
@@ -60,8 +62,6 @@ def pictures_a_second(
         ready: Holds in the page once everything is drawn.
         robot: Shown in the page.
     """
-    if not (shutil.which("chromium") and shutil.which("chromedriver")):
-        return None
     from tests.screens.browser.driving import start_chromium
     from tests.screens.browser.stage import Stage
 
@@ -71,15 +71,32 @@ def pictures_a_second(
             stage.show(robot)
         driver = start_chromium()
         try:
+            began = time.perf_counter()
             driver.get(f"{stage.url}#{state}")
             while not driver.execute_script(f"return {ready}"):
                 pause(0.1)
+            first = time.perf_counter() - began
             pause(WARM)
-            before, began = stage.pictures(), time.perf_counter()
-            pause(LASTING)
-            return (stage.pictures() - before) / (time.perf_counter() - began)
+            yield stage, driver, first
         finally:
             driver.quit()
+
+
+def has_browser() -> bool:
+    """Whether Chromium and its driver are installed."""
+    return bool(shutil.which("chromium") and shutil.which("chromedriver"))
+
+
+def pictures_a_second(
+    act: Callable[[World], Awaitable[None]], state: str, ready: str, robot: Any = None
+) -> float | None:
+    """How many pictures a second a headless browser draws; None without one."""
+    if not has_browser():
+        return None
+    with shown(act, state, ready, robot) as (stage, _, _):
+        before, began = stage.pictures(), time.perf_counter()
+        pause(LASTING)
+        return (stage.pictures() - before) / (time.perf_counter() - began)
 
 
 def told(what: str, pictures: float | None) -> str:
