@@ -19,6 +19,7 @@ from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.native_kernel import Door
 from tftool.buffer.sample import Snapshot, TransformStamped
+from tftool.geometry.quaternions import unit
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
 
 pytestmark = pytest.mark.skipif(not is_native(), reason=REASON)
@@ -502,6 +503,62 @@ def test_the_collector_never_sees_an_answer():
         pose = answer.transform
         parts = (answer, pose, pose.translation, pose.rotation)
         assert not any(map(gc.is_tracked, parts))
+
+
+def grown(random, frames):
+    """Samples of a forest: chains of statics, links that move, parents that change, loops."""
+    for child in range(1, frames):
+        parent = max(0, child - random.choice((1, 1, 1, 2, 7)))
+        pose = Transform(
+            (random.uniform(-1, 1), random.uniform(-1, 1), 0.5),
+            unit(tuple(random.gauss(0, 1) for _ in range(4))),
+        )
+        kind = random.random()
+        if kind < 0.5:
+            yield "set_transform_static", TransformStamped(0, f"f{parent}", f"f{child}", pose)
+        elif kind < 0.95:
+            for stamp in range(random.choice((1, 3)), 6):
+                above = f"f{parent}"
+                if kind > 0.9 and stamp == 4:
+                    above = f"f{random.randrange(frames)}"
+                yield "set_transform", TransformStamped(seconds(stamp), above, f"f{child}", pose)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_first_and_later_questions_of_a_pair_are_answered_as_in_plain_python(seed):
+    random, frames = Random(seed), 40
+    twins = Twins(seconds(10))
+    for call, sample in grown(random, frames):
+        twins.ask(call, sample, "me")
+    answered = 0
+    for _ in range(400):
+        ends = f"f{random.randrange(frames)}", f"f{random.randrange(frames)}"
+        moment = random.choice((0, 0, seconds(1), seconds(2.25), seconds(3.5), seconds(5)))
+        for _ in range(random.choice((1, 1, 3))):
+            ours, plain = twins.ask("lookup_transform", *ends, moment)
+            assert same(ours, plain)
+            answered += isinstance(ours, TransformStamped)
+            assert same(*twins.ask("can_transform", *ends, moment))
+    assert answered > 50
+
+
+def test_pairs_that_are_asked_for_once_take_no_memory():
+    buffer = Buffer(seconds(10))
+    for child in range(1, 400):
+        for stamp in (1, 2):
+            sample = TransformStamped(stamp, f"f{child // 3}", f"f{child}", Transform())
+            buffer.set_transform(sample, "me")
+    names = [f"f{number}" for number in range(400)]
+    random = Random(1)
+    buffer.lookup_transform("f7", "f300", 1)
+    tracemalloc.start()
+    for target, source in random.sample(list(itertools.permutations(names, 2)), 20_000):
+        buffer.lookup_transform(target, source, 1)
+    held, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    # A cached path takes more than 200 bytes.
+    assert held < 20_000 * 20
 
 
 def test_arguments_by_name_and_wrong_ones_are_as_in_plain_python():

@@ -6,8 +6,9 @@
    - It does exactly what its twin does, with the same operations in the same order (built with
      -ffp-contract=off), or it does nothing, and the twin takes over. What is unusual (a refusal,
      a link that changes parents, a number that is no float, no room) is left to it.
-   - It keeps nothing between calls. Samples lie in arrays that Python holds, and are read and
-     written through the buffer protocol; every index and length is checked against the buffer.
+   - It keeps nothing between calls but which pairs of frames were asked for lately. Samples lie
+     in arrays that Python holds, and are read and written through the buffer protocol; every index
+     and length is checked against the buffer.
    - The limited API of CPython 3.11: one build serves every later version with a GIL. */
 
 #define PY_SSIZE_T_CLEAN
@@ -19,12 +20,13 @@
 #include "_chain.h"
 
 /* What `tftool.base.native` expects; a build of another interface is not used. */
-#define INTERFACE 6
+#define INTERFACE 7
 
 /* What is shared with Python --------------------------------------------- */
 
 /* The fields of both kinds of links. Python's classes inherit them, and Python's code reads and
    writes them by their names; see `History` for what they mean. */
+#define PARENT_MASK 0xffffffffLL /* The bits of an origin that are the parent's number. */
 typedef struct {
     PyObject_HEAD
     PyObject *records, *origins, *_newest, *_newest_pair; /* No records: it never moves. */
@@ -35,13 +37,15 @@ typedef struct {
 /* What the methods of a buffer read: `Buffer` inherits it; see there. */
 typedef struct {
     PyObject_HEAD
-    PyObject *_paths, *_senders, *_listening, *_pending;
+    PyObject *_paths, *_senders, *_listening, *_pending, *_numbers, *_frames;
+    PyObject *_seen; /* Pairs looked up lately, for `is_second`; NULL before the first one. */
+    uint32_t random;
 } Door;
 
 /* What answers are made of and read by; the state of the module, which Python never unloads. */
 typedef struct {
     PyTypeObject *fields, *tuples[4];
-    PyObject *blanks[4], *empty; /* As in `TUPLES`; "". */
+    PyObject *blanks[4], *empty, *link; /* As in `TUPLES`; ""; "link". */
     newfunc make;                /* A tuple's constructor. */
 } Types;
 
@@ -136,7 +140,8 @@ typedef struct {
 
 /* Make the links of two tuples ready, to be closed in any case; `time` is when they are read
    first: 0 becomes the newest moment for which every moving link has data, as in `Path.latest`.
-   Returns whether all are plain; never sets an error. */
+   Neighbours that never move become one edge, as in `path.folded`. Returns whether all are plain;
+   never sets an error. */
 static int open_chain(OpenChain *held, PyTypeObject *fields, PyObject *up, PyObject *down,
                       int64_t *time) {
     Chain *chain = &held->chain;
@@ -159,18 +164,24 @@ static int open_chain(OpenChain *held, PyTypeObject *fields, PyObject *up, PyObj
     }
     for (Py_ssize_t i = 0; i < total; i++) {
         PyObject *link = i < ups ? PyTuple_GetItem(up, i) : PyTuple_GetItem(down, i - ups);
+        Edge *edge = &chain->edges[chain->count];
         if (Py_TYPE(link) != known && !PyObject_TypeCheck(link, fields))
             return 0;
         known = Py_TYPE(link);
-        if (!read_link((const Link *)link, &chain->edges[i], &held->views[i]))
+        if (!read_link((const Link *)link, edge, &held->views[chain->count]))
             return 0;
+        if (edge->records == NULL && i != 0 && i != ups && edge[-1].records == NULL) {
+            compose(edge->fixed, edge[-1].fixed, 1, 1);
+            chain->ups -= i < ups;
+            continue;
+        }
         chain->count++;
         const int64_t newest = ((const Link *)link)->newest_stamp; /* 0 if it never moves. */
         if (newest != 0 && (newest < latest || latest == 0))
             latest = newest;
         /* Memory brings what is read first while the other links are made ready. */
-        if (chain->edges[i].records != NULL)
-            chain->edges[i].here = aim(&chain->edges[i], *time != 0 ? *time : newest);
+        if (edge->records != NULL)
+            edge->here = aim(edge, *time != 0 ? *time : newest);
     }
     *time = *time != 0 ? *time : latest;
     return 1;
@@ -210,6 +221,103 @@ static PyObject *value_of(PyObject *dictionary, PyObject *name) {
         PyErr_Clear();
     Py_DECREF(dictionary);
     return value;
+}
+
+/* Follow the newest parents of a frame up to the root: put the links, new references, into
+   `links`, and the root's number in place of the frame's. Returns how many; -1 where a link is not plain, has
+   samples of several parents, or there are too many. Never sets an error. */
+static Py_ssize_t climb(const Types *types, PyObject *frames, PyObject **links, int64_t *root) {
+    Py_ssize_t count = 0;
+    for (; count < MOST_LINKS; count++) {
+        if (*root < 0 || *root >= PyList_Size(frames))
+            break;
+        PyObject *link = PyObject_GetAttr(PyList_GetItem(frames, (Py_ssize_t)*root), types->link);
+        if (link == Py_None) {
+            Py_DECREF(link);
+            return count;
+        }
+        if (link == NULL || !PyObject_TypeCheck(link, types->fields)
+            || ((Link *)link)->mixed || ((Link *)link)->origin < 0) {
+            Py_XDECREF(link);
+            break;
+        }
+        links[count] = link;
+        *root = ((Link *)link)->origin & PARENT_MASK;
+    }
+    PyErr_Clear();
+    while (count > 0)
+        Py_DECREF(links[--count]);
+    return -1;
+}
+
+/* Return a tuple of these links, whose references it takes; NULL with an error set on failure. */
+static PyObject *pack(PyObject **links, Py_ssize_t count) {
+    PyObject *tuple = PyTuple_New(count < 0 ? 0 : count);
+    for (Py_ssize_t i = 0; i < count; i++)
+        if (tuple == NULL)
+            Py_DECREF(links[i]);
+        else
+            PyTuple_SetItem(tuple, i, links[i]);
+    return tuple;
+}
+
+/* So many pairs of frames are remembered, mostly each in a place of its own. */
+#define SEEN 4096
+
+/* Whether a pair was looked up lately; as a rule it is remembered. What is asked for again is left to
+   Python, which caches the path; what is asked for once takes no memory. Never sets an error. */
+static int is_second(Door *door, int64_t target, int64_t source) {
+    const int64_t pair = (target + 1) << 32 ^ source;
+    const Py_ssize_t size = SEEN * sizeof pair;
+    if (door->_seen == NULL && (door->_seen = PyByteArray_FromStringAndSize(NULL, size)) != NULL)
+        memset(PyByteArray_AsString(door->_seen), 0, (size_t)size);
+    if (door->_seen == NULL || PyByteArray_Size(door->_seen) != size) {
+        PyErr_Clear();
+        return 1;
+    }
+    const uint64_t mixed = (uint64_t)pair * 0x9e3779b97f4a7c15ULL; /* Knuth's multiplier. */
+    char *place = PyByteArray_AsString(door->_seen) + mixed / (UINT64_MAX / SEEN + 1) * sizeof pair;
+    int64_t held;
+    memcpy(&held, place, sizeof held);
+    /* Of two pairs that share a place and take turns, neither would ever be known: the older one
+       stays every second time, at random (the numbers are those of C's `rand`). */
+    door->random = door->random * 1103515245 + 12345;
+    if (held == 0 || door->random >> 31)
+        memcpy(place, &pair, sizeof pair);
+    return held == pair;
+}
+
+/* Return the links between two frames that no path is cached for, as `(up, down)`, a new
+   reference: `FrameTree.walk` where every link has data. NULL if that is not plain. Never sets an
+   error. */
+static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject *source) {
+    PyObject *up[MOST_LINKS], *down[MOST_LINKS], *path = NULL;
+    PyObject *first = value_of(door->_numbers, source), *last = value_of(door->_numbers, target);
+    int64_t top, end;
+    const int is_plain = first != NULL && last != NULL && first != last && read_stamp(first, &top)
+        && read_stamp(last, &end) && door->_frames != NULL && PyList_Check(door->_frames)
+        && !is_second(door, end, top);
+    Py_XDECREF(first);
+    Py_XDECREF(last);
+    if (!is_plain)
+        return NULL;
+    PyObject *frames = Py_NewRef(door->_frames);
+    Py_ssize_t ups = climb(types, frames, up, &top);
+    Py_ssize_t downs = ups < 0 ? -1 : climb(types, frames, down, &end);
+    Py_DECREF(frames);
+    /* What lies above the common ancestor is on both sides. */
+    while (ups > 0 && downs > 0 && up[ups - 1] == down[downs - 1]) {
+        Py_DECREF(up[--ups]);
+        Py_DECREF(down[--downs]);
+    }
+    /* These take the references to the links, also where there is no memory. */
+    PyObject *sides[2] = {pack(up, ups), pack(down, downs)};
+    if (downs >= 0 && top == end && sides[0] != NULL && sides[1] != NULL)
+        path = PyTuple_Pack(2, sides[0], sides[1]);
+    Py_XDECREF(sides[0]);
+    Py_XDECREF(sides[1]);
+    PyErr_Clear();
+    return path;
 }
 
 /* A new tuple of one of the types, to be filled; NULL with an error set on failure. The collector
@@ -256,16 +364,18 @@ static PyObject *answer(PyObject *made, const double *pose) {
     return made;
 }
 
-/* The pose of source in target by a cached path, and the moment it holds for in place of 0;
-   an answer is prepared on the way if one is wanted. Returns 0 if that is not plain; never sets an
-   error. */
-static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
+/* The pose of source in target by a path, cached or not, and the moment it holds for in place of
+   0; an answer is prepared on the way if one is wanted. Returns 0 if that is not plain; never sets
+   an error. */
+static int solve_path(Door *door, const Types *types, PyObject *target, PyObject *source,
                       int64_t *time, double *pose, PyObject **made) {
     PyObject *of_target = value_of(door->_paths, target), *up, *down;
     PyObject *path = value_of(of_target, source);
     OpenChain held;
     int is_open = 0;
-    if (is_tuple(path, 3) && PyTuple_Check(up = PyTuple_GetItem(path, 0))
+    if (path == NULL)
+        path = walk(door, types, target, source);
+    if ((is_tuple(path, 3) || is_tuple(path, 2)) && PyTuple_Check(up = PyTuple_GetItem(path, 0))
         && PyTuple_Check(down = PyTuple_GetItem(path, 1))) {
         /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
            which drops the path from the buffer: this reference to it is ours. */
@@ -309,7 +419,7 @@ static int solve_plain(PyObject *self, const Types *types, PyObject *const *args
                        PyObject *names, int64_t *time, double *pose, PyObject **made) {
     *time = 0;
     return names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], time)))
-        && solve_path((const Door *)self, types, args[0], args[1], time, pose, made);
+        && solve_path((Door *)self, types, args[0], args[1], time, pose, made);
 }
 
 /* Each method answers as its entry in `door_methods` says, or has its plain twin answer. */
@@ -333,7 +443,7 @@ METHOD(can_transform) {
 }
 
 /* The same where target and source may be one frame, whose name another path has shown good. */
-static int solve_leg(const Door *door, const Types *types, PyObject *target, PyObject *source,
+static int solve_leg(Door *door, const Types *types, PyObject *target, PyObject *source,
                      int64_t *time, double *pose) {
     for (int k = 0; k < 7; k++)
         pose[k] = k == 6;
@@ -344,7 +454,7 @@ static int solve_leg(const Door *door, const Types *types, PyObject *target, PyO
 /* Two answers, one behind the other; whatever is not plain is refused or answered in Python. */
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
-    const Door *buffer = (const Door *)self;
+    Door *buffer = (Door *)self;
     PyObject *made;
     int64_t here, there;
     double inner[7], outer[7];
@@ -540,27 +650,29 @@ static PyMemberDef link_members[] = {
 };
 static PyMemberDef door_members[] = {
     OBJECT(Door, _paths), OBJECT(Door, _senders), OBJECT(Door, _listening), OBJECT(Door, _pending),
+    OBJECT(Door, _numbers), OBJECT(Door, _frames), OBJECT(Door, _seen),
     {NULL, 0, 0, 0, NULL},
 };
 
-/* Links and doors both begin with so many objects. */
-#define HELD 4
+/* The objects that a link or a buffer begins with. */
 #define HELD_OF(self) ((PyObject **)((char *)(self) + sizeof(PyObject)))
 
-/* Show the collector all that is held, and the type, as every heap type must. */
-static int held_traverse(PyObject *self, visitproc visit, void *arg) {
-    Py_VISIT(Py_TYPE(self));
-    for (int i = 0; i < HELD; i++)
-        Py_VISIT(HELD_OF(self)[i]);
-    return 0;
-}
-
-/* Let go of all that is held: the collector found it in a circle. */
-static int held_clear(PyObject *self) {
-    for (int i = 0; i < HELD; i++)
-        Py_CLEAR(HELD_OF(self)[i]);
-    return 0;
-}
+/* What the collector needs of a class that holds so many objects: to show it all of them and the
+   type, as every heap type must, and to let go of them, where it found them in a cycle. */
+#define COLLECTED(name, held)                                                                     \
+    static int name##_traverse(PyObject *self, visitproc visit, void *arg) {                      \
+        Py_VISIT(Py_TYPE(self));                                                                  \
+        for (int i = 0; i < held; i++)                                                            \
+            Py_VISIT(HELD_OF(self)[i]);                                                           \
+        return 0;                                                                                 \
+    }                                                                                             \
+    static int name##_clear(PyObject *self) {                                                     \
+        for (int i = 0; i < held; i++)                                                            \
+            Py_CLEAR(HELD_OF(self)[i]);                                                           \
+        return 0;                                                                                 \
+    }
+COLLECTED(link, 4)
+COLLECTED(door, 7)
 
 #define CALL METH_METHOD | METH_FASTCALL | METH_KEYWORDS
 #define ENTRY(name, doc) {#name, (PyCFunction)(void (*)(void))name, CALL, #name doc}
@@ -590,10 +702,11 @@ static PyMethodDef module_methods[] = {
 
 /* A new class of the module, under its name there; NULL with an error set on failure. */
 static PyTypeObject *holder(PyObject *module, const char *name, size_t size, const char *doc,
-                            PyMemberDef *members, PyMethodDef *methods) {
+                            PyMemberDef *members, PyMethodDef *methods, traverseproc traverse,
+                            inquiry clear) {
     PyType_Slot slots[] = {
         {Py_tp_doc, (void *)doc}, {Py_tp_members, members}, {Py_tp_methods, methods},
-        {Py_tp_traverse, held_traverse}, {Py_tp_clear, held_clear}, {0, NULL},
+        {Py_tp_traverse, (void *)traverse}, {Py_tp_clear, (void *)clear}, {0, NULL},
     };
     PyType_Spec spec = {name, (int)size, 0,
                         Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC, slots};
@@ -607,13 +720,15 @@ static PyTypeObject *holder(PyObject *module, const char *name, size_t size, con
 static int module_exec(PyObject *module) {
     Types *types = PyModule_GetState(module);
     PyTypeObject *door = holder(module, "tftool.buffer._kernel.Door", sizeof(Door),
-        "The methods of a buffer that are called most.", door_members, door_methods);
+        "The methods of a buffer that are called most.", door_members, door_methods,
+        door_traverse, door_clear);
     Py_XDECREF((PyObject *)door);
     if (door == NULL
         || (types->fields = holder(module, "tftool.buffer._kernel.Fields", sizeof(Link),
             "The fields of a link, laid out so that the kernel can read them.",
-            link_members, no_methods)) == NULL
-        || (types->empty = PyUnicode_InternFromString("")) == NULL)
+            link_members, no_methods, link_traverse, link_clear)) == NULL
+        || (types->empty = PyUnicode_InternFromString("")) == NULL
+        || (types->link = PyUnicode_InternFromString("link")) == NULL)
         return -1;
     types->make = (newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new);
     for (int i = 0; i < 4; i++) {

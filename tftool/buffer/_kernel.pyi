@@ -10,8 +10,8 @@ class Fields:
 class Door:
     """The methods of a buffer that are called most; each is the twin of the one in `Buffer`.
 
-    They answer what is plain, and call `_plain_` and their name for all else: a refusal, a path
-    that is not known yet, an argument given by its name.
+    They answer what is plain, and call `_plain_` and their name for all else: a refusal, a link
+    with samples of several parents, an argument given by its name.
     """
 
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
@@ -20,7 +20,7 @@ class Door:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: int = 0
     ) -> TransformStamped:
-        """`Buffer.lookup_transform` by a known path."""
+        """`Buffer.lookup_transform` by a path, cached or not."""
 
     def lookup_transform_full(
         self,
@@ -30,10 +30,10 @@ class Door:
         source_time: int,
         fixed_frame: str,
     ) -> TransformStamped:
-        """`Buffer.lookup_transform_full` by two known paths."""
+        """`Buffer.lookup_transform_full` by two paths."""
 
     def can_transform(self, target_frame: str, source_frame: str, time: int = 0) -> bool:
-        """`Buffer.can_transform` by a known path; it says no in plain Python."""
+        """`Buffer.can_transform` by a path; it says no in plain Python."""
 
 def solve(
     up: tuple[object, ...],

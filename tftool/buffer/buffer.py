@@ -139,6 +139,8 @@ class Buffer(Door):
             self._log("WARN", refusals.short_cache(cache_time))
         self._tree = FrameTree(cache_time, max_name)
         self._senders = self._tree.senders
+        self._numbers = self._tree.numbers
+        self._frames = self._tree.frames
         self._solver = Solver(self._tree, cache_time)
         self._paths = self._solver.paths
         self._requests = Requests(self._solver.examine)

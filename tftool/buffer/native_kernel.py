@@ -5,13 +5,13 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar, cast
 from tftool.base.native import built
 
 if TYPE_CHECKING:
-    from tftool.buffer.forest import Sender
+    from tftool.buffer.forest import Frame, Sender
     from tftool.buffer.path import Path
     from tftool.buffer.requests import Request
 
 _Method = TypeVar("_Method")
 
-IS_NATIVE: Final[bool] = built("tftool.buffer._kernel", 6) is not None
+IS_NATIVE: Final[bool] = built("tftool.buffer._kernel", 7) is not None
 """Whether the kernel is used."""
 
 BUILD: Final = "native" if IS_NATIVE else "pure Python"
@@ -28,14 +28,18 @@ if TYPE_CHECKING or not IS_NATIVE:
             _senders: Child frames of moving links in the tree, by name.
             _listening: Functions called with each accepted sample.
             _pending: Waiting requests, by handle.
+            _numbers: Each frame's number in the tree, by name.
+            _frames: The frames of the tree by number.
         """
 
-        __slots__ = ("_listening", "_paths", "_pending", "_senders")
+        __slots__ = ("_frames", "_listening", "_numbers", "_paths", "_pending", "_senders")
 
         _paths: "dict[str, dict[str, Path]]"
         _senders: "dict[str, Sender]"
         _listening: "tuple[object, ...]"
         _pending: "dict[int, Request]"
+        _numbers: "dict[str, int]"
+        _frames: "list[Frame]"
 
 else:
     from tftool.buffer._kernel import Door
