@@ -51,7 +51,7 @@ def pure() -> Iterator[None]:
 
 
 def _is_twin(name: str) -> bool:
-    return name.split(".")[:2] == ["tftool", "frames"] and name not in SHARED
+    return name.split(".")[:2] == ["tftool", "buffer"] and name not in SHARED
 
 
 class Twins:
@@ -72,6 +72,7 @@ class Twins:
             else:
                 module = importlib.import_module("tftool.buffer.buffer")
                 self.pair.append(module.Buffer(*arguments, log=note, **options))
+        assert type(self.pair[0]) is not type(self.pair[1]), "both are of one class"
 
     def ask(self, call: str, *words: object, **options: object) -> tuple[object, object]:
         """What both answer to a call of a buffer: a value, or an exception's kind and text."""
