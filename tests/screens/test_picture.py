@@ -1,12 +1,19 @@
-"""The pictures in the README: TFTOOL_PICTURES=1 draws them anew."""
+"""The pictures in the README and the pages: TFTOOL_PICTURES=1 draws them anew."""
 
 import asyncio
+import io
 import os
 import re
+import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from rich.console import Console
+from rich.terminal_theme import DEFAULT_TERMINAL_THEME, SVG_EXPORT_THEME
+from rich.text import Text
 
 from tests.screens.moving_picture import animated
 from tftool.base.stamps import NANOSECONDS, seconds
@@ -23,6 +30,8 @@ from tftool.world.nodes.turtle_drivers import IdleDrawing
 
 PICTURES = Path(__file__).parents[1] / "pictures"
 STILL, MOVING = PICTURES / "demo.svg", PICTURES / "demo-moving.svg"
+LIGHT = PICTURES / "demo-light.svg"
+DOCTOR = {"doctor.svg": SVG_EXPORT_THEME, "doctor-light.svg": DEFAULT_TERMINAL_THEME}
 SIZE = (104, 32)
 FONTS = "ui-monospace, SFMono-Regular, Menlo, Consolas, 'DejaVu Sans Mono', monospace"
 BEGIN, COUNT, STEP = seconds(18.0), 16, seconds(0.4)
@@ -53,8 +62,8 @@ def taken():
     setting = Setting(title="tftool demo carrot", pair=("turtle2", "carrot1"))
     screens, pictures = [], []
 
-    async def shown():
-        app = TurtleApp(scene, lambda key: None, setting)
+    async def shown(light=False):
+        app = TurtleApp(scene, lambda key: None, replace(setting, light=light))
         async with app.run_test(size=SIZE) as pilot:
             await pilot.pause()
             app.redraw()
@@ -72,13 +81,52 @@ def taken():
             for number in range(COUNT):
                 await world.clock.sleep_until(start + number * STEP, Phase.WATCH)
                 beside.submit(asyncio.run, shown()).result()
+            beside.submit(asyncio.run, shown(light=True)).result()
         await living
 
     run(world.clock, story())
-    svg = re.sub(r"@font-face \{.*?\}", "", pictures[-1], flags=re.DOTALL)
-    still = re.sub(r"font-family: Fira Code, monospace", f"font-family: {FONTS}", svg)
+    light = screens.pop() and pictures.pop()
     ground = theme.hexadecimal(theme.DARK.ground)
-    return still, animated(screens, STEP / NANOSECONDS, ground, "tftool demo carrot")
+    moving = animated(screens, STEP / NANOSECONDS, ground, "tftool demo carrot")
+    return own_fonts(pictures[-1]), moving, own_fonts(light)
+
+
+def own_fonts(svg):
+    """The picture with the reader's fonts: nothing is fetched."""
+    svg = re.sub(r"@font-face \{.*?\}", "", svg, flags=re.DOTALL)
+    return svg.replace("font-family: Fira Code, monospace", f"font-family: {FONTS}")
+
+
+def printed(*words, width):
+    """What a command prints to a terminal of that width."""
+    told = {"FORCE_COLOR": "1", "COLORTERM": "truecolor", "COLUMNS": str(width), "TERM": "xterm"}
+    done = subprocess.run(
+        [sys.executable, "-m", "tftool", *words],
+        env={**os.environ, **told},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return Text.from_ansi(done.stdout)
+
+
+def drawn_anew(place, svg):
+    """Write a picture where it is missing, or is to be made anew; return the one that is there."""
+    if os.environ.get("TFTOOL_PICTURES") or not place.exists():
+        place.write_text(svg, encoding="utf-8")
+    return place.read_text(encoding="utf-8")
+
+
+def test_the_doctors_pictures_show_a_finding_and_its_cure():
+    text = printed("doctor", "lost_leader", width=SIZE[0])
+    for name, colours in DOCTOR.items():
+        paper = Console(record=True, width=SIZE[0], file=io.StringIO(), force_terminal=True)
+        paper.print(text)
+        svg = own_fonts(paper.export_svg(title="tftool doctor lost_leader", theme=colours))
+        there = re.sub(r"<[^>]+>", "", drawn_anew(PICTURES / name, svg)).replace("&#160;", " ")
+        assert "edge-stopped" in there
+        assert "turtle1" in there
+        assert len(svg.encode()) < 100_000
 
 
 @pytest.fixture(scope="module")
@@ -87,14 +135,13 @@ def pictures():
 
 
 def test_the_pictures_in_the_readme_are_this_screen(pictures):
-    for place, svg in zip((STILL, MOVING), pictures, strict=True):
-        if os.environ.get("TFTOOL_PICTURES") or not place.exists():
-            place.write_text(svg, encoding="utf-8")
-        assert place.read_text(encoding="utf-8").startswith("<svg")
+    for place, svg in zip((STILL, MOVING, LIGHT), pictures, strict=True):
+        assert drawn_anew(place, svg).startswith("<svg")
         assert "http" not in svg.replace("http://www.w3.org/2000/svg", "").replace(
             "https://www.textualize.io", ""
         )
-    still, moving = pictures
+    still, moving, light = pictures
+    assert theme.hexadecimal(theme.LIGHT.ground) in light
     assert len(still.encode()) < 300_000
     assert len(moving.encode()) < 700_000
 

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.skipif(
 
 VECTORS = Path(__file__).parents[2] / "reference" / "turtlesim_vectors.yaml"
 
-PICTURE = Path(__file__).parents[2] / "pictures" / "view.png"
+PICTURES = Path(__file__).parents[2] / "pictures"
 
 # What a page learns of the graphics card, where this machine has none: 0x9246 asks its name.
 CARD = """
@@ -537,24 +537,23 @@ def test_thousands_of_frames_are_answered_and_what_is_left_out_is_said(chromium,
     page.until(lambda: len(page.drawn()) == 2000)
 
 
-@pytest.mark.skipif(
-    PICTURE.exists() and not os.environ.get("TFTOOL_PICTURES"),
-    reason="the README's picture is there; TFTOOL_PICTURES=1 makes it anew",
-)
-def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium, card):
+@pytest.mark.parametrize("theme", ["dark", "light"])
+def test_the_pages_pictures_are_made_from_the_page_as_it_is(chromium, card, theme):
+    picture = PICTURES / ("view.png" if theme == "dark" else "view-light.png")
+    if picture.exists() and not os.environ.get("TFTOOL_PICTURES"):
+        pytest.skip("the picture is there; TFTOOL_PICTURES=1 makes it anew")
     with Stage() as stage, Resized(chromium, 1280, 984):
         shown = rover()
         stage.show(shown)
         stage.do(lambda world: drive(world, shown))
-        page = Page(chromium, stage, "theme=dark&chosen=gripper&fixed=map&arrows=0")
+        page = Page(chromium, stage, f"theme={theme}&chosen=gripper&fixed=map&arrows=0")
         page.until(lambda: page.text("#sentence") == "gripper in map")
         page.until(lambda: page.text("#chosen") == "gripper")
         page.until(lambda: chromium.execute_script("return tftool.remembered()") >= 240)
         # What moves may be drawn coarsely.
         stage.do(lambda world: world.driving.cancel())
         page.until(lambda: page.said("tftool.scale()") == 1)
-        PICTURE.parent.mkdir(exist_ok=True)
-        assert chromium.save_screenshot(str(PICTURE))
+        assert chromium.save_screenshot(str(picture))
 
-    assert PICTURE.read_bytes().startswith(b"\x89PNG")
-    assert PICTURE.stat().st_size < 400_000
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    assert picture.stat().st_size < 400_000
