@@ -1,6 +1,7 @@
 """`tftool view` in a real browser: turtles left alone and driven, recordings, descriptions."""
 
 import contextlib
+import math
 import os
 import re
 import subprocess
@@ -38,6 +39,39 @@ ROBOT = """\
   <link name="inner"/>
   <joint name="mount" type="fixed"><parent link="base"/><child link="inner"/></joint>
 </robot>
+"""
+
+
+LONG = "left_front_steering_knuckle_of_the_second_axle_joint"
+
+JOINTS = f"""\
+<robot name="arm">
+  <link name="base"><visual><geometry><cylinder radius="1" length="0.2"/></geometry>
+    <material name="red"><color rgba="1 0 0 1"/></material></visual></link>
+  <link name="arm"/><link name="slide"/>
+  <joint name="{LONG}" type="revolute"><parent link="base"/><child link="arm"/>
+    <axis xyz="0 0 1"/><limit lower="-0.5" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="lift" type="prismatic"><parent link="arm"/><child link="slide"/>
+    <axis xyz="0 0 1"/><limit lower="0.1" upper="0.4" effort="1" velocity="1"/></joint>
+</robot>
+"""
+
+# How far red reaches from the world's origin, in each of so many directions.
+REACH = """
+    const sheet = tftool.picture(), directions = 360;
+    const { width, height } = sheet, ratio = width / document.getElementById("over").clientWidth;
+    const [x, y] = tftool.pixelOf(0, 0, 0).map((place) => place * ratio);
+    const { data } = sheet.getContext("2d").getImageData(0, 0, width, height);
+    const isRed = (column, row) => {
+      const at = 4 * (Math.round(row) * width + Math.round(column));
+      return data[at] > 60 && data[at] > 2 * Math.max(data[at + 1], data[at + 2]);
+    };
+    return [...Array(directions).keys()].map((turn) => {
+      const angle = (2 * Math.PI * turn) / directions;
+      let far = 80 * ratio; // names stand in the middle
+      while (isRed(x + far * Math.cos(angle), y + far * Math.sin(angle))) far += 0.25;
+      return far;
+    });
 """
 
 
@@ -226,3 +260,80 @@ def test_a_low_window_shows_the_picture_alone_until_panels_are_asked_for(chromiu
         assert not page.find("#tree").is_displayed()
         page.find("#left .collapse").click()
         assert page.find("#tree").is_displayed()
+
+
+def test_the_joint_panel_has_full_names_limits_and_buttons_for_all_joints(chromium, tmp_path):
+    file = tmp_path / "arm.urdf"
+    file.write_text(JOINTS)
+    with view(tmp_path, file) as address:
+        page = Page(chromium, address)
+        page.until(lambda: page.texts(".slider > span") == [LONG, "lift"])
+        assert page.said(
+            "[...document.querySelectorAll('.slider > span')].every("
+            "(name) => name.scrollWidth <= name.clientWidth + 1 || "
+            "getComputedStyle(name).overflow === 'visible')"
+        )
+        limits = [re.findall(r"-?[\d.]+", text) for text in page.texts(".slider small")]
+        told = [float(one[0]) for one in limits if one]
+        assert told == pytest.approx([-28.6, 57.3, 0.1, 0.4], abs=0.05)
+
+        def typed():
+            boxes = page.driver.find_elements(By.CSS_SELECTOR, ".slider [type=number]")
+            return [float(one.get_attribute("value")) for one in boxes]
+
+        buttons = {
+            one.text: one for one in page.driver.find_elements(By.CSS_SELECTOR, "#sliders button")
+        }
+        buttons["Centre"].click()
+        assert typed() == pytest.approx([14.32, 0.25], abs=0.01)
+        # Zero is outside the lift's limits.
+        buttons["Zero"].click()
+        assert typed() == pytest.approx([0, 0.1])
+        found = set()
+        for _ in range(10):
+            buttons["Random"].click()
+            turn, lift = typed()
+            assert -28.65 <= turn <= 57.30
+            assert 0.1 <= lift <= 0.4
+            found.add((turn, lift))
+        assert len(found) > 1
+
+
+def test_what_is_round_is_drawn_round_and_has_a_shadow_on_the_ground(chromium, tmp_path):
+    file = tmp_path / "arm.urdf"
+    file.write_text(JOINTS)
+    with view(tmp_path, file) as address:
+        looks = "names=0&arrows=0&axes=0&trails=0&theme=light&view=top"
+        page = Page(chromium, address, f"{looks}&grid=0")
+        page.until(lambda: min(page.driver.execute_script(REACH)) > 90)
+        reach = page.driver.execute_script(REACH)
+        widths = [one + other for one, other in zip(reach[:180], reach[180:], strict=True)]
+        # A polygon of 32 sides is less wide by a half per cent across its sides, and by two per
+        # cent with 16; pixels are whole.
+        assert min(widths) > max(widths) * math.cos(math.pi / 32) - 2.5
+
+        beside = """
+            const [x, y] = tftool.pixelOf(1.15, 0.07, -0.1), sheet = tftool.picture();
+            const ratio = sheet.width / document.getElementById("over").clientWidth;
+            return [...sheet.getContext("2d").getImageData(x * ratio, y * ratio, 1, 1).data];
+        """
+        bare = page.driver.execute_script(beside)
+        page.find("#grid").click()
+        page.until(lambda: sum(page.driver.execute_script(beside)) < sum(bare) - 30)
+
+
+def test_the_pairs_numbers_stay_in_a_narrow_window_and_the_banner_below_the_bar(chromium):
+    with Stage(scenario="turtles", lived=5.0) as stage, Resized(chromium, 1000, 700):
+        page = Page(chromium, stage)
+        page.until(lambda: page.find("#numbers").is_displayed())
+        page.row("turtle1").click()
+        page.until(lambda: page.text("#chosen") == "turtle1")
+        numbers = page.find("#numbers").rect
+        assert numbers["x"] >= 0
+        assert numbers["x"] + numbers["width"] <= 1000
+        assert numbers["y"] + numbers["height"] <= 700
+
+        stage.end()
+        page.until(lambda: page.find("#banner").is_displayed())
+        bar = page.find("#bar").rect
+        assert page.find("#banner").rect["y"] >= bar["y"] + bar["height"]

@@ -37,8 +37,7 @@ const MISSING = [0.95, 0.25, 0.3, 0.8];
 const MISSING_SIZE = 0.1; // metres
 const AXIS = "#ffd400";
 const AXIS_LENGTH = 0.2; // metres
-const SIDES = { fine: 48, plain: 32, crowd: 12 }; // of what is round
-const CROWD = 120; // shapes, of which the processor draws each with fewer sides
+const SIDES = { fine: 48, plain: 32 }; // of what is round; plain where the processor draws
 const CREASE = 0.7; // radians between two facets from which on their edge is sharp
 const SHADOW = 2.2; // of the robot's width
 
@@ -61,8 +60,7 @@ export class Robot {
   constructor(scene, changed, plain) {
     this.scene = scene;
     this.changed = changed;
-    this.plain = plain;
-    this.sides = SIDES.fine;
+    this.sides = plain ? SIDES.plain : SIDES.fine;
     this.group = new Group();
     this.group.visible = false;
     /** @type {Map<string, { number: number, all: Group, visuals: Group, collisions: Group, axes: Group, loose: boolean }>} */
@@ -124,10 +122,6 @@ export class Robot {
     this.group.add(this.solids.visuals.mesh, this.solids.collisions.mesh);
     this.missing = [...description.missing];
     this.boxed = "";
-    if (this.plain) {
-      const shapes = description.links.reduce((sum, { visuals, collisions }) => sum + visuals.length + collisions.length, 0);
-      this.sides = shapes > CROWD ? SIDES.crowd : SIDES.plain;
-    }
     for (const link of description.links) {
       for (const shape of link.visuals) this.add(link.frame, "visuals", shape, shape.color ?? GREY);
     }
