@@ -84,8 +84,14 @@ def test_two_frames_are_measured_as_they_move(chromium, driven):
     page.until(lambda: "first point" in page.text("#measured"))
     clicked(page, (3, 0, 0))
     page.until(lambda: "second point" in page.text("#measured"))
+    chromium.execute_script(
+        "globalThis.words = [];"
+        "const pen = CanvasRenderingContext2D.prototype, write = pen.fillText;"
+        "pen.fillText = function (text, ...at) { words.push(text); write.call(this, text, ...at); }"
+    )
     clicked(page, (0, 3, 4))
 
+    page.until(lambda: "5.831 m" in page.said("words"))
     page.until(
         lambda: page.text("#measured") == "robot to post: 5.831 m (x -3.000, y 3.000, z 4.000)"
     )
@@ -93,6 +99,7 @@ def test_two_frames_are_measured_as_they_move(chromium, driven):
     page.until(
         lambda: page.text("#measured") == "robot to post: 5.000 m (x 0.000, y 3.000, z 4.000)"
     )
+    assert "5.000 m" in page.said("words")
     page.find("#measure").click()
     page.until(lambda: not page.find("#measured").is_displayed())
 

@@ -16,6 +16,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
+from tests.benchmarks.robots import ball
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page, Resized
 from tests.screens.browser.stage import Stage
 
@@ -320,6 +321,27 @@ def test_what_is_round_is_drawn_round_and_has_a_shadow_on_the_ground(chromium, t
         bare = page.driver.execute_script(beside)
         page.find("#grid").click()
         page.until(lambda: sum(page.driver.execute_script(beside)) < sum(bare) - 30)
+
+
+def test_a_mesh_of_many_facets_is_shaded_smoothly(chromium, tmp_path):
+    (tmp_path / "ball.stl").write_bytes(ball(1.0, rings=12))
+    file = tmp_path / "ball.urdf"
+    box = '<box size="2 2 2"/>'
+    assert box in ROBOT
+    file.write_text(ROBOT.replace(box, '<mesh filename="ball.stl"/>'))
+    shades = """
+        const sheet = tftool.picture();
+        const ratio = sheet.width / document.getElementById("over").clientWidth;
+        const [left, row] = tftool.pixelOf(-0.9, 0, 0), [right] = tftool.pixelOf(0.9, 0, 0);
+        const wide = Math.round((right - left) * ratio);
+        const pen = sheet.getContext("2d");
+        const { data } = pen.getImageData(left * ratio, (row + 30) * ratio, wide, 1);
+        return new Set([...Array(wide).keys()].map((at) => data[4 * at])).size;
+    """
+    with view(tmp_path, file, "--meshes", tmp_path) as address:
+        page = Page(chromium, address, "names=0&axes=0&grid=0&theme=light&view=side")
+        # A row of 12 flat facets would have 12 shades.
+        page.until(lambda: page.driver.execute_script(shades) > 20)
 
 
 def test_the_pairs_numbers_stay_in_a_narrow_window_and_the_banner_below_the_bar(chromium):
