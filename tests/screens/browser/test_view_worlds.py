@@ -332,15 +332,15 @@ def test_a_mesh_of_many_facets_is_shaded_smoothly(chromium, tmp_path):
     shades = """
         const sheet = tftool.picture();
         const ratio = sheet.width / document.getElementById("over").clientWidth;
-        const [left, row] = tftool.pixelOf(-0.9, 0, 0), [right] = tftool.pixelOf(0.9, 0, 0);
-        const wide = Math.round((right - left) * ratio);
+        const [column, up] = tftool.pixelOf(0.5, 0, 0.8), [, down] = tftool.pixelOf(0.5, 0, -0.8);
+        const high = Math.round((down - up) * ratio);
         const pen = sheet.getContext("2d");
-        const { data } = pen.getImageData(left * ratio, (row + 30) * ratio, wide, 1);
-        return new Set([...Array(wide).keys()].map((at) => data[4 * at])).size;
+        const { data } = pen.getImageData(column * ratio, up * ratio, 1, high);
+        return new Set([...Array(high).keys()].map((at) => data[4 * at])).size;
     """
     with view(tmp_path, file, "--meshes", tmp_path) as address:
         page = Page(chromium, address, "names=0&axes=0&grid=0&theme=light&view=side")
-        # A row of 12 flat facets would have 12 shades.
+        # A column of 12 flat facets would have 12 shades.
         page.until(lambda: page.driver.execute_script(shades) > 20)
 
 
