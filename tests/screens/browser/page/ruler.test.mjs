@@ -52,6 +52,12 @@ test("limits hold every value, and are never of no height", () => {
   assert.deepEqual(bounds([{ values: [null] }]), [-1, 1]);
 });
 
+test("noise below a thousandth does not fill the plot", () => {
+  const [least, most] = bounds([{ values: [0, 3e-6, -1e-7] }]);
+  assert.ok(most - least >= 0.002 - 1e-12);
+  assert.ok(levels([least, most], 60).every(({ text }) => !text.includes("e")));
+});
+
 test("a line is cut where nothing is, and where an angle leaps round", () => {
   assert.deepEqual(runs([1, null, 2, 3], false), [[[0, 1]], [[2, 2], [3, 3]]]);
   assert.equal(runs([179, -179], true).length, 2);

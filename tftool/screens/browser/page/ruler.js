@@ -170,8 +170,10 @@ export function linesOf(series, plot) {
   });
 }
 
+const LEAST_HEIGHT = 0.002; // metres or degrees: the legend says no more than thousandths
+
 /**
- * Least and most of several lines, with a margin; never of no height.
+ * Least and most of several lines, with a margin; never so near each other that noise fills the plot.
  * @param {{ values: (number | null)[] }[]} lines
  * @returns {[number, number]}
  */
@@ -186,7 +188,7 @@ export function bounds(lines) {
     }
   }
   if (least > most) return [-1, 1];
-  const margin = Math.max((most - least) * 0.08, Math.abs(most) * 1e-6, 1e-6);
+  const margin = Math.max((most - least) * 0.08, Math.abs(most) * 1e-6, (LEAST_HEIGHT - most + least) / 2);
   return [least - margin, most + margin];
 }
 
