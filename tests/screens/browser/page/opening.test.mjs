@@ -98,4 +98,6 @@ test("a name stays where it stood, and off what is reserved", () => {
   assert.equal(stand.place, 2);
   const [moved] = arrange([{ x: 200, y: 200, width: 60, height: 14 }], [[170, 205, 60, 20]]);
   assert.notEqual(moved.place, 0);
+  const [inside] = arrange([{ x: 380, y: 200, width: 60, height: 14 }], [[390, 0, 120, 800]]);
+  assert.ok(inside.left + 60 <= 390);
 });

@@ -37,6 +37,7 @@ const LINE = 22; // pixels, of a name with its halo
 const ROOMY = 0.84; // of the picture that the frames' origins fill: names and axes reach beyond
 const SMALLEST = 0.56; // metres from the middle to the sides
 const CORNER = { width: 124, height: 108 }; // pixels of the scale and the axes in the corner
+const BESIDE = 120; // pixels to the left and right of the picture, where no name may reach
 const ARRANGED_EVERY = 5; // pictures, with many names
 const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale frames turn into
 
@@ -592,7 +593,7 @@ export class Stage {
     const anew = seen.length <= MANY || ++this.gone >= ARRANGED_EVERY;
     if (anew) this.gone = 0;
     const stands = anew
-      ? arrange(seen, this.reserved)
+      ? arrange(seen, [...this.reserved, ...[-BESIDE, this.width].map((left) => [left, 0, BESIDE, this.height])])
       : seen.map((one) => (one.was === undefined && !one.first ? null : standAt(one, one.was ?? 0)));
     this.stood.clear();
     pen.strokeStyle = this.theme.text;
