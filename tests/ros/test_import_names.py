@@ -157,3 +157,46 @@ def test_names_of_a_package_are_loaded_when_they_are_used(ros_runtime):
     assert "rclpy.time_source" not in sys.modules
     with pytest.raises(AttributeError, match="did you mean 'LaserScan'"):
         _ = sensor_msgs.msg.LaserScann
+
+
+def test_our_own_files_import_none_of_the_names_of_ros():
+    import ast
+    from pathlib import Path
+
+    import tftool
+    from tftool.ros.host import import_table
+
+    theirs = {name.partition(".")[0] for name in import_table.table()}
+    for file in Path(tftool.__file__).parent.rglob("*.py"):
+        if "share" not in file.parts:
+            for node in ast.walk(ast.parse(file.read_text())):
+                if isinstance(node, ast.Import):
+                    assert not theirs & {one.name.partition(".")[0] for one in node.names}, file
+                elif isinstance(node, ast.ImportFrom) and not node.level:
+                    assert (node.module or "").partition(".")[0] not in theirs, file
+
+
+def test_one_class_has_one_name_and_child_processes_have_no_rclpy():
+    ask = [sys.executable, "-c", "import rclpy"]
+    with ros_free():
+        import rclpy.node
+
+        assert rclpy.node.Node.__module__ == "tftool.ros.rclpy.node"
+        done = subprocess.run(ask, capture_output=True, text=True, check=False)
+
+    assert "No module named 'rclpy'" in done.stderr
+    assert "rclpy" not in sys.modules
+
+
+def test_beside_a_sourced_ros_its_own_modules_are_back_after_a_forced_run(tmp_path, monkeypatch):
+    (tmp_path / "rclpy").mkdir()
+    (tmp_path / "rclpy" / "__init__.py").write_text("REAL = True\n")
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    real = importlib.import_module("rclpy")
+    try:
+        with ros_free(force=True):
+            assert not hasattr(importlib.import_module("rclpy"), "REAL")
+        assert sys.modules["rclpy"] is real
+    finally:
+        del sys.modules["rclpy"]
