@@ -47,11 +47,13 @@ typedef struct {
     PyTypeObject *fields, *tuples[4];
     PyObject *blanks[4], *empty, *link; /* As in `TUPLES`; ""; "link". */
     newfunc make;                /* A tuple's constructor. */
+    allocfunc allocate;          /* A tuple's memory, cleared. */
 } Types;
 
 /* The tuples an answer is made of: where their types are found, and what the arguments are that
    make one of their size. */
 enum { VECTOR, QUATERNION, TRANSFORM, STAMPED };
+static const Py_ssize_t SIZES[4] = {3, 4, 2, 4};
 static const struct {
     const char *module, *name, *blank;
 } TUPLES[4] = {
@@ -325,7 +327,9 @@ static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject
 static PyObject *blank(const Types *types, int i) {
     /* From 3.14 on a tuple keeps its hash, 0 in memory that is only cleared: it takes Python's own
        constructor, and a tuple to copy, to say that there is none yet. */
-    PyObject *made = types->make(types->tuples[i], types->blanks[i], NULL);
+    PyObject *made = Py_Version < 0x030E0000
+        ? types->allocate(types->tuples[i], SIZES[i])
+        : types->make(types->tuples[i], types->blanks[i], NULL);
     if (made != NULL)
         PyObject_GC_UnTrack(made);
     return made;
@@ -535,8 +539,8 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
             oldest = stamp;
             start = place;
         }
-        else
-            memmove(records + place + 1, records + place, sizeof(Record) * (count++ - place));
+        else if (place < count++)
+            memmove(records + place + 1, records + place, sizeof(Record) * (count - 1 - place));
         records[place].stamp = stamp;
         memcpy(records[place].pose, pose, sizeof records[place].pose);
         link->start = start;
@@ -731,6 +735,7 @@ static int module_exec(PyObject *module) {
         || (types->link = PyUnicode_InternFromString("link")) == NULL)
         return -1;
     types->make = (newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new);
+    types->allocate = (allocfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_alloc);
     for (int i = 0; i < 4; i++) {
         PyObject *home = PyImport_ImportModule(TUPLES[i].module);
         PyObject *type = home == NULL ? NULL : PyObject_GetAttrString(home, TUPLES[i].name);
