@@ -1,10 +1,10 @@
-/* What a lookup reckons: to find samples, to go between them, and to chain links.
+/* Arithmetic of a lookup: find samples, interpolate between them, compose links.
 
-   Numbers in, numbers out: nothing here knows of Python. Each function has a twin there (`history`,
-   `geometry.poses`, `path`, `batch/`): the same operations in order, but short arcs by a series. */
+   Pure C, without Python. Each function has a twin in Python (`history`, `geometry.poses`, `path`,
+   `batch/`) with the same operations in the same order, except that short arcs use a series. */
 
-#ifndef TFTOOL_WAY_H
-#define TFTOOL_WAY_H
+#ifndef TFTOOL_CHAIN_H
+#define TFTOOL_CHAIN_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -20,42 +20,42 @@
 #define PREFETCH(place) (void)(place)
 #endif
 
-/* Where one build can hold a function twice, it does so for processors that work on four numbers
-   at once: which one runs is chosen when the module is loaded. */
+/* A function with this attribute is compiled twice, also for processors with vectors of four
+   numbers (AVX2). The loader chooses one; only glibc supports that. */
 #if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__)
 #define WIDE __attribute__((target_clones("avx2", "default")))
 #else
 #define WIDE
 #endif
 
-/* Moments solved together, number by number: their work memory stays in the processor's nearest
-   cache and within a small thread's stack, and the compiler vectorises each loop. */
+/* Rows solved together: their work memory fits in the first-level cache and in the stack of a small
+   thread, and the compiler vectorises each loop. */
 #define BLOCK 64
 
-/* Poses lie as rows, `width` numbers each: first every x, then y z qx qy qz qw. The functions
-   of one moment and of many are the same: for one, the width is 1. */
+/* Poses as a structure of arrays: `width` numbers x, then y, z, qx, qy, qz, qw. A single lookup
+   uses the same functions, with a width of 1. */
 typedef double Rows[7 * BLOCK];
 
-/* As in `history`: a stamp in nanoseconds; x y z, qx qy qz qw. */
+/* A sample, as in `history`: a stamp in nanoseconds; x y z, qx qy qz qw. */
 typedef struct {
     int64_t stamp;
     double pose[7];
 } Record;
 
-/* One link made ready for moments: records in order, or a pose that never changes. */
+/* A link opened for lookups: records in order of stamps, or a static pose. */
 typedef struct {
-    const Record *records; /* NULL: `fixed`. */
+    const Record *records; /* NULL for a static link: see `fixed`. */
     ptrdiff_t last;
-    int64_t oldest, newest; /* The same if there is one record. */
-    double rate;            /* Records a nanosecond. */
-    ptrdiff_t here;         /* Where the first moment is looked for first. */
+    int64_t oldest, newest; /* Equal if there is one record. */
+    double rate;            /* Records per nanosecond. */
+    ptrdiff_t here;         /* First guess of the index for a single lookup. */
     double fixed[7];
 } Edge;
 
-/* Finding ---------------------------------------------------------------- */
+/* Search ----------------------------------------------------------------- */
 
-/* Where a moment is looked for first, by the mean rate of the samples; memory is told to bring
-   what lies there. Before the last record, if there are two. */
+/* Guess the index of the record before a time from the mean rate of the samples, and prefetch that
+   record and the next. Less than `last`, if there are two records. */
 INLINE ptrdiff_t aim(const Edge *edge, int64_t time) {
     const double most = edge->last > 0 ? (double)(edge->last - 1) : 0.0;
     double at = ((double)time - (double)edge->oldest) * edge->rate;
@@ -66,8 +66,9 @@ INLINE ptrdiff_t aim(const Edge *edge, int64_t time) {
     return here;
 }
 
-/* The last record at or before a moment, given stamp[0] <= time < stamp[last] and a guess;
-   whatever the stamps are, it is less than `last`. Correct the guess twice, then bisect. */
+/* Return the index of the last record at or before a time, given stamp[0] <= time < stamp[last]
+   and a guess. Corrects the guess twice by the mean rate, then bisects. Whatever the stamps are
+   (another thread may be writing them), the index is less than `last`. */
 static ptrdiff_t find(const Edge *edge, int64_t time, ptrdiff_t at) {
     const Record *records = edge->records;
     ptrdiff_t low = 0, high = edge->last;
@@ -88,8 +89,9 @@ static ptrdiff_t find(const Edge *edge, int64_t time, ptrdiff_t at) {
     return low < edge->last ? low : edge->last - 1;
 }
 
-/* Fetch both neighbours of each moment, and how far it lies between them: NaN where the link has
-   no data for it, which makes all of the pose NaN, and of what that is chained with. */
+/* Load the records before and after each time, and the fraction of the way between them. The
+   fraction is NaN if the link has no data at that time, which makes the pose, and every pose
+   composed with it, NaN. */
 INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
                   double *second, double *fraction, ptrdiff_t *places) {
     const Record *records = edge->records;
@@ -101,14 +103,15 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
         ptrdiff_t at = places[i];
         if (edge->oldest < time && time < edge->newest) {
             if (width > 1) {
-                /* As a rule it is that one or a neighbour; of many, no branch foretells which. */
+                /* Mostly this record or a neighbour. No branches: in a batch they are
+                   mispredicted. */
                 at -= (at > 0) & (records[at].stamp > time);
                 at += (at < last - 1) & (records[at + 1].stamp <= time);
             }
             if (!(records[at].stamp <= time && time < records[at + 1].stamp))
                 at = find(edge, time, at);
         }
-        else /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
+        else /* Of equal stamps: the last one at the newest end, the first one at the oldest. */
             at = time == edge->oldest && time != edge->newest ? 0 : last;
         const Record *here = records + at, *next = here + (at < last);
         const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
@@ -123,12 +126,12 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
 
 /* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
 
-/* Arcs up to this value of 1 - cos are turned by so many terms, the error below 1e-17. */
+/* Up to this value of 1 - cos the series has this many terms; its error is below 1e-17. */
 #define SHORT_ARC 1e-3
 #define TERMS 4
 
-/* sin(f θ) / sin θ - f for u = 1 - cos θ: how much more of an end an arc takes than its chord.
-   The whole is a product of terms that are all positive:
+/* Return sin(f θ) / sin θ - f for u = 1 - cos θ: the weight of one end of an arc, minus its weight
+   on the chord. The series has only positive terms, so that nothing cancels:
    f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
    Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
 INLINE double slerp_weight(double f, double u) {
@@ -142,7 +145,7 @@ INLINE double slerp_weight(double f, double u) {
     return f * more;
 }
 
-/* Write to `out` the poses at `fraction` of the arc from `a` to `b`. */
+/* Interpolate: write to `out` the poses at `fraction` of the arc from `a` to `b`. */
 INLINE void interpolate(const double *a, const double *b, const double *fraction, int n, int width,
                         double *out, double *near, double *sign, double *first_weight,
                         double *second_weight) {
@@ -161,8 +164,8 @@ INLINE void interpolate(const double *a, const double *b, const double *fraction
     }
     for (int k = 0; k < 7; k++)
         for (int i = 0; i < n; i++) {
-            /* A sample that is met is taken unchanged: no weight of 0 times infinity. Between equal
-               rotations the answer is theirs to the last bit. */
+            /* At a sample's own time the sample is copied, as 0 times infinity would be NaN.
+               Between equal rotations the result is equal to them, to the last bit. */
             const double here = a[k * width + i], there = b[k * width + i];
             const double chord = here + fraction[i] * ((k < 3 ? there : sign[i] * there) - here);
             const double weighted = first_weight[i] * here + second_weight[i] * there;
@@ -179,7 +182,7 @@ INLINE void interpolate(const double *a, const double *b, const double *fraction
         }
 }
 
-/* Turn a pose by a rotation. */
+/* Rotate a pose in place. */
 INLINE void turn(double ax, double ay, double az, double aw, double *pose, int width) {
     const double x = pose[0], y = pose[width], z = pose[2 * width];
     const double bx = pose[3 * width], by = pose[4 * width], bz = pose[5 * width];
@@ -196,7 +199,7 @@ INLINE void turn(double ax, double ay, double az, double aw, double *pose, int w
     pose[6 * width] = aw * bw - ax * bx - ay * by - az * bz;
 }
 
-/* `outer` after `inner`, in place of the latter. */
+/* Replace `inner` by `outer * inner`. */
 INLINE void compose(const double *outer, double *inner, int n, int width) {
     for (int i = 0; i < n; i++) {
         const double *o = outer + i;
@@ -206,7 +209,7 @@ INLINE void compose(const double *outer, double *inner, int n, int width) {
     }
 }
 
-/* `second` as seen from `first`, in place of the former: turned back, the difference of both. */
+/* Replace `second` by its pose relative to `first`: the difference, rotated back. */
 INLINE void relative(const double *first, double *second, int n, int width) {
     for (int i = 0; i < n; i++) {
         const double *o = first + i;
@@ -216,15 +219,15 @@ INLINE void relative(const double *first, double *second, int n, int width) {
     }
 }
 
-/* The sign that tf2 gives: `quaternions.canonical`. */
+/* Give quaternions the sign that tf2 gives them: `quaternions.canonical`. */
 INLINE void canonical(double *q, int width) {
     const double sign = leading(q[0], q[width], q[2 * width], q[3 * width]) < 0.0 ? -1.0 : 1.0;
     for (int k = 0; k < 4; k++)
         q[k * width] *= sign;
 }
 
-/* Of length one, as samples are, and of tf2's sign: `quaternions.unit`, then `canonical`, of what
-   unit quaternions were chained to. */
+/* Scale products of unit quaternions to length one and give them tf2's sign: `quaternions.unit`,
+   then `canonical`. */
 INLINE void normalise(double *turn, int n, int width) {
     for (int i = 0; i < n; i++) {
         double *q = turn + i;
@@ -236,17 +239,16 @@ INLINE void normalise(double *turn, int n, int width) {
     }
 }
 
-/* Memory that a solution works in, owned by the caller: each array has room for `width` moments.
-   One moment needs some 300 bytes of stack, a block 21 KB: lookups must also succeed in a
-   thread with 64 KB. Separate local arrays, so that the compiler knows that none
-   overlaps another. */
+/* Work memory, owned by the caller: each array has space for `width` times. A single lookup needs
+   300 bytes of stack, a block 21 KB: lookups must also succeed in a thread with a stack of 64 KB.
+   Separate arrays, so that the compiler knows that none overlaps another. */
 typedef struct {
-    double *first, *second, *step, *other;      /* 7 numbers a moment. */
-    double *fraction, *near, *sign, *first_weight, *second_weight;  /* 1 number a moment. */
+    double *first, *second, *step, *other;      /* 7 numbers for each time. */
+    double *fraction, *near, *sign, *first_weight, *second_weight;  /* 1 number for each time. */
     ptrdiff_t *places;
 } Workspace;
 
-/* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
+/* Compose the poses of several links, lowest first, at each time: `path.chain`. */
 INLINE void compose_links(const Edge *edges, ptrdiff_t count, const int64_t *times, int n,
                           int width, double *pose, const Workspace *work) {
     double *const step = work->step;
@@ -255,7 +257,8 @@ INLINE void compose_links(const Edge *edges, ptrdiff_t count, const int64_t *tim
         if (count > 0 && edges[e].records != NULL) {
             fetch(&edges[e], times, n, width, work->first, work->second, work->fraction,
                   work->places);
-            /* One moment that is a sample's own, as the newest mostly is: 7 % of a lookup. */
+            /* A single time at which there is a sample, as for most of the newest: 7 % of a
+               lookup. */
             if (width == 1 && work->fraction[0] == 0.0)
                 memcpy(out, work->first, 7 * sizeof *out);
             else
@@ -273,14 +276,13 @@ INLINE void compose_links(const Edge *edges, ptrdiff_t count, const int64_t *tim
 
 /* Chains ------------------------------------------------------------------- */
 
-/* The links from source upward, then those from target upward, made ready. The caller owns the
-   edges. */
+/* The open links from source upward, then those from target upward. The caller owns the edges. */
 typedef struct {
     Edge *edges;
     ptrdiff_t ups, count;
 } Chain;
 
-/* Poses of source in target, or NaN throughout: `Path.solve`. */
+/* Write the poses of source in target, or NaN in all numbers: `Path.solve`. */
 INLINE void solve_chain(const Chain *chain, const int64_t *times, int n, int width, double *pose,
                       const Workspace *work) {
     compose_links(chain->edges, chain->ups, times, n, width, pose, work);
@@ -292,7 +294,7 @@ INLINE void solve_chain(const Chain *chain, const int64_t *times, int n, int wid
     normalise(pose + 3 * width, n, width);
 }
 
-/* The pose of source in target at one moment, or NaN throughout. */
+/* Write the pose of source in target at one time, or NaN in all numbers. */
 INLINE void solve_one(const Chain *chain, int64_t time, double *pose) {
     double first[7], second[7], step[7], other[7], fraction[1], near[1];
     double sign[1], first_weight[1], second_weight[1];
@@ -302,8 +304,8 @@ INLINE void solve_one(const Chain *chain, int64_t time, double *pose) {
     solve_chain(chain, &time, 1, 1, pose, &work);
 }
 
-/* Poses of source in target for so many moments, block by block, or NaN where `valid` becomes 0.
-   Returns how many these are. */
+/* Write the poses of source in target at many times, block by block; a row without data is NaN and
+   its `valid` 0. Returns the number of these rows. */
 WIDE static ptrdiff_t solve_rows(const Chain *chain, ptrdiff_t rows, const int64_t *times,
                                   double *places, double *turns, unsigned char *valid) {
     ptrdiff_t missing = 0;

@@ -1,15 +1,18 @@
-/* The native kernel: what a lookup, an insert and a batch spend their time in.
+/* Native kernel: the inner loops of a lookup, an insert and a batch.
 
-   Everything here has a twin in Python that says the same thing for reading (`history`, `path`,
-   `geometry.poses`, `batch/`), and the tests run on both. Its rules:
+   Everything here has a twin in Python (`history`, `path`, `geometry.poses`, `batch/`), which is
+   the readable version; the tests run on both. Rules:
 
-   - It does exactly what its twin does, with the same operations in the same order (built with
-     -ffp-contract=off), or it does nothing, and the twin takes over. What is unusual (a refusal,
-     a link that changes parents, a number that is no float, no room) is left to it.
-   - It keeps nothing between calls but which pairs of frames were asked for lately. Samples lie
-     in arrays that Python holds, and are read and written through the buffer protocol; every index
-     and length is checked against the buffer.
-   - The limited API of CPython 3.11: one build serves every later version with a GIL. */
+   - A function either does exactly what its twin does, with the same operations in the same order
+     (built with -ffp-contract=off), or changes nothing and lets the twin run. Unusual cases (a
+     refusal, a link that changes parents, a number that is no float, a full array) go to the twin.
+   - Between calls it stores only which pairs of frames were looked up recently. Samples are in
+     arrays that Python owns; they are read and written through the buffer protocol, and every
+     index and length is checked against the buffer.
+   - Any call into Python may run the collector, and thereby code that changes or frees what this
+     file points to. So every object used across such a call is owned (a reference of ours), and
+     facts read before it are read again after it.
+   - Limited API of CPython 3.11: one build serves all later versions that have a GIL. */
 
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030B0000
@@ -19,39 +22,39 @@
 
 #include "_chain.h"
 
-/* What `tftool.base.native` expects; a build of another interface is not used. */
+/* Version that `tftool.base.native` expects; a build with another one is not used. */
 #define INTERFACE 7
 
-/* What is shared with Python --------------------------------------------- */
+/* Shared with Python ------------------------------------------------------ */
 
-/* The fields of both kinds of links. Python's classes inherit them, and Python's code reads and
-   writes them by their names; see `History` for what they mean. */
+/* Fields of both kinds of links. Python's classes inherit them and use them by name; `History`
+   documents them. */
 #define PARENT_MASK 0xffffffffLL /* The bits of an origin that are the parent's number. */
 typedef struct {
     PyObject_HEAD
-    PyObject *records, *origins, *_newest, *_newest_pair; /* No records: it never moves. */
+    PyObject *records, *origins, *_newest, *_newest_pair; /* No records: a static link. */
     long long newest_stamp, oldest_stamp, limit, start, count, origin;
     char mixed;
 } Link;
 
-/* What the methods of a buffer read: `Buffer` inherits it; see there. */
+/* Fields that the methods below read. `Buffer` inherits and documents them. */
 typedef struct {
     PyObject_HEAD
     PyObject *_paths, *_senders, *_listening, *_pending, *_numbers, *_frames;
-    PyObject *_seen; /* Pairs looked up lately, for `is_second`; NULL before the first one. */
+    PyObject *_seen; /* Recent pairs, for `is_second`; NULL before the first one. */
     uint32_t random;
 } Door;
 
-/* What answers are made of and read by; the state of the module, which Python never unloads. */
+/* State of the module, which Python never unloads: the types of results and of links. */
 typedef struct {
     PyTypeObject *fields, *tuples[4];
-    PyObject *blanks[4], *empty, *link; /* As in `TUPLES`; ""; "link". */
+    PyObject *blanks[4], *empty, *link; /* Arguments as in `TUPLES`; ""; "link". */
     newfunc make;                /* A tuple's constructor. */
     allocfunc allocate;          /* A tuple's memory, cleared. */
 } Types;
 
-/* The tuples an answer is made of: where their types are found, and what the arguments are that
-   make one of their size. */
+/* The tuples of a result: module and name of each type, and the arguments of its constructor that
+   give a tuple of the right size. */
 enum { VECTOR, QUATERNION, TRANSFORM, STAMPED };
 static const Py_ssize_t SIZES[4] = {3, 4, 2, 4};
 static const struct {
@@ -63,12 +66,12 @@ static const struct {
     {"tftool.buffer.sample", "TransformStamped", "((OOOO))"},
 };
 
-/* Whether something is there, and a tuple of that size. */
+/* Whether the object exists and is a tuple of that size. */
 INLINE int is_tuple(PyObject *object, Py_ssize_t size) {
     return object != NULL && PyTuple_Check(object) && PyTuple_Size(object) == size;
 }
 
-/* That many floats of a tuple. Returns whether that is what it is; never sets an error. */
+/* Read a tuple of that many floats. Returns whether it is one; never sets an error. */
 static int read_floats(PyObject *tuple, double *numbers, Py_ssize_t size) {
     if (!is_tuple(tuple, size))
         return 0;
@@ -81,7 +84,7 @@ static int read_floats(PyObject *tuple, double *numbers, Py_ssize_t size) {
     return 1;
 }
 
-/* A moment as 64 bits. Returns whether it is an `int` that fits; never sets an error. */
+/* Read a stamp. Returns whether it is an `int` of 64 bits; never sets an error. */
 static int read_stamp(PyObject *stamp, int64_t *value) {
     int overflow = 0;
     if (!PyLong_CheckExact(stamp))
@@ -90,11 +93,11 @@ static int read_stamp(PyObject *stamp, int64_t *value) {
     return !overflow;
 }
 
-/* Open the records of a moving link in `view`, which the caller releases. Returns whether the
-   kernel can read them; never sets an error. */
+/* Open the records of a moving link in `view`; on success the caller must release it. Returns
+   whether the kernel can read them; never sets an error. */
 static int read_records(const Link *link, int flags, Py_buffer *view) {
     /* From 3.12 on this may run Python code (`__buffer__`), which may change the link and its
-       records: the reference is ours meanwhile, and every number is checked afterwards. */
+       records: so own the records meanwhile, and check every number afterwards. */
     PyObject *records = Py_NewRef(link->records);
     const int opened = PyObject_GetBuffer(records, view, flags);
     Py_DECREF(records);
@@ -110,7 +113,8 @@ static int read_records(const Link *link, int flags, Py_buffer *view) {
     return 0;
 }
 
-/* Make a link ready, its records in `view`. Returns whether it is plain; never sets an error. */
+/* Fill an edge from a link, with its records in `view`, which the caller releases if the edge has
+   records. Returns whether the kernel can use the link; never sets an error. */
 static int read_link(const Link *link, Edge *edge, Py_buffer *view) {
     edge->records = NULL;
     if (link->records == NULL)
@@ -125,25 +129,25 @@ static int read_link(const Link *link, Edge *edge, Py_buffer *view) {
     return 1;
 }
 
-/* Links of the longest chain solved here; Python solves longer ones. */
+/* Most links of a chain solved here; Python solves longer ones. */
 #define MOST_LINKS 128
 
-/* So many of them lie on the stack; room for more is allocated. */
+/* Up to this many links are on the stack; memory for more is allocated. */
 #define FEW_LINKS 16
 
-/* A chain, and the views that own the records of its links until `close_chain`. */
+/* A chain with the views that own the records of its links until `close_chain`. */
 typedef struct {
     Chain chain;
     Py_buffer *views;
-    void *more; /* Memory for edges and views, where they are many; freed by `close_chain`. */
+    void *more; /* Memory for many edges and views, or NULL; freed by `close_chain`. */
     Edge few_edges[FEW_LINKS];
     Py_buffer few_views[FEW_LINKS];
 } OpenChain;
 
-/* Make the links of two tuples ready, to be closed in any case; `time` is when they are read
-   first: 0 becomes the newest moment for which every moving link has data, as in `Path.latest`.
-   Neighbours that never move become one edge, as in `path.folded`. Returns whether all are plain;
-   never sets an error. */
+/* Open the links of two tuples as one chain. A `time` of 0 becomes the newest stamp for which every
+   moving link has data, as in `Path.latest`. Adjacent static links become one edge, as in
+   `path.folded`. Returns whether the kernel can use all links; never sets an error. The caller
+   must call `close_chain` in either case. */
 static int open_chain(OpenChain *held, PyTypeObject *fields, PyObject *up, PyObject *down,
                       int64_t *time) {
     Chain *chain = &held->chain;
@@ -181,7 +185,7 @@ static int open_chain(OpenChain *held, PyTypeObject *fields, PyObject *up, PyObj
         const int64_t newest = ((const Link *)link)->newest_stamp; /* 0 if it never moves. */
         if (newest != 0 && (newest < latest || latest == 0))
             latest = newest;
-        /* Memory brings what is read first while the other links are made ready. */
+        /* Prefetch the samples while the other links are opened. */
         if (edge->records != NULL)
             edge->here = aim(edge, *time != 0 ? *time : newest);
     }
@@ -189,7 +193,7 @@ static int open_chain(OpenChain *held, PyTypeObject *fields, PyObject *up, PyObj
     return 1;
 }
 
-/* Let go of the records of the links that are ready. */
+/* Release the records of all open links, and the memory of the chain. */
 static void close_chain(OpenChain *held) {
     for (Py_ssize_t i = 0; i < held->chain.count; i++)
         if (held->chain.edges[i].records != NULL)
@@ -197,21 +201,21 @@ static void close_chain(OpenChain *held) {
     PyMem_Free(held->more);
 }
 
-/* Looking up -------------------------------------------------------------- */
+/* Lookups ----------------------------------------------------------------- */
 
-/* Whether two plain strings are equal; one that is none is equal to nothing. */
+/* Whether two objects are equal plain strings; an object of another type equals nothing. */
 static int same_text(PyObject *known, PyObject *given) {
     return PyUnicode_CheckExact(known)
         && (known == given
             || (PyUnicode_CheckExact(given) && PyUnicode_Compare(known, given) == 0));
 }
 
-/* Return what a dictionary holds under a plain string, a new reference; NULL if there is nothing,
-   or it is no dictionary, or no such string. Never sets an error.
+/* Return the value of a key in a dictionary, a new reference; NULL without an error if there is
+   none, or the arguments are no dictionary and no plain string.
 
-   Names in a buffer are plain strings, so that no comparison runs code. Were one another string
-   all the same, its `__eq__` could run here and drop the dictionary or the value: that is why both
-   are owned. What it raises, the plain twin raises again. */
+   Names in a buffer are plain strings, so that no comparison runs code. If a key is an instance of
+   a subclass all the same, its `__eq__` could run here and free the dictionary or the value: so
+   both are owned. An exception is dropped here, and raised again by the plain twin. */
 static PyObject *value_of(PyObject *dictionary, PyObject *name) {
     if (dictionary == NULL || !PyDict_Check(dictionary) || !PyUnicode_CheckExact(name))
         return NULL;
@@ -225,9 +229,10 @@ static PyObject *value_of(PyObject *dictionary, PyObject *name) {
     return value;
 }
 
-/* Follow the newest parents of a frame up to the root: put the links, new references, into
-   `links`, and the root's number in place of the frame's. Returns how many; -1 where a link is not plain, has
-   samples of several parents, or there are too many. Never sets an error. */
+/* Follow the parents of a frame up to its root. Stores the links, new references that the caller
+   owns, in `links`, and the number of the root in `*root`, which holds the frame's number at first.
+   Returns the number of links, or -1, without references, if a link is not plain, has samples of
+   several parents, or there are more than MOST_LINKS. Never sets an error. */
 static Py_ssize_t climb(const Types *types, PyObject *frames, PyObject **links, int64_t *root) {
     Py_ssize_t count = 0;
     for (; count < MOST_LINKS; count++) {
@@ -252,7 +257,7 @@ static Py_ssize_t climb(const Types *types, PyObject *frames, PyObject **links, 
     return -1;
 }
 
-/* Return a tuple of these links, whose references it takes; NULL with an error set on failure. */
+/* Return a new tuple of links; it takes their references, also on failure (NULL, error set). */
 static PyObject *pack(PyObject **links, Py_ssize_t count) {
     PyObject *tuple = PyTuple_New(count < 0 ? 0 : count);
     for (Py_ssize_t i = 0; i < count; i++)
@@ -263,11 +268,11 @@ static PyObject *pack(PyObject **links, Py_ssize_t count) {
     return tuple;
 }
 
-/* So many pairs of frames are remembered, mostly each in a place of its own. */
+/* Number of pairs in the table of recent lookups. A pair has one possible place in it. */
 #define SEEN 4096
 
-/* Whether a pair was looked up lately; as a rule it is remembered. What is asked for again is left to
-   Python, which caches the path; what is asked for once takes no memory. Never sets an error. */
+/* Whether a pair was looked up recently; if not, store it. Python caches the path of a pair that
+   is looked up again; a pair that is looked up once takes no memory. Never sets an error. */
 static int is_second(Door *door, int64_t target, int64_t source) {
     const int64_t pair = (target + 1) << 32 ^ source;
     const Py_ssize_t size = SEEN * sizeof pair;
@@ -281,17 +286,16 @@ static int is_second(Door *door, int64_t target, int64_t source) {
     char *place = PyByteArray_AsString(door->_seen) + mixed / (UINT64_MAX / SEEN + 1) * sizeof pair;
     int64_t held;
     memcpy(&held, place, sizeof held);
-    /* Of two pairs that share a place and take turns, neither would ever be known: the older one
-       stays every second time, at random (the numbers are those of C's `rand`). */
+    /* Two pairs that share a place and alternate would replace each other for ever: so the older
+       one stays every second time, at random (with the constants of C's `rand`). */
     door->random = door->random * 1103515245 + 12345;
     if (held == 0 || door->random >> 31)
         memcpy(place, &pair, sizeof pair);
     return held == pair;
 }
 
-/* Return the links between two frames that no path is cached for, as `(up, down)`, a new
-   reference: `FrameTree.walk` where every link has data. NULL if that is not plain. Never sets an
-   error. */
+/* Return the links between two frames without a cached path as `(up, down)`, a new reference, as
+   `FrameTree.walk` does if every link has data. NULL, without an error, if the twin must answer. */
 static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject *source) {
     PyObject *up[MOST_LINKS], *down[MOST_LINKS], *path = NULL;
     PyObject *first = value_of(door->_numbers, source), *last = value_of(door->_numbers, target);
@@ -307,12 +311,12 @@ static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject
     Py_ssize_t ups = climb(types, frames, up, &top);
     Py_ssize_t downs = ups < 0 ? -1 : climb(types, frames, down, &end);
     Py_DECREF(frames);
-    /* What lies above the common ancestor is on both sides. */
+    /* Links above the common ancestor are on both sides. */
     while (ups > 0 && downs > 0 && up[ups - 1] == down[downs - 1]) {
         Py_DECREF(up[--ups]);
         Py_DECREF(down[--downs]);
     }
-    /* These take the references to the links, also where there is no memory. */
+    /* `pack` takes the references to the links, also without memory. */
     PyObject *sides[2] = {pack(up, ups), pack(down, downs)};
     if (downs >= 0 && top == end && sides[0] != NULL && sides[1] != NULL)
         path = PyTuple_Pack(2, sides[0], sides[1]);
@@ -322,11 +326,11 @@ static PyObject *walk(Door *door, const Types *types, PyObject *target, PyObject
     return path;
 }
 
-/* A new tuple of one of the types, to be filled; NULL with an error set on failure. The collector
-   is never to see it: of numbers and plain strings is no circle. */
+/* Return a new tuple of one of the types, to be filled; NULL with an error set on failure. It is
+   not tracked by the collector: numbers and plain strings form no cycle. */
 static PyObject *blank(const Types *types, int i) {
-    /* From 3.14 on a tuple keeps its hash, 0 in memory that is only cleared: it takes Python's own
-       constructor, and a tuple to copy, to say that there is none yet. */
+    /* From 3.14 on a tuple stores its hash. Cleared memory would be a hash of 0; only Python's own
+       constructor marks it as unknown, and that needs a tuple to copy. */
     PyObject *made = Py_Version < 0x030E0000
         ? types->allocate(types->tuples[i], SIZES[i])
         : types->make(types->tuples[i], types->blanks[i], NULL);
@@ -335,7 +339,8 @@ static PyObject *blank(const Types *types, int i) {
     return made;
 }
 
-/* Put a new reference into a tuple if there are both. Returns it, or NULL with an error set. */
+/* Store an item in a tuple, which takes the reference, if both exist. Returns the item,
+   borrowed; on failure releases it and returns NULL with an error set. */
 static PyObject *set(PyObject *tuple, Py_ssize_t place, PyObject *item) {
     if (tuple != NULL && item != NULL)
         return PyTuple_SetItem(tuple, place, item) == 0 ? item : NULL;
@@ -343,8 +348,8 @@ static PyObject *set(PyObject *tuple, Py_ssize_t place, PyObject *item) {
     return NULL;
 }
 
-/* A TransformStamped but for the numbers of its pose; NULL if there is no memory. Never sets an
-   error. */
+/* Return a new TransformStamped whose pose has no numbers yet; NULL, without an error, without
+   memory. */
 static PyObject *prepare(const Types *types, int64_t stamp, PyObject *target, PyObject *source) {
     PyObject *made = blank(types, STAMPED), *transform = set(made, 3, blank(types, TRANSFORM));
     if (set(transform, 0, blank(types, VECTOR)) && set(transform, 1, blank(types, QUATERNION))
@@ -356,7 +361,8 @@ static PyObject *prepare(const Types *types, int64_t stamp, PyObject *target, Py
     return NULL;
 }
 
-/* What was prepared, with its numbers; NULL with an error set on failure. */
+/* Fill in the pose of a prepared result, whose reference is taken, and return it; NULL with an
+   error set on failure. */
 static PyObject *answer(PyObject *made, const double *pose) {
     PyObject *transform = PyTuple_GetItem(made, 3);
     PyObject *halves[2] = {PyTuple_GetItem(transform, 0), PyTuple_GetItem(transform, 1)};
@@ -368,9 +374,9 @@ static PyObject *answer(PyObject *made, const double *pose) {
     return made;
 }
 
-/* The pose of source in target by a path, cached or not, and the moment it holds for in place of
-   0; an answer is prepared on the way if one is wanted. Returns 0 if that is not plain; never sets
-   an error. */
+/* Solve the pose of source in target by a cached or new path; a `*time` of 0 becomes the latest
+   common stamp. If `made` is given, `*made` becomes the prepared result, which the caller owns,
+   also if 0 is returned. Returns 0 if the twin must answer; never sets an error. */
 static int solve_path(Door *door, const Types *types, PyObject *target, PyObject *source,
                       int64_t *time, double *pose, PyObject **made) {
     PyObject *of_target = value_of(door->_paths, target), *up, *down;
@@ -381,8 +387,8 @@ static int solve_path(Door *door, const Types *types, PyObject *target, PyObject
         path = walk(door, types, target, source);
     if ((is_tuple(path, 3) || is_tuple(path, 2)) && PyTuple_Check(up = PyTuple_GetItem(path, 0))
         && PyTuple_Check(down = PyTuple_GetItem(path, 1))) {
-        /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
-           which drops the path from the buffer: this reference to it is ours. */
+        /* The result is prepared here, while memory fetches the samples. Making tuples may run the
+           collector, and thereby code that drops the path from the buffer: so `path` is owned. */
         is_open = open_chain(&held, types->fields, up, down, time)
             && (made == NULL || (*made = prepare(types, *time, target, source)) != NULL);
         if (is_open)
@@ -394,7 +400,7 @@ static int solve_path(Door *door, const Types *types, PyObject *target, PyObject
     return is_open && pose[6] == pose[6];
 }
 
-/* What `Buffer` does in plain Python, as it was asked. */
+/* Call the plain twin, a method of `Buffer`, with the same arguments; return its result. */
 static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args, Py_ssize_t count,
                          PyObject *names) {
     const Py_ssize_t named = names == NULL ? 0 : PyTuple_Size(names);
@@ -418,7 +424,7 @@ static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args
                           Py_ssize_t count, PyObject *names)
 #define PLAINLY(name) plainly(self, "_plain_" #name, args, count, names)
 
-/* `solve_path` for a target, a source and perhaps a moment, all given by their places. */
+/* `solve_path` for positional arguments: a target, a source and, optionally, a time. */
 static int solve_plain(PyObject *self, const Types *types, PyObject *const *args, Py_ssize_t count,
                        PyObject *names, int64_t *time, double *pose, PyObject **made) {
     *time = 0;
@@ -426,7 +432,7 @@ static int solve_plain(PyObject *self, const Types *types, PyObject *const *args
         && solve_path((Door *)self, types, args[0], args[1], time, pose, made);
 }
 
-/* Each method answers as its entry in `door_methods` says, or has its plain twin answer. */
+/* Each method returns a new reference as its entry in `door_methods` says, or calls its twin. */
 METHOD(lookup_transform) {
     const Types *types = PyType_GetModuleState(door);
     PyObject *made = NULL;
@@ -438,7 +444,7 @@ METHOD(lookup_transform) {
     return PLAINLY(lookup_transform);
 }
 
-/* It asks for the answer, and tells only whether there is one. */
+/* Solves the lookup, and returns only whether there is a result. */
 METHOD(can_transform) {
     int64_t time;
     double pose[7];
@@ -446,7 +452,7 @@ METHOD(can_transform) {
         ? Py_NewRef(Py_True) : PLAINLY(can_transform);
 }
 
-/* The same where target and source may be one frame, whose name another path has shown good. */
+/* `solve_path` where target and source may be the same frame: another path has found its name. */
 static int solve_leg(Door *door, const Types *types, PyObject *target, PyObject *source,
                      int64_t *time, double *pose) {
     for (int k = 0; k < 7; k++)
@@ -455,7 +461,7 @@ static int solve_leg(Door *door, const Types *types, PyObject *target, PyObject 
         || solve_path(door, types, target, source, time, pose, NULL);
 }
 
-/* Two answers, one behind the other; whatever is not plain is refused or answered in Python. */
+/* Two lookups, composed. Python answers or refuses in all other cases. */
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
     Door *buffer = (Door *)self;
@@ -473,13 +479,13 @@ METHOD(lookup_transform_full) {
     return PLAINLY(lookup_transform_full);
 }
 
-/* Inserting --------------------------------------------------------------- */
+/* Inserts ----------------------------------------------------------------- */
 
-/* Whether no batch reads a link's records, and they are an array's: samples among them may be
-   moved where they lie. Never sets an error. */
+/* Whether the records of a link are an array that no batch is reading, so that samples may be moved
+   within it. Never sets an error. */
 static int is_free(const Link *link) {
-    /* An array lets go of nothing while others read it, be it no word at all. To ask may run
-       the collector, and that code which gives the link other records. */
+    /* An array with exported buffers refuses to delete anything, even an empty slice. The call may
+       run the collector, and thereby code that gives the link other records. */
     PyObject *held = Py_NewRef(link->records);
     const int done = PySequence_DelSlice(held, 0, 0) == 0 && link->records == held;
     Py_DECREF(held);
@@ -487,12 +493,12 @@ static int is_free(const Link *link) {
     return done;
 }
 
-/* So many pruned records are too many to leave where they are: more of them than a part of all. */
+/* Pruned records are removed once there are more than SLACK and a SLACK_PARTth of all. */
 #define SLACK 32
 #define SLACK_PART 8
 
-/* Put a sample into a link where there is room: `History.insert` if no other one has its stamp,
-   and all are of the same origin. Returns whether it was done; never sets an error. */
+/* Insert a sample into a link that has memory for it: `History.insert` where no other sample has
+   its stamp, and all have the same origin. Returns whether it did; never sets an error. */
 static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     Py_buffer view;
     const double square = square_of(pose + 3, 1);
@@ -500,12 +506,11 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
           && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
     const int is_full = link->start > SLACK + link->count / SLACK_PART;
-    /* That is asked first: nothing that was looked at before need be so any more. */
+    /* `is_free` comes before the checks below, as it may change anything read before it. */
     if (link->records == NULL || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
         || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
-    /* Nothing below runs Python code before the records are released: these facts still hold
-       there. */
+    /* No Python code runs from here until the records are released, so these facts stay true. */
     if (link->origins != Py_None || link->origin != origin || link->limit < 0
         || is_full != (link->start > SLACK + link->count / SLACK_PART)) {
         PyBuffer_Release(&view);
@@ -553,20 +558,20 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
         link->_newest = Py_NewRef(Py_None);
     }
     PyBuffer_Release(&view);
-    /* Last of all: what is let go of here may run code of others. */
+    /* Released last: this may run Python code. */
     Py_XDECREF(before);
     Py_XDECREF(pair);
     return fits;
 }
 
-/* Remember a sample of plain parts, of a link that is known by its child. Returns whether it
-   was done; never sets an error. */
+/* Insert a sample if the buffer already knows its child, parent and authority. Returns whether it
+   did; never sets an error. */
 static int insert(const Door *door, const Types *types, PyObject *sample, PyObject *authority) {
     int64_t stamp, origin;
     double pose[7];
     if (Py_TYPE(sample) != types->tuples[STAMPED] || PyTuple_Size(sample) != 4)
         return 0;
-    /* Ours until the end: what runs while the sample is put in may drop it from the buffer. */
+    /* Owned until the end: code that runs during the insert may drop it from the buffer. */
     PyObject *sender = value_of(door->_senders, PyTuple_GetItem(sample, 2));
     PyObject *transform = PyTuple_GetItem(sample, 3), *link;
     const int done = is_tuple(sender, 4)
@@ -583,7 +588,7 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     return done;
 }
 
-/* Who listens or waits is told by Python, once the sample is in. */
+/* After the insert, Python notifies listeners and pending requests. */
 METHOD(set_transform) {
     const Types *types = PyType_GetModuleState(door);
     const Door *buffer = (const Door *)self;
@@ -601,12 +606,12 @@ METHOD(set_transform) {
     Py_RETURN_TRUE;
 }
 
-/* A batch ---------------------------------------------------------------- */
+/* Batch lookups ----------------------------------------------------------- */
 
 PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\n--\n\n"
-"Write the poses of a path at many moments, NaN where a link has no data. Returns how many rows\n"
-"have none, or None where a link is not plain. Other threads of Python run meanwhile; the records\n"
-"must not change.");
+"Write the poses of a path at many times, NaN if a link has no data. Returns the number of rows\n"
+"without data, or None if the kernel cannot use a link. Other Python threads run meanwhile; the\n"
+"records must not change.");
 
 static PyObject *solve(PyObject *module, PyObject *args) {
     static const Py_ssize_t sizes[4] = {8, 24, 32, 1};
@@ -658,11 +663,11 @@ static PyMemberDef door_members[] = {
     {NULL, 0, 0, 0, NULL},
 };
 
-/* The objects that a link or a buffer begins with. */
+/* The objects at the beginning of a link or a buffer. */
 #define HELD_OF(self) ((PyObject **)((char *)(self) + sizeof(PyObject)))
 
-/* What the collector needs of a class that holds so many objects: to show it all of them and the
-   type, as every heap type must, and to let go of them, where it found them in a cycle. */
+/* The collector's functions of a class that owns that many objects: `traverse` visits them and, as
+   for every heap type, the type; `clear` releases them to break a cycle. */
 #define COLLECTED(name, held)                                                                     \
     static int name##_traverse(PyObject *self, visitproc visit, void *arg) {                      \
         Py_VISIT(Py_TYPE(self));                                                                  \
@@ -682,21 +687,20 @@ COLLECTED(door, 7)
 #define ENTRY(name, doc) {#name, (PyCFunction)(void (*)(void))name, CALL, #name doc}
 static PyMethodDef door_methods[] = {
     ENTRY(set_transform, "($self, transform, authority='')\n--\n\n"
-        "Remember a sample of a link that moves, from whom `authority` says.\n\n"
-        "Returns whether it was taken. If not, the log was told why, and nothing is lost."),
+        "Insert a sample of a moving link, published by `authority`.\n\n"
+        "Returns True if stored; False, with a line in the log, if refused. Nothing is lost."),
     ENTRY(lookup_transform, "($self, target_frame, source_frame, time=0)\n--\n\n"
-        "The pose of source in target: moves points given in source into target.\n\n"
-        "`time` is the moment; 0 is the newest one for which the whole chain has data. The stamp\n"
-        "of the answer is the moment it holds for, or 0 if it holds at all times.\n\n"
-        "Raises TransformException where there is no answer, TypeError for a time that is no\n"
-        "whole number."),
+        "Return the pose of source in target, which maps points from source to target.\n\n"
+        "A `time` of 0 means the newest stamp for which the whole chain has data. The stamp of\n"
+        "the result is the time of the pose, or 0 if every link is static.\n\n"
+        "Raises TransformException if there is no such transform, TypeError if `time` is no int."),
     ENTRY(lookup_transform_full, "($self, target_frame, target_time, source_frame, source_time, "
         "fixed_frame)\n--\n\n"
-        "Where source was at its time, in target as target is at its own time.\n\n"
-        "Both are looked up against `fixed_frame`, which is taken not to move in between.\n\n"
+        "Return the pose of source at its time in target at target's time.\n\n"
+        "Both are looked up relative to `fixed_frame`, which is assumed not to move in between.\n\n"
         "Raises TransformException as `lookup_transform` does; frames are always checked."),
     ENTRY(can_transform, "($self, target_frame, source_frame, time=0)\n--\n\n"
-        "Whether `lookup_transform` would answer; it never raises for a name or a time."),
+        "Whether `lookup_transform` would succeed; never raises for a name or a time."),
     {NULL, NULL, 0, NULL},
 };
 static PyMethodDef no_methods[] = {{NULL, NULL, 0, NULL}};
@@ -704,7 +708,8 @@ static PyMethodDef module_methods[] = {
     {"solve", solve, METH_VARARGS, solve_doc}, {NULL, NULL, 0, NULL},
 };
 
-/* A new class of the module, under its name there; NULL with an error set on failure. */
+/* Return a new class, a new reference, and add it to the module; NULL with an error set on
+   failure. */
 static PyTypeObject *holder(PyObject *module, const char *name, size_t size, const char *doc,
                             PyMemberDef *members, PyMethodDef *methods, traverseproc traverse,
                             inquiry clear) {
@@ -724,12 +729,12 @@ static PyTypeObject *holder(PyObject *module, const char *name, size_t size, con
 static int module_exec(PyObject *module) {
     Types *types = PyModule_GetState(module);
     PyTypeObject *door = holder(module, "tftool.buffer._kernel.Door", sizeof(Door),
-        "The methods of a buffer that are called most.", door_members, door_methods,
-        door_traverse, door_clear);
+        "Native versions of the methods of a buffer that are called most.", door_members,
+        door_methods, door_traverse, door_clear);
     Py_XDECREF((PyObject *)door);
     if (door == NULL
         || (types->fields = holder(module, "tftool.buffer._kernel.Fields", sizeof(Link),
-            "The fields of a link, laid out so that the kernel can read them.",
+            "Fields of a link, in memory that the kernel can read.",
             link_members, no_methods, link_traverse, link_clear)) == NULL
         || (types->empty = PyUnicode_InternFromString("")) == NULL
         || (types->link = PyUnicode_InternFromString("link")) == NULL)
