@@ -7,24 +7,20 @@ from tftool.base.errors import LinkError
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
 from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, GraphEntity
 from tftool.world.link.reach import Reach
-from tftool.world.link.seam import Arrived
+from tftool.world.link.seam import Arrived, Middleware
 
 
-class MemoryMiddleware:
+class MemoryMiddleware(Middleware):
     """One of several that hear each other at once; see `seam.Middleware`."""
 
     members: "list[MemoryMiddleware]" = []  # noqa: RUF012
     numbers = itertools.count(1)
 
     def __init__(self, options):
+        super().__init__(Graph(f"{next(self.numbers):x}", options.domain))
         self.options = options
-        self.session = f"{next(self.numbers):x}"
-        self.graph = Graph(self.session, options.domain)
-        self.unanswering = ()
-        self.notices = ()
-        self.lost = 0
         self.shown, self.heard, self.servers = {}, [], {}
-        self.loop = self.watcher = None
+        self.loop = None
         for other in self.members:
             for key, found in other.shown.items():
                 self.graph.add(key, found)
@@ -32,12 +28,6 @@ class MemoryMiddleware:
 
     def start(self, loop, watcher=None):
         self.loop, self.watcher = loop, watcher
-
-    def tell_frames(self, names):
-        pass
-
-    def settle(self):
-        pass
 
     def close(self):
         if self in self.members:

@@ -115,7 +115,7 @@ def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypat
 
 
 def test_nobody_at_the_other_end_is_a_sentence(monkeypatch):
-    monkeypatch.setattr("tftool.world.link.zenoh.entry.REACHING", 0.2)
+    monkeypatch.setattr("tftool.world.link.zenoh.middleware.REACHING", 0.2)
 
     with pytest.raises(LinkError, match=r"no process answers at tcp/127\.0\.0\.1:\d+ within"):
         Link(Options(reach=ZenohReach(connect=(f"tcp/127.0.0.1:{free_port()}",))))
@@ -163,7 +163,7 @@ def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch,
                 Options("echo", reach=ZenohReach(connect=endpoint, certificates=files))
             ) as far:
                 assert hosts(far.graph.processes())
-            monkeypatch.setattr("tftool.world.link.zenoh.entry.REACHING", 1.0)
+            monkeypatch.setattr("tftool.world.link.zenoh.middleware.REACHING", 1.0)
             (tmp_path / "stranger").mkdir()
             stranger = certificates(tmp_path / "stranger")
             with pytest.raises(LinkError, match="no process answers at tls/localhost") as refusal:

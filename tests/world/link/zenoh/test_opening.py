@@ -11,8 +11,8 @@ import pytest
 
 from tftool.base.errors import LinkError
 from tftool.world.link.link_options import Options
-from tftool.world.link.zenoh import entry as opening
-from tftool.world.link.zenoh.entry import Opening
+from tftool.world.link.zenoh import middleware as opening
+from tftool.world.link.zenoh.middleware import ZenohMiddleware
 from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.link.zenoh.transport import Wire
 
@@ -24,11 +24,11 @@ def test_whatever_goes_wrong_on_the_way_in_nothing_is_left_there(session_dir, mo
     with monkeypatch.context() as broken:
         broken.setattr(Wire, "tokens", fail)
         with pytest.raises(RuntimeError, match="a bad day"):
-            Opening(Options(), ZenohReach())
+            ZenohMiddleware(Options(), ZenohReach())
 
     assert [path.name for path in (session_dir / "0").iterdir()] == ["lock"]
     # The lock is free again: nobody waits for it.
-    Opening(Options(), ZenohReach()).close()
+    ZenohMiddleware(Options(), ZenohReach()).close()
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_a_process_that_is_only_busy_is_waited_for(neighbour, monkeypatch, stopp
     if stopped:
         neighbour.send_signal(signal.SIGSTOP)
         os.waitpid(neighbour.pid, os.WUNTRACED)
-    found = Opening(Options(), ZenohReach())
+    found = ZenohMiddleware(Options(), ZenohReach())
     found.close()
 
     assert found.unanswering == ((neighbour.pid,) if stopped else ())
@@ -118,6 +118,6 @@ def test_a_wait_is_over_at_its_time_however_long_each_look_takes(monkeypatch):
         mute.bind(("127.0.0.1", 0))
         there = f"tcp/127.0.0.1:{mute.getsockname()[1]}"
         with pytest.raises(LinkError, match="no process answers at"):
-            Opening(Options(), ZenohReach(connect=(there,)))
+            ZenohMiddleware(Options(), ZenohReach(connect=(there,)))
     # One for the neighbours, of whom there are none; the others at 0, 0.4, 0.8 and 1.2 s.
     assert len(seen) == 1 + 4

@@ -11,7 +11,7 @@ import pytest
 from tftool.base.errors import LinkError, UsageError
 from tftool.world.link.link_options import Options
 from tftool.world.link.zenoh import rendezvous
-from tftool.world.link.zenoh.entry import Opening
+from tftool.world.link.zenoh.middleware import ZenohMiddleware
 from tftool.world.link.zenoh.reach import ZenohReach
 from tftool.world.link.zenoh.rendezvous import Rendezvous, folder, has_members
 
@@ -211,19 +211,19 @@ def test_where_the_short_folder_is_another_users_the_session_is_refused(home, mo
 
 def test_without_unix_sockets_only_who_can_read_the_folder_gets_in(session_dir, monkeypatch):
     monkeypatch.setattr(rendezvous, "HAS_UNIX_SOCKETS", False)
-    first = Opening(Options(), ZenohReach())
+    first = ZenohMiddleware(Options(), ZenohReach())
     try:
         first.settle()
         (port,) = [path.read_text() for path in (session_dir / "0").glob("*.port")]
-        second = Opening(Options(), ZenohReach())
+        second = ZenohMiddleware(Options(), ZenohReach())
         try:
             second.settle()
             assert second.wire.neighbours == {first.wire.zid}
         finally:
             second.close()
-        monkeypatch.setattr("tftool.world.link.zenoh.entry.REACHING", 1.0)
+        monkeypatch.setattr("tftool.world.link.zenoh.middleware.REACHING", 1.0)
         with pytest.raises(LinkError, match="no process answers at"):
-            Opening(Options(domain=1), ZenohReach(connect=(f"tcp/127.0.0.1:{port}",)))
+            ZenohMiddleware(Options(domain=1), ZenohReach(connect=(f"tcp/127.0.0.1:{port}",)))
         assert first.wire.neighbours == frozenset()
         secret = session_dir / "0" / "members"
         assert stat.S_IMODE(secret.stat().st_mode) == 0o600

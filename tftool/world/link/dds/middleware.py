@@ -2,9 +2,9 @@
 
 import asyncio
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 from tftool.base.errors import InputError, LinkError
 from tftool.base.stamps import Stamp, seconds
@@ -22,7 +22,14 @@ from tftool.world.link.dds.reach import DdsReach
 from tftool.world.link.dds.settings import network, other_domains, participants_here
 from tftool.world.link.graph import GraphEntity, Process, node_name
 from tftool.world.link.link_options import Options
-from tftool.world.link.seam import Arrived, Middleware, Watcher, WireClient, WireRequest
+from tftool.world.link.seam import (
+    Arrived,
+    Middleware,
+    Watcher,
+    WireClient,
+    WireRequest,
+    nothing,
+)
 
 ALONE: Final = seconds(2)
 """How long to look for others where none is heard of."""
@@ -37,31 +44,25 @@ _RELIABILITY: Final = 11
 """The library's number of that policy."""
 
 
-class DdsMiddleware:
-    """This process in a ROS 2 graph over DDS; see `seam.Middleware`.
+class DdsMiddleware(Middleware):
+    """This process in a ROS 2 graph over DDS; its session is the GUID of its participant.
 
-    Attributes:
-        graph: Graph of the other processes.
-        session: The GUID of our participant, in hexadecimal.
-        unanswering: None; a stopped process cannot be distinguished from a missing one.
-        notices: Notices for the user, as sentences.
+    A stopped process cannot be distinguished from a missing one, so none is `unanswering`. Frames
+    are not listed: command lines are completed from zenoh sessions only.
     """
 
     def __init__(self, options: Options, reach: DdsReach) -> None:
         """Join the graph; see `seam.Middleware`."""
         self._options = options
         self._network = network(reach.places)
-        self.notices: tuple[str, ...] = self._network.told
         name = f"tftool {options.command} ({os.getpid()})"
         self._participant = Participant(options.domain, self._network, name, names.ENCLAVE.encode())
         try:
             self._discovery = Discovery(self._participant, options.domain)
-            self.graph = self._discovery.graph
-            self.session = self.graph.own
-            self.unanswering: tuple[int, ...] = ()
+            super().__init__(self._discovery.graph)
+            self.notices = self._network.told
             self._types = Types(INTERFACES)
             self._services = ServicePart(self._participant, self._types, self.graph, self.sender)
-            self._watcher: Watcher | None = None
             self._readers: dict[tuple[str, str], list[_Listening]] = {}
             self._claims: list[_Claim] = []
             self._look_around()
@@ -118,32 +119,21 @@ class DdsMiddleware:
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Call back on `loop` from now on, and report changes of the graph."""
-        self._watcher = watcher
+        self.watcher = watcher
         self._participant.inbox.start(loop)
         self._discovery.start(self._changed)
         if watcher is not None:
             if not self._network.config:
-                self._complaints_to(watcher)
-            for process in self.graph.processes():
-                watcher.graph_changed(process, True)
-            for one in self.graph.entities():
-                watcher.graph_changed(one, True)
-                self._compare(one)
+                # The library's thread calls this: the sentence takes the way of a message.
+                inbox = self._participant.inbox
+                stop = LIBRARY_LOG.listen(lambda sentence: inbox.put(self._complain, sentence))
+                self._participant.at_close(stop)
+            there: list[GraphEntity | Process] = [*self.graph.processes(), *self.graph.entities()]
+            for one in there:
+                self._changed(one, True)
 
-    def _complaints_to(self, watcher: Watcher) -> None:
-        inbox = self._participant.inbox
-
-        def complain(sentence: str) -> None:
-            watcher.say_once(sentence, sentence)
-
-        stop = LIBRARY_LOG.listen(lambda sentence: inbox.put(complain, sentence))
-        self._participant.at_close(stop)
-
-    def tell_frames(self, names: Sequence[str]) -> None:
-        """Do nothing: command lines are completed from zenoh sessions only."""
-
-    def settle(self) -> None:
-        """Do nothing: processes may join over DDS at any time."""
+    def _complain(self, sentence: str) -> None:
+        self.say_once(sentence, sentence)
 
     def close(self) -> None:
         """Send buffered messages, and leave."""
@@ -157,12 +147,12 @@ class DdsMiddleware:
     def process(self, process: Process) -> Callable[[], None]:
         """Announce this process."""
         self._participant.tell(names.process_data(process))
-        return _nothing
+        return nothing
 
     def node(self, name: str) -> Callable[[], None]:
         """Announce a node."""
         if self._options.read_only:
-            return _nothing
+            return nothing
         return self._discovery.show_node(node_name(name))
 
     def subscription(
@@ -184,7 +174,7 @@ class DdsMiddleware:
     def _assign(self, listening: "_Listening") -> None:
         """Announce a reader as one of the node that declared the subscription."""
         listening.hide()
-        listening.hide = _nothing
+        listening.hide = nothing
         if self._options.read_only or listening.reader is None:
             return
         for claim in self._claims:
@@ -219,7 +209,7 @@ class DdsMiddleware:
             listening.open(is_reliable=self._asks_reliable(name, ros_type))
         except (LinkError, InputError) as error:
             self.say_once(f"type {ros_type}", f"'{name}' cannot be read over DDS: {error}.")
-            return _nothing
+            return nothing
         several = self._readers.setdefault((name, ros_type), [])
         several.append(listening)
         self._assign(listening)
@@ -259,11 +249,6 @@ class DdsMiddleware:
         """Return the GUID of a message's writer."""
         return self._discovery.gid(sample.writer)
 
-    def say_once(self, what: str, sentence: str) -> None:
-        """Log a warning once."""
-        if self._watcher is not None:
-            self._watcher.say_once(what, sentence)
-
     def _kind(self, ros_type: str) -> type[Raw]:
         return self._types.raw(ros_type)
 
@@ -286,7 +271,7 @@ class DdsMiddleware:
             server = CycloneServer(self._services, name, ros_type, on_request, stranger)
         except (LinkError, InputError) as error:
             self.say_once(f"type {ros_type}", f"'{name}' cannot be served over DDS: {error}.")
-            return _nothing
+            return nothing
         reads, writes = server.gids
         hide = [
             self._discovery.show_endpoint(node_name(node), SUBSCRIPTION, reads),
@@ -307,12 +292,11 @@ class DdsMiddleware:
     # What others show
 
     def _changed(self, found: GraphEntity | Process | None, there: bool) -> None:
-        if self._watcher is not None:
-            self._watcher.graph_changed(found, there)
-            if there and found is not None:
-                self._compare(found)
-            elif isinstance(found, GraphEntity):
-                self._tell_departure(found)
+        self.report(found, there)
+        if there and found is not None:
+            self._compare(found)
+        elif isinstance(found, GraphEntity):
+            self._tell_departure(found)
 
     def _tell_departure(self, gone: GraphEntity) -> None:
         """Report that a publisher of transforms has left."""
@@ -381,7 +365,7 @@ class _Listening:
         self.ros_type = ros_type
         self.is_latched = is_latched
         self.reader: TopicReader | None = None
-        self.hide: Callable[[], None] = _nothing
+        self.hide: Callable[[], None] = nothing
         self._is_closed = False
 
     def open(self, *, is_reliable: bool) -> None:
@@ -433,11 +417,3 @@ class DdsPublisher:
 def _listed(domains: list[int]) -> str:
     numbers = ", ".join(str(one) for one in domains[:5])
     return f"domain {numbers}" if len(domains) == 1 else f"domains {numbers}"
-
-
-def _nothing() -> None:
-    """Do nothing, in place of withdrawing an announcement."""
-
-
-if TYPE_CHECKING:
-    _AS_SEAM: type[Middleware] = DdsMiddleware

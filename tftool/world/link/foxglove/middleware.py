@@ -1,28 +1,21 @@
 """A Foxglove WebSocket server as a link's middleware, which is read-only."""
 
 import asyncio
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Final
+from collections.abc import Callable
+from typing import ClassVar, Final
 
-from tftool.base.errors import InputError, LinkError, MalformedMessage
+from tftool.base.errors import InputError, MalformedMessage
 from tftool.base.stamps import Stamp
-from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
+from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION
 from tftool.world.link.foxglove.client import ClientReceiver, FoxgloveClient, FoxgloveData
 from tftool.world.link.foxglove.payloads import conversion, define, ros_topic
 from tftool.world.link.foxglove.protocol import FoxgloveChannel, ServerState, clock_message
 from tftool.world.link.foxglove.reach import FoxgloveReach
-from tftool.world.link.graph import NODE, SERVER, Graph, GraphEntity, Process
+from tftool.world.link.graph import NODE, SERVER, Graph, GraphEntity
 from tftool.world.link.inbox import Inbox
 from tftool.world.link.link_context import UNKNOWN
 from tftool.world.link.link_options import Options
-from tftool.world.link.seam import (
-    Arrived,
-    Middleware,
-    Watcher,
-    WireClient,
-    WirePublisher,
-    WireRequest,
-)
+from tftool.world.link.seam import Arrived, Middleware, Watcher
 
 CLOCK: Final = ("clock", "rosgraph_msgs/msg/Clock")
 
@@ -31,28 +24,17 @@ MOST_LEARNT: Final = 1_000_000
 
 _TIME_GID: Final = b"time"
 
-_NO_WRITING: Final = "a Foxglove server is only read here: nothing is published to it"
 
+class FoxgloveMiddleware(Middleware):
+    """This process as a client of a server, which does not list its clients."""
 
-class FoxgloveMiddleware:
-    """This process as a client of a server; see `seam.Middleware`.
-
-    Attributes:
-        graph: Graph that the server reports.
-        session: The name of our side, which is in no graph.
-        unanswering: None; the processes are another machine's.
-        notices: None.
-    """
+    NO_WRITING: ClassVar[str] = "a Foxglove server is only read here: nothing is published to it"
 
     def __init__(self, options: Options, reach: FoxgloveReach) -> None:
         """Connect; see `seam.Middleware`."""
+        super().__init__(Graph("tftool", options.domain))
         self._domain = options.domain
         self._place = reach.place(options.domain)
-        self.session = "tftool"
-        self.graph = Graph(self.session, options.domain)
-        self.unanswering: tuple[int, ...] = ()
-        self.notices: tuple[str, ...] = ()
-        self._watcher: Watcher | None = None
         self._ears: dict[tuple[str, str], list[Callable[[Arrived], object]]] = {}
         self._conversions: dict[FoxgloveChannel, Callable[[bytes], bytes] | None] = {}
         self._gids: dict[FoxgloveChannel, bytes] = {}
@@ -76,52 +58,15 @@ class FoxgloveMiddleware:
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Call back on `loop` from now on, and report changes of the graph."""
-        self._watcher = watcher
+        self.watcher = watcher
         self._inbox.start(loop)
-        if watcher is not None:
-            for one in self.graph.entities():
-                watcher.graph_changed(one, True)
-
-    def tell_frames(self, names: Sequence[str]) -> None:
-        """Do nothing: command lines are completed from zenoh sessions only."""
-
-    def settle(self) -> None:
-        """Do nothing: a server accepts clients at any time."""
+        for one in self.graph.entities():
+            self.report(one, True)
 
     def close(self) -> None:
         """Disconnect."""
         self._inbox.close()
         self._client.close()
-
-    # Facts that are only shown or written to others
-
-    def process(self, process: Process) -> Callable[[], None]:
-        """Do nothing: a server does not list its clients."""
-        return _nothing
-
-    def node(self, name: str) -> Callable[[], None]:
-        """Do nothing: a server does not list its clients."""
-        return _nothing
-
-    def subscription(
-        self, node: str, name: str, ros_type: str, quality: Quality
-    ) -> Callable[[], None]:
-        """Do nothing: a server does not list its clients."""
-        return _nothing
-
-    def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> WirePublisher:
-        """Refuse to publish."""
-        raise LinkError(_NO_WRITING)
-
-    def server(
-        self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
-    ) -> Callable[[], None]:
-        """Refuse to serve a service."""
-        raise LinkError(_NO_WRITING)
-
-    def client(self, node: str, name: str, ros_type: str) -> WireClient:
-        """Refuse to call a service."""
-        raise LinkError(_NO_WRITING)
 
     # Topics
 
@@ -157,8 +102,7 @@ class FoxgloveMiddleware:
         try:
             arrived = Arrived(convert(data.payload), self._gids.get(channel, b""))
         except MalformedMessage as refusal:
-            if self._watcher is not None:
-                self._watcher.refuse(name, refusal)
+            self.refuse(name, refusal)
             return
         self._deliver((name, ros_type), arrived)
 
@@ -182,8 +126,7 @@ class FoxgloveMiddleware:
         return self._conversions[channel]
 
     def _warn(self, sentence: str) -> None:
-        if self._watcher is not None:
-            self._watcher.say_once(sentence, sentence)
+        self.say_once(sentence, sentence)
 
     # What the server shows
 
@@ -202,14 +145,12 @@ class FoxgloveMiddleware:
             )
         for key in [key for key, one in self._entities.items() if found.get(key) != one]:
             self._entities.pop(key)
-            self._report(self.graph.remove(key), there=False)
+            if (gone := self.graph.remove(key)) is not None:
+                self.report(gone, False)
         for key in found.keys() - self._entities.keys():
             self._entities[key] = found[key]
-            self._report(self.graph.add(key, found[key]), there=True)
-
-    def _report(self, entity: GraphEntity | Process | None, *, there: bool) -> None:
-        if self._watcher is not None and entity is not None:
-            self._watcher.graph_changed(entity, there)
+            if (new := self.graph.add(key, found[key])) is not None:
+                self.report(new, True)
 
     def _learn_types(self, state: ServerState) -> None:
         """Register types known only to the server, so that they can be recorded and listed."""
@@ -262,11 +203,3 @@ class FoxgloveMiddleware:
         self, kind: str, node: str, name: str = "", ros_type: str = "", gid: bytes = b""
     ) -> GraphEntity:
         return GraphEntity(kind, self._domain, self._place, node, name, ros_type, UNKNOWN, gid)
-
-
-def _nothing() -> None:
-    """Do nothing, in place of withdrawing an announcement."""
-
-
-if TYPE_CHECKING:
-    _AS_SEAM: type[Middleware] = FoxgloveMiddleware

@@ -2,49 +2,133 @@
 
 import asyncio
 import contextlib
+import threading
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
-from tftool.base.errors import MalformedMessage
-from tftool.base.stamps import Stamp
+from tftool.base.errors import LinkError, MalformedMessage
+from tftool.base.stamps import Stamp, seconds
+from tftool.world.clock import WallClock
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
-from tftool.world.link.graph import CLIENT, NODE, SERVER, GraphEntity, Process, node_name
+from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, Process, node_name
 from tftool.world.link.link_options import Options
-from tftool.world.link.seam import Arrived, Middleware, Watcher, WireRequest
-from tftool.world.link.zenoh import keys
-from tftool.world.link.zenoh.entry import Opening
+from tftool.world.link.seam import Arrived, Middleware, Watcher, WireRequest, nothing
+from tftool.world.link.zenoh import keys, rendezvous
 from tftool.world.link.zenoh.keys import Attachment, Token
-from tftool.world.link.zenoh.reach import ZenohReach
-from tftool.world.link.zenoh.transport import KeyPublisher, Query, Sample, Wire
+from tftool.world.link.zenoh.reach import SECURED, ZenohReach, protocol_of
+from tftool.world.link.zenoh.rendezvous import Rendezvous
+from tftool.world.link.zenoh.transport import KeyPublisher, Local, Query, Sample, Wire
 
 SERVICE: Final = Quality(depth=10)
 """ROS 2's quality of services."""
 
+REACHING: Final = 5.0
+"""Seconds to wait for a process at the other end of `connect`."""
 
-class ZenohMiddleware:
-    """This process in a ROS 2 graph over zenoh; see `seam.Middleware`.
+NEARBY: Final = 1.0
+"""Seconds to wait for the processes of this machine that are stopped."""
+
+BUSY: Final = 10.0
+"""Seconds to wait for those that run, however slow a busy machine makes them."""
+
+INTRODUCED: Final = 1.0
+"""Seconds to wait for tokens of those who are connected."""
+
+ANSWERED: Final = 5.0
+"""Seconds in which each of them says which tokens it has; most take milliseconds."""
+
+SHOWN: Final = 0.3
+"""Seconds to wait for the tokens of all, once those of some are there."""
+
+_STEP = 0.005
+
+
+class ZenohMiddleware(Middleware):
+    """This process in a ROS 2 graph over zenoh; its session is the zenoh session's id.
 
     Attributes:
-        graph: Graph of the other processes.
-        session: Our zenoh session, in hexadecimal.
-        unanswering: Process numbers of this machine's processes that do not answer.
-        notices: Empty: notices are given where they arise.
         wire: The zenoh session.
     """
 
     def __init__(self, options: Options, reach: ZenohReach) -> None:
-        """Join the graph; see `seam.Middleware`."""
+        """Join; immediately if there is no other process.
+
+        No other process of this machine can enter until `settle` or `close` is called, so that no
+        two of them decide at once whether to host.
+
+        Raises:
+            LinkError: If there is no place to meet, zenoh is missing or refuses, or no
+                process answers where one should.
+        """
         self._options = options
-        self._opening = Opening(options, reach)
-        self.wire: Wire = self._opening.wire
-        self.graph = self._opening.graph
-        self.session = self.wire.zid
-        self.unanswering = self._opening.unanswering
-        self.notices: tuple[str, ...] = ()
+        self._reach = reach
+        self._place: Rendezvous | None = None
         self._nodes: dict[str, int] = {}
         self._numbers = 0
-        self._watcher: Watcher | None = None
         self._stops: list[Callable[[], None]] = []
+        others: dict[str, int] = {}
+        local = Local()
+        # Without sockets a password guards this machine's processes; zenoh asks it of all
+        # that connect, other machines' too, which cannot know it.
+        outward = bool(reach.listen or reach.connect)
+        if reach.config is None and (rendezvous.HAS_UNIX_SOCKETS or not outward):
+            self._place = place = Rendezvous(options.domain)
+            place.enter()
+            others = place.others
+            passwords = place.folder / rendezvous.PASSWORDS
+            local = Local(place.endpoint, tuple(others), place.password, passwords)
+        try:
+            self.wire = Wire(reach, local)
+        except BaseException:
+            self._leave()
+            raise
+        super().__init__(Graph(self.wire.zid, options.domain))
+        try:
+            self._reach_out(others)
+            self._take_in_tokens(is_expected=bool(others or reach.connect or reach.config))
+        except BaseException:
+            # Whatever it is: no other process can join while this one holds the lock.
+            self.close()
+            raise
+
+    def _reach_out(self, others: dict[str, int]) -> None:
+        """Wait for the others, on this machine and at `connect`."""
+
+        # zenoh itself gives up waiting early, and a busy machine is slow to say hello: taking
+        # that for silence would host a second world. A stopped process never says it.
+        def silent() -> list[int]:
+            reached = self.wire.reached
+            return [pid for at, pid in others.items() if at not in reached]
+
+        if not _await(lambda: not silent(), NEARBY):
+            _await(lambda: all(rendezvous.is_stopped(pid) for pid in silent()), BUSY - NEARBY)
+            self.unanswering = tuple(silent())
+        reach = self._reach
+        if reach.config is not None:
+            _await(lambda: bool(self.wire.neighbours), NEARBY)
+        elif reach.connect and not _await(
+            lambda: bool(self.wire.reached - others.keys()), REACHING
+        ):
+            raise LinkError(_no_answer_at(reach))
+
+    def _take_in_tokens(self, *, is_expected: bool) -> None:
+        """Fill the graph with existing entities; wait if a process should be there."""
+
+        def all_are_known() -> bool:
+            for prefix in (keys.LIVELINESS, keys.OURS):
+                for token in self.wire.tokens(f"{prefix}/{self._options.domain}/**", ANSWERED):
+                    found = keys.parse_token(token)
+                    if found is not None:
+                        self.graph.add(token, found)
+            return self.wire.neighbours <= self.graph.sessions
+
+        def some_are_known() -> bool:
+            return all_are_known() or not self.graph.is_empty
+
+        # Connected is not yet introduced: routers take a moment to pass tokens on.
+        if _await(some_are_known, INTRODUCED if is_expected else 0.0):
+            # Those who only look never show a token: no reason to wait for long.
+            _await(all_are_known, SHOWN if is_expected else 0.0)
 
     @property
     def lost(self) -> int:
@@ -54,7 +138,7 @@ class ZenohMiddleware:
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Call back on `loop` from now on, and report changes of the graph."""
         self.wire.start(loop)
-        self._watcher = watcher
+        self.watcher = watcher
         if watcher is not None:
             # Every domain: a peer that talks in another one is worth a word.
             for pattern in (f"{keys.LIVELINESS}/*/**", f"{keys.OURS}/*/**"):
@@ -62,17 +146,25 @@ class ZenohMiddleware:
 
     def tell_frames(self, names: Sequence[str]) -> None:
         """List this process's frames where other local commands find them."""
-        self._opening.tell_frames(names)
+        if self._place is not None:
+            self._place.tell_frames(names)
 
     def settle(self) -> None:
         """Let other local processes join from now on."""
-        self._opening.settle()
+        if self._place is not None:
+            self._place.settle()
 
     def close(self) -> None:
-        """Send queued messages, and leave."""
+        """Send queued messages, leave, and remove this process's files."""
         for stop in self._stops:
             stop()
-        self._opening.close()
+        with contextlib.suppress(Exception):
+            self.wire.close()
+        self._leave()
+
+    def _leave(self) -> None:
+        if self._place is not None:
+            self._place.leave()
 
     # Shown entities
 
@@ -122,7 +214,7 @@ class ZenohMiddleware:
             try:
                 beside = sample.attachment and keys.parse_attachment(sample.attachment)
             except MalformedMessage as refusal:
-                self._refuse(name, refusal)
+                self.refuse(name, refusal)
             else:
                 on_message(Arrived(sample.payload, beside.gid if beside else b""))
 
@@ -140,7 +232,7 @@ class ZenohMiddleware:
             try:
                 beside = keys.parse_attachment(query.attachment)
             except MalformedMessage as refusal:
-                self._refuse(name, refusal)
+                self.refuse(name, refusal)
                 query.refuse(str(refusal))
             else:
                 on_request(ZenohRequest(query, beside))
@@ -187,26 +279,18 @@ class ZenohMiddleware:
 
     def show(self, key: str) -> Callable[[], None]:
         """Announce a token until the returned function is called; observers announce none."""
-        return _nothing if self._options.read_only else self.wire.token(key)
+        return nothing if self._options.read_only else self.wire.token(key)
 
     def _on_token(self, change: tuple[str, bool]) -> None:
         key, there = change
         if there:
             found = keys.parse_token(key)
             new = None if found is None else self.graph.add(key, found)
-            self._report(new, there)
+            self.report(new, there)
         else:
             gone = self.graph.remove(key)
             if gone is not None:
-                self._report(gone, there)
-
-    def _report(self, found: GraphEntity | Process | None, there: bool) -> None:
-        if self._watcher is not None:
-            self._watcher.graph_changed(found, there)
-
-    def _refuse(self, name: str, refusal: MalformedMessage) -> None:
-        if self._watcher is not None:
-            self._watcher.refuse(name, refusal)
+                self.report(gone, there)
 
 
 class ZenohPublisher:
@@ -283,9 +367,28 @@ class ZenohClient:
         self._stack.close()
 
 
-def _nothing() -> None:
-    """Do nothing, in place of withdrawing an announcement."""
+def _no_answer_at(reach: ZenohReach) -> str:
+    """Return advice if no process answers; refused certificates look the same."""
+    protocols = {protocol_of(endpoint) for endpoint in reach.connect}
+    text = (
+        f"no process answers at {', '.join(reach.connect)} within {REACHING:g} s; "
+        "is the other side running, and reachable from here?"
+    )
+    if reach.certificates is not None and protocols & set(SECURED):
+        text += (
+            " Do the certificates fit? Ours must be signed by the authority the other side was "
+            f"given, the other side's by {reach.certificates.authority} and made out to the host "
+            "named here."
+        )
+    if "tcp" in protocols:
+        text += " A port that listens with tls/ does not answer tcp/."
+    return text
 
 
-if TYPE_CHECKING:
-    _AS_SEAM: type[Middleware] = ZenohMiddleware
+def _await(condition: Callable[[], bool], patience: float) -> bool:
+    """Poll until a condition holds, at most `patience` seconds; return whether it does."""
+    clock, pause = WallClock(), threading.Event()
+    # Measured, not counted: a look takes as long as those take who are asked.
+    while not (held := condition()) and clock.elapsed() < seconds(patience):
+        pause.wait(_STEP)
+    return held
