@@ -9,7 +9,7 @@ in `units`.
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
-from typing import Any, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar, dataclass_transform
 
 from tftool.base.errors import Mistake
 from tftool.base.escaping import visible
@@ -194,6 +194,26 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
     if key is not None:
         metadata["key"] = key
     return field(default=default[0], metadata=metadata) if default else field(metadata=metadata)
+
+
+@dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(reads,))
+def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[[type[T]], type[T]]:
+    """Make a class the frozen dataclass of one kind, and enter it in the table of the kinds.
+
+    Args:
+        kinds: Table of all kinds, by their keys.
+        key: Key of this one in a scenario.
+        facts: Further attributes of the class; `short` names the field that a single value gives.
+    """
+
+    def enter(kind: type[T]) -> type[T]:
+        for name, value in {"key": key, **facts}.items():
+            setattr(kind, name, value)
+        # With slots this is another class than `kind`: only this one may be entered.
+        kinds[key] = made = dataclass(frozen=True, slots=True, kw_only=True)(kind)
+        return made
+
+    return enter
 
 
 def parts_of(kind: type) -> dict[str, tuple[Key, bool]]:

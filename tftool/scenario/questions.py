@@ -1,16 +1,13 @@
 """Questions about a scenario: the subjects of expectations, with their answers.
 
-A subject is a dataclass: each field names the reader of its value, `key` is its name in a scenario,
-`form` is the form of its expected answer, and `answer` finds the answer. A new subject must be
-listed in `SUBJECTS`.
+A subject is a dataclass: each field names the reader of its value, and `answer` finds the answer.
+`declare` enters it in `SUBJECTS`, with its name in a scenario and the form of its expected answer.
 """
 
 import math
-from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from tftool.base.errors import LookupException
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
@@ -33,7 +30,7 @@ from tftool.scenario.answer_checks import (
     range_form,
 )
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, check_or_area
-from tftool.scenario.fields import reads
+from tftool.scenario.fields import declare, reads
 from tftool.scenario.units import (
     ANGLE,
     DURATION,
@@ -99,7 +96,11 @@ class ScenarioWorld:
                 self.lines[question] += 1
 
 
-class Subject(ABC):
+SUBJECTS: Final[dict[str, type["Subject"]]] = {}
+"""Every subject, by its key."""
+
+
+class Subject:
     """Something that can be asked about a scenario at some time.
 
     Attributes:
@@ -112,13 +113,13 @@ class Subject(ABC):
     key: ClassVar[str]
     form: ClassVar[Form]
 
-    @abstractmethod
     def answer(self, scene: ScenarioWorld) -> Any:
         """Return the answer at this time.
 
         Raises:
             TransformException: If there is none.
         """
+        raise NotImplementedError
 
     @property
     def problem(self) -> str:
@@ -126,12 +127,10 @@ class Subject(ABC):
         return ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "lookup", form=POSE_FORM)
 class Lookup(Subject):
     """Pose of `source` in `target` at one time, or through a fixed frame at two."""
 
-    key: ClassVar[str] = "lookup"
-    form: ClassVar[Form] = POSE_FORM
     target: str = reads(values.frame)
     source: str = reads(values.frame)
     time: RelativeMoment | None = reads(values.moment, None)
@@ -180,7 +179,7 @@ class Lookup(Subject):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Between(Subject, ABC):
+class Between(Subject):
     """Two frames, the second one relative to the first; see `Lookup` for the times."""
 
     start: str = reads(values.frame, key="from")
@@ -208,11 +207,9 @@ class Between(Subject, ABC):
         )
 
 
+@declare(SUBJECTS, "distance", form=range_form(LENGTH))
 class Distance(Between):
     """Distance between two frames' origins."""
-
-    key: ClassVar[str] = "distance"
-    form: ClassVar[Form] = range_form(LENGTH)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the answer at this time."""
@@ -223,11 +220,9 @@ class Distance(Between):
         return f"distance from {start} to {end}{how}"
 
 
+@declare(SUBJECTS, "bearing", form=range_form(ANGLE))
 class Bearing(Between):
     """Direction of a frame seen from another."""
-
-    key: ClassVar[str] = "bearing"
-    form: ClassVar[Form] = range_form(ANGLE)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the answer at this time."""
@@ -238,12 +233,10 @@ class Bearing(Between):
         return f"bearing of {end} from {start}{how}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "point", form=POSE_FORM)
 class PointOf(Subject):
     """Position in one frame of a point fixed in another."""
 
-    key: ClassVar[str] = "point"
-    form: ClassVar[Form] = POSE_FORM
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
     x: float = reads(values.length, 0.0)
@@ -261,7 +254,7 @@ class PointOf(Subject):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Motion(Subject, ABC):
+class Motion(Subject):
     """Motion of one frame in another, averaged over a duration."""
 
     frame: str = reads(values.frame, key="of")
@@ -275,11 +268,9 @@ class Motion(Subject, ABC):
         return scene.world.buffer.lookup_twist(self.frame, self.target, stamp, self.over)
 
 
+@declare(SUBJECTS, "speed", form=range_form(SPEED))
 class SpeedOf(Motion):
     """Speed of a frame's origin."""
-
-    key: ClassVar[str] = "speed"
-    form: ClassVar[Form] = range_form(SPEED)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the answer at this time."""
@@ -289,11 +280,9 @@ class SpeedOf(Motion):
         return f"speed of {self.frame} in {self.target}"
 
 
+@declare(SUBJECTS, "turn_rate", form=range_form(TURN_RATE))
 class TurnRateOf(Motion):
     """Counter-clockwise turn rate of a frame about the z axis."""
-
-    key: ClassVar[str] = "turn_rate"
-    form: ClassVar[Form] = range_form(TURN_RATE)
 
     def answer(self, scene: ScenarioWorld) -> float:
         """Return the answer at this time."""
@@ -304,62 +293,53 @@ class TurnRateOf(Motion):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OfFrame(Subject, ABC):
+class OfFrame(Subject):
     """A number measured for one frame."""
 
     short: ClassVar[str] = "frame"
+    noun: ClassVar[str]
+    measure: ClassVar[Callable[[FrameInfo], float]]
     frame: str = reads(values.frame)
 
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Return the answer at this time."""
+        return type(self).measure(scene.frame(self.frame))
 
+    def __str__(self) -> str:
+        return f"{self.noun} of {self.frame}"
+
+
+@declare(SUBJECTS, "rate", form=range_form(RATE), noun="rate", measure=lambda info: info.rate)
 class RateOf(OfFrame):
     """Rate at which a frame is published."""
 
-    key: ClassVar[str] = "rate"
-    form: ClassVar[Form] = range_form(RATE)
 
-    def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
-        return scene.frame(self.frame).rate
-
-    def __str__(self) -> str:
-        return f"rate of {self.frame}"
-
-
+@declare(
+    SUBJECTS,
+    "age",
+    form=range_form(DURATION),
+    noun="age",
+    measure=lambda info: as_seconds(info.age),
+)
 class AgeOf(OfFrame):
     """Age of a frame's newest sample."""
 
-    key: ClassVar[str] = "age"
-    form: ClassVar[Form] = range_form(DURATION)
 
-    def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
-        return as_seconds(scene.frame(self.frame).age)
-
-    def __str__(self) -> str:
-        return f"age of {self.frame}"
-
-
+@declare(
+    SUBJECTS,
+    "memory",
+    form=range_form(DURATION),
+    noun="remembered span",
+    measure=lambda info: as_seconds(info.buffer_length),
+)
 class MemoryOf(OfFrame):
     """Duration of a frame's history: newest minus oldest sample."""
 
-    key: ClassVar[str] = "memory"
-    form: ClassVar[Form] = range_form(DURATION)
 
-    def answer(self, scene: ScenarioWorld) -> float:
-        """Return the answer at this time."""
-        return as_seconds(scene.frame(self.frame).buffer_length)
-
-    def __str__(self) -> str:
-        return f"remembered span of {self.frame}"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "frame", form=FRAME_FORM, short="name")
 class FrameOf(Subject):
     """Whether a frame is known, its parent, and its publisher."""
 
-    key: ClassVar[str] = "frame"
-    form: ClassVar[Form] = FRAME_FORM
-    short: ClassVar[str] = "name"
     name: str = reads(values.frame)
 
     def answer(self, scene: ScenarioWorld) -> FrameFacts:
@@ -375,13 +355,10 @@ class FrameOf(Subject):
         return f"frame {self.name}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "trees", form=COUNT_FORM, short="count")
 class Trees(Subject):
     """Number of trees."""
 
-    key: ClassVar[str] = "trees"
-    form: ClassVar[Form] = COUNT_FORM
-    short: ClassVar[str] = "count"
     count: int = reads(values.whole(0, 100_000))
 
     def answer(self, scene: ScenarioWorld) -> int:
@@ -392,13 +369,10 @@ class Trees(Subject):
         return "number of trees"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "roots", form=NAMES_FORM, short="names")
 class Roots(Subject):
     """Frames without a parent."""
 
-    key: ClassVar[str] = "roots"
-    form: ClassVar[Form] = NAMES_FORM
-    short: ClassVar[str] = "names"
     names: tuple[str, ...] = reads(values.several(values.frame, "frames"))
 
     def answer(self, scene: ScenarioWorld) -> tuple[str, ...]:
@@ -409,13 +383,10 @@ class Roots(Subject):
         return "roots"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "turtles", form=NAMES_FORM, short="names")
 class Turtles(Subject):
     """Turtles on the field."""
 
-    key: ClassVar[str] = "turtles"
-    form: ClassVar[Form] = NAMES_FORM
-    short: ClassVar[str] = "names"
     names: tuple[str, ...] = reads(values.several(values.turtle, "turtles"))
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
@@ -429,13 +400,10 @@ class Turtles(Subject):
         return "turtles"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "pose", form=TURTLE_POSE_FORM, short="turtle")
 class PoseOf(Subject):
     """A turtle's last published pose."""
 
-    key: ClassVar[str] = "pose"
-    form: ClassVar[Form] = TURTLE_POSE_FORM
-    short: ClassVar[str] = "turtle"
     turtle: str = reads(values.turtle)
 
     def answer(self, scene: ScenarioWorld) -> Any:
@@ -447,13 +415,15 @@ class PoseOf(Subject):
         return f"pose of {self.turtle}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(
+    SUBJECTS,
+    "logged",
+    form=range_form(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0),
+    short="text",
+)
 class Logged(Subject):
     """Number of log lines that contain a text."""
 
-    key: ClassVar[str] = "logged"
-    form: ClassVar[Form] = range_form(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0)
-    short: ClassVar[str] = "text"
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)
     level: str | None = reads(values.choice(LEVELS, "a level"), None)
@@ -475,13 +445,10 @@ class Logged(Subject):
         return f"log lines{by} with '{self.text}'"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(SUBJECTS, "doctor", form=CLEAN_FORM, short="findings")
 class Diagnosed(Subject):
     """Findings of the doctor in all transforms since the start."""
 
-    key: ClassVar[str] = "doctor"
-    form: ClassVar[Form] = CLEAN_FORM
-    short: ClassVar[str] = "findings"
     findings: str = reads(values.choice(("clean",), "what the doctor finds"), "clean")
     ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())
 
@@ -509,29 +476,3 @@ class Diagnosed(Subject):
     def __str__(self) -> str:
         without = f" without {', '.join(self.ignore)}" if self.ignore else ""
         return f"the doctor's findings{without}"
-
-
-SUBJECTS: Mapping[str, type[Subject]] = MappingProxyType(
-    {
-        kind.key: kind
-        for kind in (
-            Lookup,
-            Distance,
-            Bearing,
-            PointOf,
-            SpeedOf,
-            TurnRateOf,
-            RateOf,
-            AgeOf,
-            MemoryOf,
-            FrameOf,
-            Trees,
-            Roots,
-            Turtles,
-            PoseOf,
-            Logged,
-            Diagnosed,
-        )
-    }
-)
-"""Every subject, by its key."""

@@ -1,11 +1,9 @@
 """Script of a scenario: every kind of action, run at its time."""
 
 import asyncio
-from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 from tftool.base.errors import TftoolError
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
@@ -26,7 +24,7 @@ from tftool.messages.turtle_messages import (
     twist,
 )
 from tftool.scenario import units as values
-from tftool.scenario.fields import reads
+from tftool.scenario.fields import declare, reads
 from tftool.scenario.scenario import Outcome, Step
 from tftool.scenario.units import RelativeMoment
 from tftool.world.node import PATIENCE, Node
@@ -115,7 +113,11 @@ REFRESH: Duration = seconds(0.5)
 _REFUSED = "the buffer refused it; the log says why"
 
 
-class Action(ABC):
+ACTIONS: Final[dict[str, type["Action"]]] = {}
+"""Every action, by its key."""
+
+
+class Action:
     """Something that happens at a time of a scenario.
 
     Attributes:
@@ -126,21 +128,19 @@ class Action(ABC):
 
     key: ClassVar[str]
 
-    @abstractmethod
     async def do(self, script: Script) -> None:
         """Do it now.
 
         Raises:
             StepFailed: If it is refused, and why.
         """
+        raise NotImplementedError
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "keys", short="keys")
 class Press(Action):
     """Press keys on the teleop node one after the other."""
 
-    key: ClassVar[str] = "keys"
-    short: ClassVar[str] = "keys"
     keys: tuple[str, ...] = reads(values.words(KEYS, "a key"))
     every: Duration = reads(values.period, seconds(1), beside=True)
 
@@ -152,11 +152,10 @@ class Press(Action):
             script.publish("keys", KeyPress(key))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "drive")
 class Drive(Action):
     """Command a velocity for a duration, then a stop."""
 
-    key: ClassVar[str] = "drive"
     turtle: str = reads(values.turtle, "turtle1")
     linear: float = reads(values.speed, 0.0)
     angular: float = reads(values.turn_rate, 0.0)
@@ -179,12 +178,10 @@ class Drive(Action):
             raise StepFailed(f"nothing subscribes to '{topic.name}'")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "spawn", short="name")
 class SpawnTurtle(Action):
     """Spawn a turtle; without a name the simulator chooses one."""
 
-    key: ClassVar[str] = "spawn"
-    short: ClassVar[str] = "name"
     name: str = reads(values.turtle, "")
     x: float = reads(values.length, CENTRE)
     y: float = reads(values.length, CENTRE)
@@ -198,12 +195,10 @@ class SpawnTurtle(Action):
             raise StepFailed(f"the simulator refused a turtle named '{self.name}'")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "kill", short="turtle")
 class KillTurtle(Action):
     """Remove a turtle."""
 
-    key: ClassVar[str] = "kill"
-    short: ClassVar[str] = "turtle"
     turtle: str = reads(values.turtle)
 
     async def do(self, script: Script) -> None:
@@ -215,11 +210,10 @@ class KillTurtle(Action):
             raise StepFailed(f"there is no turtle '{self.turtle}'")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "teleport")
 class Teleport(Action):
     """Move a turtle to a pose at once."""
 
-    key: ClassVar[str] = "teleport"
     turtle: str = reads(values.turtle, "turtle1")
     x: float = reads(values.length)
     y: float = reads(values.length)
@@ -231,11 +225,10 @@ class Teleport(Action):
         await script.call(f"{self.turtle}/teleport_absolute", request)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "hop")
 class Hop(Action):
     """Turn a turtle, and move it along its new heading, at once."""
 
-    key: ClassVar[str] = "hop"
     turtle: str = reads(values.turtle, "turtle1")
     linear: float = reads(values.length, 0.0)
     angular: float = reads(values.angle, 0.0)
@@ -246,11 +239,10 @@ class Hop(Action):
         await script.call(f"{self.turtle}/teleport_relative", request)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "rotate")
 class Rotate(Action):
     """Turn a turtle to a heading by the rotate action."""
 
-    key: ClassVar[str] = "rotate"
     turtle: str = reads(values.turtle, "turtle1")
     theta: float = reads(values.angle)
 
@@ -263,11 +255,10 @@ class Rotate(Action):
 _channel = values.whole(0, 255)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "set_pen")
 class Pen(Action):
     """Set a turtle's pen."""
 
-    key: ClassVar[str] = "set_pen"
     turtle: str = reads(values.turtle, "turtle1")
     r: int = reads(_channel, PEN_COLOR.r)
     g: int = reads(_channel, PEN_COLOR.g)
@@ -281,30 +272,22 @@ class Pen(Action):
         await script.call(f"{self.turtle}/set_pen", request)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "clear")
 class ClearField(Action):
     """Erase all trails."""
 
-    key: ClassVar[str] = "clear"
-
     async def do(self, script: Script) -> None:
         """Do it now."""
-        await script.call("clear", Empty.Request())
+        await script.call(self.key, Empty.Request())
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ResetField(Action):
+@declare(ACTIONS, "reset")
+class ResetField(ClearField):
     """Reset the field to one turtle in the centre."""
 
-    key: ClassVar[str] = "reset"
-
-    async def do(self, script: Script) -> None:
-        """Do it now."""
-        await script.call("reset", Empty.Request())
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FrameAction(Action, ABC):
+class FrameAction(Action):
     """Pose of a child in its parent."""
 
     parent: str = reads(values.frame)
@@ -323,11 +306,10 @@ class FrameAction(Action, ABC):
         return Transform((self.x, self.y, self.z), rotation)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "broadcast")
 class Broadcast(FrameAction):
     """Broadcast a transform, once or repeatedly for a duration."""
 
-    key: ClassVar[str] = "broadcast"
     stamp: RelativeMoment = reads(values.moment, RelativeMoment("now"))
     every: Duration = reads(values.period, seconds(0.1), beside=True)
     lasting: Duration = reads(values.duration, 0, key="for", beside=True)
@@ -350,11 +332,9 @@ class Broadcast(FrameAction):
             raise StepFailed(_REFUSED)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "static")
 class BroadcastStatic(FrameAction):
     """Broadcast a static transform."""
-
-    key: ClassVar[str] = "static"
 
     async def do(self, script: Script) -> None:
         """Do it now."""
@@ -364,12 +344,10 @@ class BroadcastStatic(FrameAction):
             raise StepFailed(_REFUSED)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "stop", short="node")
 class StopNode(Action):
     """Stop a node and remove it from the world."""
 
-    key: ClassVar[str] = "stop"
-    short: ClassVar[str] = "node"
     node: str = reads(values.name("a node"))
 
     async def do(self, script: Script) -> None:
@@ -384,38 +362,12 @@ class StopNode(Action):
             script.warn(f"No node is named '{self.node}' (any more); nothing is stopped")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@declare(ACTIONS, "say", short="text")
 class Say(Action):
     """Write a line to the log, for people who watch."""
 
-    key: ClassVar[str] = "say"
-    short: ClassVar[str] = "text"
     text: str = reads(values.text)
 
     async def do(self, script: Script) -> None:
         """Do it now."""
         script.info(self.text)
-
-
-ACTIONS: Mapping[str, type[Action]] = MappingProxyType(
-    {
-        kind.key: kind
-        for kind in (
-            Press,
-            Drive,
-            SpawnTurtle,
-            KillTurtle,
-            Teleport,
-            Hop,
-            Rotate,
-            Pen,
-            ClearField,
-            ResetField,
-            Broadcast,
-            BroadcastStatic,
-            StopNode,
-            Say,
-        )
-    }
-)
-"""Every action, by its key."""
