@@ -1,14 +1,14 @@
 """Kinds of nodes that a scenario may start: one entry each.
 
-An entry names the class and how each parameter that a scenario may give it is read;
-every parameter is handed on under its own name, and its default is the class's own.
+An entry names the class and the parameters that a scenario may give it; every parameter is handed
+on under its own name, and its default is the class's own.
 """
 
 import inspect
 from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from tftool.base.color import Color
 from tftool.base.errors import InputError, UsageError
@@ -31,6 +31,7 @@ from tftool.world.nodes.broadcasters import (
     StaticBroadcaster,
 )
 from tftool.world.nodes.follower import Follower
+from tftool.world.nodes.joints import MOTIONS, MovingRobot
 from tftool.world.nodes.mobile_robot import LaserPoint, MapCorrection, RobotOdometry, ScanMatcher
 from tftool.world.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.world.nodes.turtle_drivers import DrawSquare, Mimic
@@ -40,10 +41,6 @@ from tftool.world.world import World
 
 if TYPE_CHECKING:
     from tftool.robots.robot_model import Robot
-    from tftool.world.nodes.joints import Motion
-
-
-MOTIONS = ("still", "sine", "steps", "recorded")
 
 
 def robot_file(node: document.Node, reading: Reading) -> "Robot":
@@ -97,45 +94,6 @@ def _beside(node: document.Node, reading: Reading, wanted: str) -> Path:
     return path
 
 
-def moving_robot(
-    world: World,
-    name: str,
-    *,
-    file: "Robot",
-    joints: dict[str, float] | None = None,
-    motion: "Motion" = "still",
-    recording: tuple[Any, ...] = (),
-    cycle: int = 4_000_000_000,
-    period: int = 50_000_000,
-    frame_prefix: str = "",
-) -> Node:
-    """Make the node; see `nodes.joints.MovingRobot`."""
-    from tftool.world.nodes.joints import MovingRobot
-
-    return MovingRobot(
-        world,
-        name,
-        file=file,
-        joints=joints,
-        motion=motion,
-        recording=recording,
-        cycle=cycle,
-        period=period,
-        frame_prefix=frame_prefix,
-    )
-
-
-ROBOT_FIELDS: Mapping[str, Reader] = {
-    "file": robot_file,
-    "joints": joint_positions,
-    "motion": values.choice(MOTIONS, "a motion"),
-    "recording": joint_recording,
-    "cycle": values.period,
-    "period": values.period,
-    "frame_prefix": values.text,
-}
-
-
 class NodeKind:
     """Reader and constructor of one kind of node.
 
@@ -149,24 +107,28 @@ class NodeKind:
     def __init__(
         self,
         make: Callable[..., Node],
-        readers: Mapping[str, Reader],
+        usual: str = "",
         *,
         required: Collection[str] = (),
+        **readers: Reader,
     ) -> None:
         """Describe a kind.
 
         Args:
             make: The class, or a function that does as a class does.
-            readers: How each parameter is read.
+            usual: Names of parameters that are read as `USUAL` says, separated by blanks.
             required: Parameters a scenario has to give, though the class has a default.
+            readers: How each further parameter is read.
         """
         self.make = make
-        taken = inspect.signature(make).parameters
+        readers |= {name: USUAL[name] for name in usual.split()}
+        # In the order of the signature: messages list the keys so.
         self.fields: Mapping[str, Key] = {
-            name: Key(read)
-            if name in required or taken[name].default is inspect.Parameter.empty
-            else Key(read, taken[name].default)
-            for name, read in readers.items()
+            name: Key(readers[name])
+            if name in required or one.default is inspect.Parameter.empty
+            else Key(readers[name], one.default)
+            for name, one in inspect.signature(make).parameters.items()
+            if name in readers
         }
 
     def defaults(self) -> dict[str, Any]:
@@ -246,159 +208,84 @@ def _static(
     return StaticBroadcaster(world, name, transforms=[stamped])
 
 
-_PLACE = {
-    "x": values.length,
-    "y": values.length,
-    "z": values.length,
-    "roll": values.angle,
-    "pitch": values.angle,
-    "yaw": values.angle,
+USUAL: Final[Mapping[str, Reader]] = {
+    **dict.fromkeys(("parent", "child", "frame_id", "target_frame", "origin"), values.frame),
+    **dict.fromkeys(("map_frame", "odom", "base", "laser"), values.frame),
+    **dict.fromkeys(("holonomic", "reset", "whole_seconds"), values.flag),
+    **dict.fromkeys(("period", "cycle", "correct_every", "patience"), values.period),
+    **dict.fromkeys(("x", "y", "z"), values.length),
+    **dict.fromkeys(("roll", "pitch", "yaw"), values.angle),
+    **dict.fromkeys(("radius", "position", "drift", "dead_band"), values.distance),
+    **dict.fromkeys(("angle", "turn_drift"), values.quantity(values.ANGLE, least=0.0)),
+    **dict.fromkeys(("speed", "scale_linear"), values.speed),
+    **dict.fromkeys(("turn_rate", "turn_error", "scale_angular"), values.turn_rate),
+    "turtle": values.turtle,
+    "seed": values.whole(0, 2**32 - 1),
 }
+"""Readers of parameters that mean the same in every kind of node."""
+
+_PLANE = _triple(0.0, 0.0, "theta", 0.0)
+_SPAWN = _triple(4.0, 2.0, "theta", 0.0)
 
 KINDS: Mapping[str, NodeKind] = MappingProxyType(
     {
         "turtlesim": NodeKind(
             Turtlesim,
-            {
-                "holonomic": values.flag,
-                "background": _color,
-                "turtles": values.several(_turtle, "one turtle an item"),
-            },
+            "holonomic",
+            background=_color,
+            turtles=values.several(_turtle, "one turtle an item"),
         ),
-        "broadcaster": NodeKind(
-            Broadcaster,
-            {"turtle": values.turtle, "frame_id": values.frame},
-            required=["turtle"],
-        ),
-        "static": NodeKind(_static, {"parent": values.frame, "child": values.frame, **_PLACE}),
+        "broadcaster": NodeKind(Broadcaster, "turtle frame_id", required=["turtle"]),
+        "static": NodeKind(_static, "parent child x y z roll pitch yaw"),
         "fixed_carrot": NodeKind(
-            FixedCarrot,
-            {
-                "parent": values.frame,
-                "child": values.frame,
-                "offset": _triple(0.0, 2.0, "z", 0.0),
-                "period": values.period,
-            },
+            FixedCarrot, "parent child period", offset=_triple(0.0, 2.0, "z", 0.0)
         ),
-        "dynamic_carrot": NodeKind(
-            DynamicCarrot,
-            {
-                "parent": values.frame,
-                "child": values.frame,
-                "radius": values.distance,
-                "whole_seconds": values.flag,
-                "period": values.period,
-            },
-        ),
+        "dynamic_carrot": NodeKind(DynamicCarrot, "parent child radius whole_seconds period"),
         "follower": NodeKind(
             Follower,
-            {
-                "leader": values.frame,
-                "follower": values.turtle,
-                "period": values.period,
-                "delay": values.duration,
-                "fixed_frame": values.or_none(values.frame),
-                "distance_gains": _gains,
-                "bearing_gains": _gains,
-                "dead_band": values.distance,
-                "speed_limit": values.or_none(values.top_speed),
-                "stale_after": values.or_none(values.period),
-                "spawn": values.or_none(_triple(4.0, 2.0, "theta", 0.0)),
-            },
+            "period dead_band",
+            leader=values.frame,
+            follower=values.turtle,
+            delay=values.duration,
+            fixed_frame=values.or_none(values.frame),
+            distance_gains=_gains,
+            bearing_gains=_gains,
+            speed_limit=values.or_none(values.top_speed),
+            stale_after=values.or_none(values.period),
+            spawn=values.or_none(_SPAWN),
         ),
-        "draw_square": NodeKind(
-            DrawSquare,
-            {"turtle": values.turtle, "reset": values.flag},
-        ),
-        "mimic": NodeKind(
-            Mimic,
-            {"leader": values.turtle, "copy": values.turtle},
-        ),
-        "teleop": NodeKind(
-            Teleop,
-            {
-                "turtle": values.turtle,
-                "scale_linear": values.speed,
-                "scale_angular": values.turn_rate,
-            },
-        ),
+        "draw_square": NodeKind(DrawSquare, "turtle reset"),
+        "mimic": NodeKind(Mimic, leader=values.turtle, copy=values.turtle),
+        "teleop": NodeKind(Teleop, "turtle scale_linear scale_angular"),
         "odometry": NodeKind(
             RobotOdometry,
-            {
-                "odom": values.frame,
-                "base": values.frame,
-                "start": _triple(0.0, 0.0, "theta", 0.0),
-                "speed": values.speed,
-                "turn_rate": values.turn_rate,
-                "scale_error": values.number,
-                "turn_error": values.turn_rate,
-                "period": values.period,
-            },
+            "odom base speed turn_rate turn_error period",
+            start=_PLANE,
+            scale_error=values.number,
         ),
-        "localization": NodeKind(
-            MapCorrection,
-            {
-                "map_frame": values.frame,
-                "odom": values.frame,
-                "base": values.frame,
-                "correct_every": values.period,
-                "period": values.period,
-            },
-        ),
+        "localization": NodeKind(MapCorrection, "map_frame odom base correct_every period"),
         "scan_matcher": NodeKind(
-            ScanMatcher,
-            {
-                "origin": values.frame,
-                "child": values.frame,
-                "mount": _triple(0.0, 0.0, "theta", 0.0),
-                "position": values.distance,
-                "angle": values.quantity(values.ANGLE, least=0.0),
-                "seed": values.whole(0, 2**32 - 1),
-                "period": values.period,
-            },
+            ScanMatcher, "origin child position angle seed period", mount=_PLANE
         ),
         "laser": NodeKind(
-            LaserPoint,
-            {
-                "landmark": _triple(3.0, 1.0, "z", 0.2),
-                "base": values.frame,
-                "laser": values.frame,
-                "child": values.frame,
-                "period": values.period,
-            },
+            LaserPoint, "base laser child period", landmark=_triple(3.0, 1.0, "z", 0.2)
         ),
         "noise": NodeKind(
             Noise,
-            {
-                "parent": values.frame,
-                "child": values.frame,
-                "offset": _triple(0.0, 0.0, "z", 0.0),
-                "position": values.distance,
-                "angle": values.quantity(values.ANGLE, least=0.0),
-                "drift": values.distance,
-                "turn_drift": values.quantity(values.ANGLE, least=0.0),
-                "seed": values.whole(0, 2**32 - 1),
-                "period": values.period,
-            },
+            "parent child position angle drift turn_drift seed period",
+            offset=_triple(0.0, 0.0, "z", 0.0),
         ),
-        "robot": NodeKind(moving_robot, ROBOT_FIELDS),
-        "message_broadcaster": NodeKind(
-            MessageBroadcaster,
-            {
-                "turtle": values.turtle,
-                "frame_id": values.frame,
-                "spawn": _triple(4.0, 2.0, "theta", 0.0),
-                "period": values.period,
-            },
+        "robot": NodeKind(
+            MovingRobot,
+            "cycle period",
+            file=robot_file,
+            joints=joint_positions,
+            motion=values.choice(MOTIONS, "a motion"),
+            recording=joint_recording,
+            frame_prefix=values.text,
         ),
-        "point_drawer": NodeKind(
-            PointDrawer,
-            {
-                "target_frame": values.frame,
-                "turtle": values.turtle,
-                "patience": values.period,
-            },
-        ),
+        "message_broadcaster": NodeKind(MessageBroadcaster, "turtle frame_id period", spawn=_SPAWN),
+        "point_drawer": NodeKind(PointDrawer, "target_frame turtle patience"),
     }
 )
 

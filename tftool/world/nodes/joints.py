@@ -2,14 +2,12 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal, get_args
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
-from tftool.robots.description import RobotJoint
-from tftool.robots.urdf import parse_description
 from tftool.world.clock import Phase
 from tftool.world.endpoints import Quality
 from tftool.world.node import Node
@@ -17,6 +15,7 @@ from tftool.world.nodes.broadcasters import require_period
 from tftool.world.world import World
 
 if TYPE_CHECKING:
+    from tftool.robots.description import RobotJoint
     from tftool.robots.joint_states import JointStates
     from tftool.robots.robot_model import Robot
 
@@ -30,11 +29,14 @@ FASTEST: Final = 1000.0
 """The highest publish frequency robot_state_publisher takes, hertz."""
 
 Motion = Literal["still", "sine", "steps", "recorded"]
+MOTIONS: Final[tuple[Motion, ...]] = get_args(Motion)
 
 
 def _described(text: str) -> "Robot":
-    """Return the robot of a description; imported here, since it imports numpy."""
+    """Return the robot of a description."""
+    # Here, since numpy and expat come with it: every scenario imports this module.
     from tftool.robots.robot_model import Robot
+    from tftool.robots.urdf import parse_description
 
     return Robot(parse_description(text))
 
@@ -349,7 +351,7 @@ class MovingRobot(RobotStatePublisher):
         ]
         return {joint.name: self._place(joint, number, now) for number, joint in enumerate(free)}
 
-    def _place(self, joint: RobotJoint, number: int, now: Stamp) -> float:
+    def _place(self, joint: "RobotJoint", number: int, now: Stamp) -> float:
         lower, upper = joint.limits or (-1.0, 1.0)
         middle, reach = (lower + upper) / 2.0, (upper - lower) / 2.0
         share = as_seconds(now - self._start) / (as_seconds(self.cycle) * (1.0 + 0.1 * number))
