@@ -200,14 +200,21 @@ class TransformException(TftoolError):
     The text is exactly tf2's; `remedy` says what to do.
 
     Attributes:
+        frame: The frame at fault, where one is: unknown, misspelt, or without data.
         target: The target frame of the lookup, where known.
         source: The source frame of the lookup, where known.
     """
 
     def __init__(
-        self, message: str, *, target: str | None = None, source: str | None = None
+        self,
+        message: str,
+        *,
+        frame: str | None = None,
+        target: str | None = None,
+        source: str | None = None,
     ) -> None:
         super().__init__(message)
+        self.frame = frame
         self.target = target
         self.source = source
 
@@ -218,10 +225,9 @@ class TransformException(TftoolError):
 
 
 class LookupException(TransformException):
-    """Error for an unknown frame, or a tree with a loop.
+    """Error for an unknown `frame`, or a tree with a loop.
 
     Attributes:
-        frame: The unknown frame; None if the reason is a loop.
         looped: Whether the reason is a loop or a chain of more than 1000 links.
     """
 
@@ -245,8 +251,7 @@ class LookupException(TransformException):
             known: The known frame names in a fixed order; names may be appended later.
             looped: Whether the reason is a loop.
         """
-        super().__init__(message, target=target, source=source)
-        self.frame = frame
+        super().__init__(message, frame=frame, target=target, source=source)
         self.looped = looped
         self._known = known
         self._count = len(known)
@@ -289,22 +294,7 @@ class ConnectivityException(TransformException):
 
 
 class InvalidArgumentException(TransformException):
-    """Error for an invalid frame name: empty, or with a leading slash.
-
-    Attributes:
-        frame: The invalid name.
-    """
-
-    def __init__(
-        self,
-        message: str,
-        *,
-        frame: str | None = None,
-        target: str | None = None,
-        source: str | None = None,
-    ) -> None:
-        super().__init__(message, target=target, source=source)
-        self.frame = frame
+    """Error for an invalid name of a `frame`: empty, or with a leading slash."""
 
     @property
     def remedy(self) -> str:
@@ -342,12 +332,11 @@ _FEW_NANOSECONDS = 100_000
 
 
 class ExtrapolationException(TransformException):
-    """Error for a time outside the samples of a link in the chain.
+    """Error for a time outside the samples of a link in the chain, whose child is `frame`.
 
     Attributes:
         requested: The requested time, nanoseconds.
         available: The time of the nearest sample, nanoseconds; 0 if there are no samples.
-        frame: The child frame of the link without data.
     """
 
     def __init__(
@@ -360,10 +349,9 @@ class ExtrapolationException(TransformException):
         target: str | None = None,
         source: str | None = None,
     ) -> None:
-        super().__init__(message, target=target, source=source)
+        super().__init__(message, frame=frame, target=target, source=source)
         self.requested = requested
         self.available = available
-        self.frame = frame
         if hint := self._hint():
             # A traceback shows notes; the text itself stays tf2's.
             self.add_note(hint)
