@@ -8,6 +8,7 @@ import hashlib
 import re
 import struct
 from dataclasses import dataclass
+from functools import cache
 from typing import Final
 
 from tftool.base.errors import MalformedMessage
@@ -16,55 +17,6 @@ from tftool.messages import hashes
 from tftool.messages.classes import INTERFACES
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
 from tftool.world.link.graph import CLIENT, NODE, SERVER, GraphEntity, Process, Role
-
-TYPE_HASHES: Final = {
-    "action_msgs/msg/GoalStatusArray": (
-        "RIHS01_6c1684b00f177d37438febe6e709fc4e2b0d4248dca4854946f9ed8b30cda83e"
-    ),
-    "action_msgs/srv/CancelGoal": (
-        "RIHS01_573d8b0a534451d7bc2ac8c5ffde8ac14b8593b7001175d0cd6516dcbeb8689a"
-    ),
-    "geometry_msgs/msg/Twist": (
-        "RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a"
-    ),
-    "rcl_interfaces/srv/GetParameters": (
-        "RIHS01_bf9803d5c74cf989a5de3e0c2e99444599a627c7ff75f97b8c05b01003675cbc"
-    ),
-    "rcl_interfaces/srv/SetParameters": (
-        "RIHS01_56eed9a67e169f9cb6c1f987bc88f868c14a8fc9f743a263bc734c154015d7e0"
-    ),
-    "std_srvs/srv/Empty": "RIHS01_5888399dedec5ccc85ea6451949fd2c9f97bfdf963f9a588821639fcd31b5d19",
-    "tf2_msgs/msg/TFMessage": (
-        "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
-    ),
-    "turtlesim/action/RotateAbsolute_FeedbackMessage": (
-        "RIHS01_301a2a4ed96af28a40155e14dadf0c48eee5decaecd755be05ccda8144ca40b3"
-    ),
-    "turtlesim/action/RotateAbsolute_GetResult": (
-        "RIHS01_684206c4ffebeeab6f2134b42024d89cee3f496ad695eef4789ff0dc020c9f84"
-    ),
-    "turtlesim/action/RotateAbsolute_SendGoal": (
-        "RIHS01_0b9b876a15971456fbad2c7f0665c9879a41bb3fcba31a9015180a830f0ca84f"
-    ),
-    "turtlesim/msg/Color": (
-        "RIHS01_74492579ec0d734707aede0e742ab76c55ac50d3ff917381e5163624cb657fe5"
-    ),
-    "turtlesim/msg/Pose": "RIHS01_739beba26bcba6920404ba722b7b8321348512f92ea5be235c47251940dd8aa9",
-    "turtlesim/srv/Kill": "RIHS01_81c7c9131a0802f384e515fbd04867f8da57abaa83ee3a0ec76e39091e54bbc3",
-    "turtlesim/srv/SetPen": (
-        "RIHS01_45ca246c7258172a89a58856037d6b4489eb46a18f1d8ee1988c018ef46fcfce"
-    ),
-    "turtlesim/srv/Spawn": (
-        "RIHS01_a71be24836f772debd6187dc8618cc47700d2602c7a3e2228bad67a8f5fd27b4"
-    ),
-    "turtlesim/srv/TeleportAbsolute": (
-        "RIHS01_139aa0f215e25dc085067f070adb3ef65cf3c92d201f5cb750d51ca9322166b6"
-    ),
-    "turtlesim/srv/TeleportRelative": (
-        "RIHS01_6e9e54cb05e1a789f982bf8c93d27fc899cee099746c4ea8c7cb64e8a90297d6"
-    ),
-}
-"""Hashes (RIHS01) of every session's types; a test computes them from the definitions."""
 
 LIVELINESS: Final = "@ros2_lv"
 OURS: Final = "@tftool"
@@ -85,13 +37,14 @@ _PROCESS = re.compile(
 # Types and keys
 
 
+@cache
 def type_hash(ros_type: str) -> str:
-    """Return a type's hash.
+    """Return a type's hash (RIHS01); a type that was used once keeps its definition.
 
     Raises:
         InputError: If its definition is not known.
     """
-    return TYPE_HASHES.get(ros_type) or hashes.type_hash(INTERFACES, ros_type)
+    return hashes.type_hash(INTERFACES, ros_type)
 
 
 def dds_name(ros_type: str) -> str:
