@@ -1,11 +1,10 @@
-"""Registry of a world's nodes and supervisor, and of its services and actions.
+"""Registry of a world's nodes, and of its services and actions.
 
 Nodes know their world; the world knows them only as residents, so that the two modules do not
 depend on each other.
 """
 
-import asyncio
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Generic, TypeVar
@@ -33,36 +32,6 @@ class Resident:
 
     def close(self) -> None:
         """Close everything it offers; called at its end."""
-
-
-class Supervision:
-    """Interface of the supervisor of a world's residents."""
-
-    def start(self, resident: Resident) -> None:
-        """Start one that joined."""
-        raise NotImplementedError
-
-    def start_soon(
-        self, resident: Resident, work: Coroutine[Any, Any, T]
-    ) -> "asyncio.Task[T | None]":
-        """Run something concurrently with a resident's `run`, as part of it."""
-        raise NotImplementedError
-
-    def end(self, resident: Resident) -> None:
-        """Stop one that leaves."""
-        raise NotImplementedError
-
-    def stop(self) -> None:
-        """End the run."""
-        raise NotImplementedError
-
-    def fail(self, resident: Resident, error: BaseException) -> None:
-        """End the run because a resident raised."""
-        raise NotImplementedError
-
-    def end_by(self, error: Exception) -> None:
-        """End the run with an error that belongs to no resident."""
-        raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from tftool.base.errors import NodeFailed, TftoolError, line_of
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.world.clock import Clock, Phase, SimClock
-from tftool.world.registry import Resident, Supervision
+from tftool.world.registry import Resident
 from tftool.world.stopper import PATIENCE, Overdue, abandon, line_of_task, node_task_name
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ async def live(world: "World", *, until: Stamp | None = None) -> None:
             f"until={until} is {as_seconds(earliest - until):g} s in the past: it is a stamp, such "
             "as world.clock.now() + seconds(10); world.run(seconds(10)) takes a duration"
         )
-    supervisor = _Supervisor(world.clock, until is not None)
+    supervisor = Supervisor(world.clock, until is not None)
     world._supervisor = supervisor
     if until is not None:
         world.clock.limit(until)
@@ -114,7 +114,7 @@ async def beside(
     return working.result()
 
 
-class _Supervisor(Supervision):
+class Supervisor:
     """Tasks of the nodes of one run.
 
     Attributes:
@@ -134,18 +134,21 @@ class _Supervisor(Supervision):
         self._tasks: dict[asyncio.Task[Any], Resident] = {}
 
     def start(self, resident: Resident) -> None:
+        """Start one that joined."""
         self._nodes.append(resident)
         self._start(resident, self._run(resident))
 
     def start_soon(
         self, resident: Resident, work: Coroutine[Any, Any, T]
     ) -> "asyncio.Task[T | None]":
+        """Run something concurrently with a resident's `run`, as part of it."""
         task = self._start(resident, self._guarded(resident, work))
         # Cancelled before its first step, it would never have been awaited.
         task.add_done_callback(lambda _: work.close())
         return task
 
     def end(self, resident: Resident) -> None:
+        """Stop one that leaves."""
         if resident in self._nodes:
             self._nodes.remove(resident)
         for task, owner in self._tasks.items():
@@ -154,10 +157,12 @@ class _Supervisor(Supervision):
         resident.close()
 
     def stop(self) -> None:
+        """End the run."""
         if not self.over.done():
             self.over.set_result(None)
 
     def fail(self, resident: Resident, error: BaseException, what: str = "") -> None:
+        """End the run because a resident raised; only the first failure is named."""
         if self.failure is None:
             self.failure = NodeFailed(resident.name, error, what)
             self.failure.__cause__ = error
@@ -169,6 +174,7 @@ class _Supervisor(Supervision):
         self.fail(resident, error, what)
 
     def end_by(self, error: Exception) -> None:
+        """End the run with an error that belongs to no resident."""
         self.error = self.error or error
         self.stop()
 

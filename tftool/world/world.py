@@ -26,8 +26,8 @@ from tftool.world.endpoints import (
 )
 from tftool.world.log import Log, Repeats
 from tftool.world.memory_limit import MemoryBound, allowed
-from tftool.world.registry import NamedOffers, Offer, Resident, Supervision
-from tftool.world.supervisor import live
+from tftool.world.registry import NamedOffers, Offer, Resident
+from tftool.world.supervisor import Supervisor, live
 from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic
 
 T = TypeVar("T")
@@ -142,7 +142,7 @@ class World:
         self._far_statics: dict[str, TransformStamped] = {}
         self.far_nodes: tuple[str, ...] = ()
         self.failure: NodeFailed | None = None
-        self._supervisor: Supervision | None = None
+        self._supervisor: Supervisor | None = None
         self._watchers: Listeners[()] = Listeners(self.report)
         self.endpoints = Endpoints(self._changed, self.log.warn)
         self.tf: Topic[TransformMessage] = self._topic("tf", TransformMessage)
