@@ -103,10 +103,21 @@ class RobotOdometry(Node):
         )
 
 
-class MapCorrection(Node):
-    """Broadcasts map to odom, with corrections now and then that make it jump."""
+class _Observer(Node):
+    """Node that broadcasts what follows from the robot's true pose."""
 
     phase: ClassVar[Phase] = Phase.BROADCAST
+    _truth: Any = None
+
+    def _follow_truth(self) -> None:
+        def take(truth: Any) -> None:
+            self._truth = truth
+
+        self.subscribe(TRUTH, Pose, take)
+
+
+class MapCorrection(_Observer):
+    """Broadcasts map to odom, with corrections now and then that make it jump."""
 
     def __init__(
         self,
@@ -124,11 +135,10 @@ class MapCorrection(Node):
         self.map_frame, self.odom, self.base = map_frame, odom, base
         self.correct_every = require_period(correct_every)
         self.period = require_period(period)
-        self._truth: Any = None
 
     async def run(self) -> None:
         """Correct until the end."""
-        self.subscribe(TRUTH, Pose, self._on_truth)
+        self._follow_truth()
         map_from_odom = Transform.identity()
         due = self.clock.now() + self.correct_every
         async for now in self.every(self.period, immediately=True):
@@ -136,9 +146,6 @@ class MapCorrection(Node):
                 map_from_odom = self._corrected() or map_from_odom
                 due += self.correct_every
             self.broadcast(TransformStamped(now, self.map_frame, self.odom, map_from_odom))
-
-    def _on_truth(self, truth: Any) -> None:
-        self._truth = truth
 
     def _corrected(self) -> Transform | None:
         if self._truth is None:
@@ -151,13 +158,11 @@ class MapCorrection(Node):
         return _pose_of(self._truth) @ odom_from_base.inverse()
 
 
-class LaserPoint(Node):
+class LaserPoint(_Observer):
     """Broadcasts one point of a wall as the laser sees it: laser_link to laser_point.
 
     Nothing is broadcast before the laser's mount on the robot is known.
     """
-
-    phase: ClassVar[Phase] = Phase.BROADCAST
 
     def __init__(
         self,
@@ -175,11 +180,10 @@ class LaserPoint(Node):
         self.landmark = landmark
         self.base, self.laser, self.child = base, laser, child
         self.period = require_period(period)
-        self._truth: Any = None
 
     async def run(self) -> None:
         """Measure until the end."""
-        self.subscribe(TRUTH, Pose, self._on_truth)
+        self._follow_truth()
         async for now in self.every(self.period, immediately=True):
             if self._truth is None or not self.buffer.can_transform(self.base, self.laser):
                 continue
@@ -188,17 +192,12 @@ class LaserPoint(Node):
             seen = map_from_laser.inverse().apply(self.landmark)
             self.broadcast(TransformStamped(now, self.laser, self.child, Transform(seen)))
 
-    def _on_truth(self, truth: Any) -> None:
-        self._truth = truth
 
-
-class ScanMatcher(Node):
+class ScanMatcher(_Observer):
     """Broadcasts the laser's motion from its scans, in a separate tree.
 
     It does not use the published mount: the laser has its true pose on the robot.
     """
-
-    phase: ClassVar[Phase] = Phase.BROADCAST
 
     def __init__(
         self,
@@ -232,11 +231,10 @@ class ScanMatcher(Node):
         self.position, self.angle = position, angle
         self.period = require_period(period)
         self._dice = random.Random(seed)
-        self._truth: Any = None
 
     async def run(self) -> None:
         """Match scans until the end."""
-        self.subscribe(TRUTH, Pose, self._on_truth)
+        self._follow_truth()
         start_from_map: Transform | None = None
         async for now in self.every(self.period, immediately=True):
             if self._truth is None:
@@ -247,9 +245,6 @@ class ScanMatcher(Node):
             wrong = transform_from_pose(x, y, self._dice.gauss(0.0, self.angle))
             seen = start_from_map @ map_from_laser @ wrong
             self.broadcast(TransformStamped(now, self.origin, self.child, seen))
-
-    def _on_truth(self, truth: Any) -> None:
-        self._truth = truth
 
 
 def _pose_of(truth: Any) -> Transform:
