@@ -3,22 +3,19 @@
 The doctor, and with it numpy, is imported only if an expectation needs it, which is rare.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from tftool.base.errors import ScenarioError
-from tftool.frames.transform_log import TransformLog
 from tftool.scenario import units as values
 from tftool.scenario.document import Document, Node, text_of
 from tftool.scenario.fields import Key, Reading, Unreadable, quoted, suggest
-from tftool.world.world import TransformMessage, World
 
 if TYPE_CHECKING:
     from tftool.doctor.model import Settings
-    from tftool.frames.transform_log import TransformLog
 
 ENDING = ".doctor.yaml"
 """What the name of a recording's own list ends in."""
@@ -121,17 +118,3 @@ def _parsed(text: str, name: str) -> DoctorRules:
     except Unreadable as error:
         raise ScenarioError(name, reading.mistakes) from error
     return found
-
-
-def heard_in(world: World) -> "tuple[TransformLog, list[Callable[[], None]]]":
-    """Record a world's transforms; return the record, and a function that ends it."""
-    hearing = TransformLog()
-
-    def hear(message: TransformMessage, *, is_static: bool) -> None:
-        now = world.clock.now()
-        hearing.hear(now, message.transforms, message.authority, is_static=is_static)
-
-    return hearing, [
-        world.tf.subscribe(lambda message: hear(message, is_static=False)),
-        world.tf_static.subscribe(lambda message: hear(message, is_static=True)),
-    ]

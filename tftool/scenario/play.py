@@ -11,13 +11,14 @@ from tftool.base.errors import NodeFailed, TransformException
 from tftool.base.stamps import Stamp
 from tftool.scenario import load
 from tftool.scenario.answer_checks import Judged
-from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, heard_in
+from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules
 from tftool.scenario.load import NO_ARGUMENTS
 from tftool.scenario.node_kinds import KINDS
 from tftool.scenario.questions import Diagnosed, Logged, ScenarioWorld
 from tftool.scenario.scenario import Expectation, Outcome, Scenario, Verdict
 from tftool.scenario.script import Drive, Press, Script
 from tftool.world.clock import Clock, Phase, SimClock, run
+from tftool.world.frame_listener import logged_in
 from tftool.world.node import Node
 from tftool.world.supervisor import live
 from tftool.world.world import World
@@ -53,8 +54,8 @@ class Expectations(Node):
             if isinstance(expectation.question, Logged):
                 self._scene.lines[expectation.question] = 0
         if any(isinstance(expectation.question, Diagnosed) for expectation in self.expected):
-            self._scene.hearing, stops = heard_in(world)
-            self._stops += stops
+            self._scene.hearing, stop = logged_in(world)
+            self._stops.append(stop)
         self._stops.append(world.log.listen(self._scene.count, self.name))
 
     async def run(self) -> None:

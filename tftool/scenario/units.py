@@ -1,6 +1,6 @@
 """Readers of single values: numbers with units, names, choices, times.
 
-Every number has a documented unit and may be given in another of the same kind:
+Every number has a documented unit and may be given in another of the same kind.
 """
 
 import math
@@ -82,36 +82,24 @@ def _about(written: str, unit: Unit) -> str:
     return f"{quoted(written)} is no unit of it; {may}"
 
 
-def quantity(unit: Unit, *, least: float | None = None, most: float | None = None) -> Reader:
-    """Return a reader of numbers in the first unit, within bounds."""
+def quantity(unit: Unit, *, least: float = -math.inf) -> Reader:
+    """Return a reader of numbers in the first unit, not below `least`."""
 
     def read(node: Node, reading: Reading) -> float:
         digits, written = _measure(node, reading, unit)
         value = float(digits) * unit.factors.get(written, 1.0)
-        if not _inside(value, least, most):
-            raise reading.refuse(node, _outside(value, unit, least, most))
+        if value < least:
+            blank = f" {unit.name}" if unit.name else ""
+            raise reading.refuse(
+                node, f"{value:g}{blank} is not {unit.kind} of {least:g}{blank} or more"
+            )
         return value
 
     return read
 
 
-def _inside(value: float, least: float | None, most: float | None) -> bool:
-    return (least is None or value >= least) and (most is None or value <= most)
-
-
-def _outside(value: float, unit: Unit, least: float | None, most: float | None) -> str:
-    blank = f" {unit.name}" if unit.name else ""
-    if most is None:
-        bounds = f"of {least:g}{blank} or more"
-    elif least is None:
-        bounds = f"of {most:g}{blank} or less"
-    else:
-        bounds = f"from {least:g} to {most:g}{blank}"
-    return f"{value:g}{blank} is not {unit.kind} {bounds}"
-
-
-def time(*, least: float = 0.0, most: float = LONGEST) -> Reader:
-    """Return a reader of durations, exact to the nanosecond."""
+def time(*, least: float = 0.0) -> Reader:
+    """Return a reader of durations from `least` seconds to a day, exact to the nanosecond."""
 
     def read(node: Node, reading: Reading) -> Duration:
         digits, written = _measure(node, reading, DURATION)
@@ -119,8 +107,10 @@ def time(*, least: float = 0.0, most: float = LONGEST) -> Reader:
         if abs(float(digits)) > 1e-30:
             # The factors are powers of ten or whole: no digit is lost.
             exact = Decimal(digits) * Decimal(repr(DURATION.factors[written]))
-        if not _inside(float(exact), least, most):
-            raise reading.refuse(node, _outside(float(exact), DURATION, least, most))
+        if not least <= float(exact) <= LONGEST:
+            raise reading.refuse(
+                node, f"{float(exact):g} s is not a duration from {least:g} to {LONGEST:g} s"
+            )
         return int((exact * NANOSECONDS).to_integral_value(ROUND_HALF_UP))
 
     return read

@@ -1,15 +1,20 @@
-"""Recorder of a world's transforms in a separate buffer."""
+"""Recorders of a world's transforms in a separate buffer, and of headers for the doctor."""
 
 import asyncio
-from collections.abc import Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from tftool.base.stamps import Duration
+from tftool.base.stamps import NANOSECONDS, Duration
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.frames.transform_log import TransformLog
+from tftool.messages.classes import INTERFACES
 from tftool.world.clock import Clock, run
+from tftool.world.endpoints import PUBLISHER, Endpoint
 from tftool.world.world import TransformMessage, World
+
+if TYPE_CHECKING:
+    from tftool.recordings.contract import Headers
 
 T = TypeVar("T")
 
@@ -24,23 +29,40 @@ def heard_in(world: World, cache_time: Duration | None) -> Iterator[tuple[Buffer
             prunes, and a later question may ask for any moment.
     """
     buffer = Buffer(cache_time or NO_LIMIT, max_frames=world.buffer.max_frames)
+    log, stop = logged_in(world, buffer)
+    try:
+        yield buffer, log
+    finally:
+        stop()
+
+
+def logged_in(
+    world: World, buffer: Buffer | None = None
+) -> tuple[TransformLog, Callable[[], None]]:
+    """Record a world's transforms in order of arrival, and in a buffer if there is one.
+
+    Returns:
+        The record, and a function that ends it.
+    """
     log = TransformLog()
 
     def hear(message: TransformMessage, *, is_static: bool) -> None:
         log.hear(world.clock.now(), message.transforms, message.authority, is_static=is_static)
-        set_transform = buffer.set_transform_static if is_static else buffer.set_transform
-        for one in message.transforms:
-            set_transform(one, message.authority)
+        if buffer is not None:
+            set_transform = buffer.set_transform_static if is_static else buffer.set_transform
+            for one in message.transforms:
+                set_transform(one, message.authority)
 
     stops = [
         world.tf.subscribe(lambda message: hear(message, is_static=False)),
         world.tf_static.subscribe(lambda message: hear(message, is_static=True)),
     ]
-    try:
-        yield buffer, log
-    finally:
-        for stop in stops:
-            stop()
+
+    def stop() -> None:
+        for one in stops:
+            one()
+
+    return log, stop
 
 
 def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
@@ -54,3 +76,84 @@ def run_apart(clock: Clock, work: Coroutine[Any, Any, T]) -> T:
     # A loop cannot run inside another one: in a notebook the caller's waits meanwhile.
     with ThreadPoolExecutor(1, "tftool.open") as pool:
         return pool.submit(run, clock, work).result()
+
+
+MOST: Final = 50
+"""Messages of each topic that are heard: images would take the place of everything else."""
+
+MOST_TOPICS: Final = 500
+
+_HEADER: Final = "std_msgs/msg/Header"
+
+
+class HeaderListener:
+    """Subscriber to the first messages of each topic whose type begins with a header."""
+
+    def __init__(self) -> None:
+        self._world: World | None = None
+        self._heard: dict[tuple[str, str], list[tuple[int, int, str]]] = {}
+        self._stops: dict[tuple[str, str], Callable[[], None]] = {}
+        self._is_looking = False
+
+    def begin(self, world: World) -> None:
+        """Subscribe to what other processes publish, now and later."""
+        self._world = world
+        world.watch(self._look, "doctor")
+
+    def _look(self) -> None:
+        # To subscribe changes the world, which calls this again.
+        if self._is_looking or self._world is None:
+            return
+        self._is_looking = True
+        try:
+            for topic in self._world.endpoints.topics():
+                for one in self._world.endpoints.of(topic, PUBLISHER):
+                    self._subscribe(self._world, one)
+        finally:
+            self._is_looking = False
+
+    def _subscribe(self, world: World, publisher: Endpoint) -> None:
+        key = publisher.topic, publisher.interface
+        is_known = key in self._heard or len(self._heard) >= MOST_TOPICS
+        if is_known or not publisher.is_remote or not _has_header(publisher.interface):
+            return
+        rows = self._heard[key] = []
+
+        def hear(message: Any) -> None:
+            if len(rows) < MOST:
+                stamp = message.header.stamp
+                time = stamp.sec * NANOSECONDS + stamp.nanosec
+                rows.append((time, world.clock.now(), message.header.frame_id))
+            elif key in self._stops:
+                self._stops.pop(key)()
+
+        kind = INTERFACES.message(publisher.interface)
+        self._stops[key] = world.topic(publisher.topic, kind).subscribe(hear, "doctor")
+
+    def headers(self) -> "dict[str, Headers]":
+        """Return the received headers in columns, by topic."""
+        import numpy as np  # most worlds are never judged
+
+        from tftool.recordings.contract import Headers
+
+        found = {}
+        for (topic, interface), rows in self._heard.items():
+            if not rows:
+                continue
+            names = tuple(dict.fromkeys(frame for _, _, frame in rows))
+            found[f"/{topic}"] = Headers(
+                f"/{topic}",
+                interface.replace("/msg/", "/"),
+                np.array([stamp for stamp, _, _ in rows], dtype=np.int64),
+                np.array([heard for _, heard, _ in rows], dtype=np.int64),
+                names,
+                np.array([names.index(frame) for _, _, frame in rows], dtype=np.int32),
+            )
+        return found
+
+
+def _has_header(interface: str) -> bool:
+    if not INTERFACES.has(interface):
+        return False
+    fields = INTERFACES.structure(interface).fields
+    return bool(fields) and (fields[0].name, fields[0].type) == ("header", _HEADER)

@@ -24,10 +24,10 @@ from tftool.drawing import report_view as judgements
 from tftool.opener import scenario_named
 from tftool.recordings.find import METADATA
 from tftool.scenario import builtin
-from tftool.scenario.doctor_expectations import heard_in
 from tftool.scenario.play import run_scenario
 from tftool.scenario.scenario import Scenario, Verdict
 from tftool.world.clock import Clock, WallClock
+from tftool.world.frame_listener import logged_in
 from tftool.world.world import World
 
 if TYPE_CHECKING:
@@ -90,15 +90,16 @@ class _Heard:
     @contextmanager
     def watching(self, world: World) -> Iterator[None]:
         """Record a world's transforms until it ends."""
-        self._log, stops = heard_in(world)
+        self._log, stop = logged_in(world)
+        stops = [stop]
         if sys.stderr.isatty():
             stops.append(world.tf.subscribe(self._progress(world.clock)))
         self._span = (world.clock.now(), world.clock.now)
         try:
             yield
         finally:
-            for stop in stops:
-                stop()
+            for one in stops:
+                one()
 
     def _progress(self, simulated: Clock) -> Callable[[object], None]:
         """Return a function to call with each message, which prints the progress of a long run."""

@@ -16,7 +16,7 @@ from tftool.frames.source_options import RobotOptions
 from tftool.opener import named, scenario_named
 from tftool.recordings.find import Kind
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, rules_beside
-from tftool.world.header_listener import HeaderListener
+from tftool.world.frame_listener import HeaderListener
 
 if TYPE_CHECKING:
     from rich.text import Text

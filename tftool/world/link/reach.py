@@ -75,8 +75,8 @@ class Reach:
 
     @property
     def is_asked(self) -> bool:
-        """Whether an option requires a link."""
-        raise NotImplementedError
+        """Whether a link is needed: always for a robot, which is in another process."""
+        return True
 
     def awaits_others(self, *, hosts: bool) -> bool:
         """Whether the session is elsewhere, so that hosting a world makes no sense.
@@ -84,7 +84,7 @@ class Reach:
         Args:
             hosts: Whether the command hosts turtles where it finds none.
         """
-        raise NotImplementedError
+        return not hosts
 
     @staticmethod
     def has_members(domain: int) -> bool:

@@ -92,32 +92,21 @@ class Asking:
         self._client.close()
 
 
-class ServiceServer:
-    """A service of our world, offered to other processes."""
+def serve_service(link: LinkContext, node: str, name: str, kind: Any) -> Answering:
+    """Offer a service of our world to other processes.
 
-    def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
-        """Offer a service.
+    Args:
+        link: The link.
+        node: The node that serves it, "" where that is not said.
+        name: The service's name.
+        kind: The service's class.
+    """
 
-        Args:
-            link: The link.
-            node: The node that serves it, "" where that is not said.
-            name: The service's name.
-            kind: The service's class.
-        """
-        self._link = link
-        self._name = name
-        self._kind = kind
-        node = node or link.main_node
-        self._answering = Answering(link, node, name, kind.interface__, self._serve)
+    async def serve(payload: bytes) -> bytes:
+        request = codec(kind.Request).decode(payload)
+        return codec(kind.Response).encode(await link.world.call(name, request))
 
-    def close(self) -> None:
-        """Stop serving."""
-        self._answering.close()
-
-    async def _serve(self, payload: bytes) -> bytes:
-        request = codec(self._kind.Request).decode(payload)
-        answer = await self._link.world.call(self._name, request)
-        return codec(self._kind.Response).encode(answer)
+    return Answering(link, node or link.main_node, name, kind.interface__, serve)
 
 
 class ServiceClient:
@@ -158,7 +147,7 @@ class ActionServer:
     """An action of our world, offered to other processes."""
 
     def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
-        """Offer an action; the arguments are those of `ServiceServer`."""
+        """Offer an action; the arguments are those of `serve_service`."""
         interface: str = kind.interface__
         node, base = node or link.main_node, f"{name}/_action"
         publish = link.middleware.publisher

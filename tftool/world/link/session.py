@@ -21,8 +21,9 @@ from tftool.world.link.link_options import Options
 from tftool.world.link.service_bridges import (
     ActionClient,
     ActionServer,
+    Answering,
     ServiceClient,
-    ServiceServer,
+    serve_service,
 )
 from tftool.world.link.topic_bridges import StaticBridge, TopicBridge, TransformBridge
 from tftool.world.registry import Offer
@@ -61,7 +62,7 @@ class Link(LinkContext):
         self._removals: dict[GraphEntity, Callable[[], None]] = {}
         self._stops: list[Callable[[], None]] = []
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
-        self._servers: dict[str, tuple[Offer[Any], ServiceServer | ActionServer]] = {}
+        self._servers: dict[str, tuple[Offer[Any], Answering | ActionServer]] = {}
         self._clients: dict[str, ServiceClient | ActionClient] = {}
         self._closed = False
         self._settling = False
@@ -249,7 +250,7 @@ class Link(LinkContext):
                 self._servers[name] = offer, ActionServer(self, offer.node, name, offer.kind)
                 self._warn_of_rival(name, f"{name}/_action/send_goal")
             elif hasattr(offer.kind, "Request"):
-                self._servers[name] = offer, ServiceServer(self, offer.node, name, offer.kind)
+                self._servers[name] = offer, serve_service(self, offer.node, name, offer.kind)
                 self._warn_of_rival(name, name)
 
     def _is_part_of_our_action(self, name: str) -> bool:

@@ -9,6 +9,7 @@ import itertools
 import os
 import struct
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final
 
 from tftool.base.errors import LinkError
@@ -37,30 +38,25 @@ REFUSED: Final = (
 )
 
 
+@dataclass(frozen=True, slots=True)
 class ServicePart:
     """Common parts of both sides of a service.
 
     Attributes:
         participant: Ours.
+        types: Classes for the library by type name.
         graph: Graph of the other processes.
         sender: Gives the GUID of the writer of a message.
     """
 
-    def __init__(
-        self,
-        participant: Participant,
-        types: Types,
-        graph: Graph,
-        sender: Callable[[DdsSample], bytes],
-    ) -> None:
-        self.participant = participant
-        self.graph = graph
-        self.sender = sender
-        self._types = types
+    participant: Participant
+    types: Types
+    graph: Graph
+    sender: Callable[[DdsSample], bytes]
 
     def kinds(self, ros_type: str) -> tuple[type[Raw], type[Raw]]:
         """Return the classes of a service's requests and replies."""
-        raw = self._types.raw
+        raw = self.types.raw
         return (
             raw(f"{ros_type}_Request", beside=NUMBERED),
             raw(f"{ros_type}_Response", beside=NUMBERED),

@@ -55,15 +55,6 @@ class DdsReach(Reach):
         """Combine the values of the options; see `Reach.read`."""
         return cls(tuple(given.get("dds_on") or ()))
 
-    @property
-    def is_asked(self) -> bool:
-        """Whether a link is needed: always, as the robot is in another process."""
-        return True
-
-    def awaits_others(self, *, hosts: bool) -> bool:
-        """Whether to wait for a robot: unless the command hosts turtles without one."""
-        return not hosts
-
     def place(self, domain: int) -> str:
         """Return the domain and its peers or interfaces as text."""
         return f"DDS domain {domain} on {', '.join(self.places) or 'the loopback'}"

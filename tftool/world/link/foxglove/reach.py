@@ -41,11 +41,6 @@ class FoxgloveReach(Reach):
             raise UsageError(f"'{word}' is not a server address: write ws://HOST:8765.")
         return cls(word)
 
-    @property
-    def is_asked(self) -> bool:
-        """Whether a link is needed: always, as the robot is in another process."""
-        return True
-
     def awaits_others(self, *, hosts: bool) -> bool:
         """Whether the session is elsewhere: always."""
         return True
