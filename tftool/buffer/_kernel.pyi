@@ -1,26 +1,26 @@
-"""What the native kernel offers; each function says what it is the twin of."""
+"""Native kernel; each function names its twin in Python."""
 
 from tftool.buffer.sample import TransformStamped
 
 INTERFACE: int
 
 class Fields:
-    """The fields of a link, laid out so that the kernel can read them: see `history`."""
+    """Fields of a link, in memory that the kernel can read: see `history`."""
 
 class Door:
-    """The methods of a buffer that are called most; each is the twin of the one in `Buffer`.
+    """Methods of a buffer that are called most; each has a twin in `Buffer`.
 
-    They answer what is plain, and call `_plain_` and their name for all else: a refusal, a link
-    with samples of several parents, an argument given by its name.
+    They handle the usual cases, and call the twin (`_plain_` and the method's name) for all others:
+    a refusal, a link with samples of several parents, an argument given by name.
     """
 
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
-        """`Buffer.set_transform` of a sample of a known link that has room."""
+        """Insert a sample of a known link that has room: `Buffer.set_transform`."""
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: int = 0
     ) -> TransformStamped:
-        """`Buffer.lookup_transform` by a path, cached or not."""
+        """Look up by a path, cached or not: `Buffer.lookup_transform`."""
 
     def lookup_transform_full(
         self,
@@ -30,10 +30,10 @@ class Door:
         source_time: int,
         fixed_frame: str,
     ) -> TransformStamped:
-        """`Buffer.lookup_transform_full` by two paths."""
+        """Look up by two paths: `Buffer.lookup_transform_full`."""
 
     def can_transform(self, target_frame: str, source_frame: str, time: int = 0) -> bool:
-        """`Buffer.can_transform` by a path; it says no in plain Python."""
+        """Whether a path has data: `Buffer.can_transform`. The twin answers if it has none."""
 
 def solve(
     up: tuple[object, ...],
@@ -44,4 +44,7 @@ def solve(
     valid: object,
     /,
 ) -> int | None:
-    """Poses of a path at many moments; how many rows have none. None if a link is not plain."""
+    """Write the poses of a path at many times; return the number of rows without data.
+
+    None if the kernel cannot use a link.
+    """

@@ -1,13 +1,15 @@
-/* The native scan: where the transforms of many recorded messages lie, and which frames they join.
+/* Native scan: find the transforms of many recorded messages and write them into columns.
 
-   `rows.walk` says the same in Python, for reading, and `sources.columns` does it with numpy where
-   there is no compiler; the tests run on both. Its rules are those of the kernel of `frames`:
+   `transform_rows.walk` is the readable twin in Python; `columns` in `recordings/` uses numpy where
+   there is no compiler. The tests run on both. Rules, as in the kernel of `buffer/`:
 
-   - It does exactly what its twin does, or leaves a message to it: whatever is odd about one (its
-     byte order, a length that does not fit, bytes left over) is for the twin to judge, and to name.
-   - Nothing that a message says is believed: every offset is checked against the message's end,
-     every message against the buffer's, every place to write to against its array's.
-   - The limited API of CPython 3.11: one build serves every later version with a GIL. */
+   - A message is either read exactly as the twin reads it, or left to the twin. The twin also judges
+     everything unusual about a message (byte order, a length that does not fit, bytes left over),
+     and names it in its error.
+   - Messages come from outside, so no number in them is trusted: every offset is checked against
+     the end of the message, every message against the end of the buffer, every write against the
+     end of its array.
+   - Limited API of CPython 3.11: one build serves all later versions that have a GIL. */
 
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030B0000
@@ -18,21 +20,22 @@
 
 #include "../buffer/_path.h"
 
-/* What `tftool.messages.native_scan` expects; a build of another interface is not used. */
+/* Version that `tftool.messages.native_scan` expects; a build with another one is not used. */
 #define INTERFACE 4
 
 #define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */
-#define LONGEST_NAME 4096        /* As in `rows`. */
-#define MOST_PAIRS (1 << 17)     /* Pairs of names that are known at once; others are left to the twin. */
-#define MOST_LOOKS 256           /* And those of which so many, made for it, share a place. */
-#define MOST_BYTES (16 << 20)    /* And bytes of all their names. */
-#define RECORD 64                /* Bytes of a record: a stamp, and seven doubles. */
-#define HEAD 31                  /* Bytes of an MCAP message's record before its payload. */
-#define MESSAGE 5                /* Its code. */
+#define LONGEST_NAME 4096        /* As in `transform_rows`. */
+/* Limits on hostile files; messages beyond them are left to the twin. */
+#define MOST_PAIRS (1 << 17)     /* Pairs of names in the table. */
+#define MOST_LOOKS 256           /* Pairs with one hash, as only a file made for that purpose has. */
+#define MOST_BYTES (16 << 20)    /* Bytes of all names together. */
+#define RECORD 64                /* Bytes of a sample: a stamp and seven doubles. */
+#define HEAD 31                  /* Bytes of an MCAP message record before its payload. */
+#define MESSAGE 5                /* Opcode of an MCAP message record. */
 #define ENTRY 12                 /* Bytes of an entry in a ROS 1 chunk's index. */
-#define ROS1_MESSAGE 2           /* The code of a message's record there. */
-#define LARGEST_HEADER (1 << 20) /* And the bytes of its header at most. */
-#define LEAF 0x0d                /* The first byte of a page of sqlite with rows of a table. */
+#define ROS1_MESSAGE 2           /* Op code of a ROS 1 message record. */
+#define LARGEST_HEADER (1 << 20) /* Most bytes of its header. */
+#define LEAF 0x0d                /* First byte of an sqlite page with rows of a table. */
 
 static inline uint32_t u32_at(const uint8_t *bytes) {
     uint32_t word;
@@ -54,42 +57,44 @@ static inline int64_t i64_at(const char *words, Py_ssize_t index) {
 
 /* Pairs of frame names --------------------------------------------------- */
 
-/* A pair: both names as they were sent, with their lengths and what lies between them. */
+/* A pair of names, stored as the bytes of the message from the first length to the end of the
+   second name: one comparison then checks both names, their lengths and the padding. */
 typedef struct {
-    uint32_t hash, place, size; /* Where its bytes begin in `bytes`, and how many it has. */
-    uint32_t parent, child;     /* And how many each name: the first behind its length, the other last. */
-    uint32_t next;              /* The pair that came behind it last. */
-    int32_t target;             /* Where its transforms go, or one of those below. */
-    int32_t slashed;            /* Whether a leading slash is left out of a name. */
+    uint32_t hash, place, size; /* First byte in `bytes`, number of bytes. */
+    uint32_t parent, child;     /* Bytes of each name: the parent after its length, the child at the end. */
+    uint32_t next;              /* Guess of the following pair: the one that followed last time. */
+    int32_t target;             /* Number of its columns, or UNKNOWN or NOWHERE. */
+    int32_t slashed;            /* Whether a leading slash of a name was dropped. */
 } Pair;
 
 #define UNKNOWN (-2)
 #define NOWHERE (-1)
 
-/* What is known of an edge's columns while they grow, as `columns.Growing` has it. */
+/* State of an edge's growing columns, as in `columns.Growing.state`. */
 enum { COUNT, LAST, ORDERED, KEPT, SLASHED, MOVED, STATE };
 
-/* An edge's columns, with room. */
+/* Columns of an edge, with memory for `room` rows. The views are exports of Python's arrays, which
+   therefore cannot move while a target holds them. */
 typedef struct {
     Py_buffer records, messages, state;
     int64_t room, moved;
 } Target;
 
-/* Where a transform was found. */
-typedef struct { uint32_t pair, stamp, numbers; } Found; /* The bytes where they begin, in the message. */
+/* A transform in a message: its pair, and the offsets of its stamp and of its numbers. */
+typedef struct { uint32_t pair, stamp, numbers; } Found;
 
 typedef struct {
     PyObject_HEAD
     Pair *pairs;
-    uint32_t *slots; /* Of a hash: the number of a pair, plus one; 0 where there is none. */
+    uint32_t *slots; /* Hash table: number of a pair plus one; 0 if empty. */
     uint8_t *bytes;
     uint32_t count, room, mask, used, size;
-    Found *found; /* What the message that is looked at has. */
+    Found *found; /* Transforms of the current message. */
     uint64_t longest;
     Target *targets;
     Py_ssize_t targeted;
-    int is_cdr; /* Whether the messages are, all of them: what lies between names differs. */
-    int busy; /* 1 while a thread scans, which does not hold Python's lock; 2 while it asks. */
+    int is_cdr; /* The layout, CDR or ROS 1; it is the same for all messages, as the padding differs. */
+    int busy; /* 1 while a thread scans without the GIL; 2 while it calls `ask` with the GIL. */
 } Pairs;
 
 static uint32_t hash_of(const uint8_t *bytes, uint32_t size, uint64_t hash) {
@@ -105,7 +110,7 @@ static uint32_t hash_of(const uint8_t *bytes, uint32_t size, uint64_t hash) {
     return (uint32_t)(hash ^ hash >> 32);
 }
 
-/* Whether 8 bytes or more are the same: mostly a few words, for which no function need be called. */
+/* Whether `size` bytes, at least 8, are equal. Mostly a few words, for which memcmp costs more. */
 static inline int same(const uint8_t *one, const uint8_t *other, uint32_t size) {
     for (uint32_t i = 0; i + 8 < size; i += 8) {
         if (u64_at(one + i) != u64_at(other + i))
@@ -122,7 +127,7 @@ static inline int is_pair(const Pairs *self, const Pair *pair, const uint8_t *pa
         && memcmp(bytes + pair->size - child_size, child, child_size) == 0;
 }
 
-/* Twice as much room in one of the arrays; returns whether there is. */
+/* Reallocate an array; on failure it is unchanged. Returns whether there was memory. */
 static int grow(void **array, uint64_t bytes) {
     void *larger = realloc(*array, (size_t)bytes);
     if (larger != NULL)
@@ -157,9 +162,9 @@ static int make_room(Pairs *self, uint32_t more) {
     return 1;
 }
 
-/* The number of a pair, which may be new; -1 where there are too many, or are made to look alike.
+/* Return the number of a pair, and add the pair if it is new; -1 if a limit is reached.
 
-   bytes   its bytes, `size` of them, as `Pair` has them */
+   bytes   the bytes of the pair as described at `Pair`, `size` of them */
 static int64_t number_of(Pairs *self, const uint8_t *bytes, uint32_t size, uint32_t parent_size,
                          uint32_t child_size) {
     const uint8_t *parent = bytes + 4, *child = bytes + size - child_size;
@@ -193,16 +198,16 @@ static int64_t number_of(Pairs *self, const uint8_t *bytes, uint32_t size, uint3
 #define ODD (-1)
 #define NO_MEMORY (-2)
 
-/* Where the numbers begin behind names: in CDR on a grid of 8 that starts behind the header. */
+/* Return the offset of the numbers after the names. CDR aligns doubles to 8 bytes, counted from the
+   end of its 4-byte header. */
 static inline uint64_t numbers_at(uint64_t end, int is_cdr) {
     return is_cdr ? ((end + 3) & ~7ULL) + 4 : end;
 }
 
-/* Walk through a message: `rows.walk`. Returns how many transforms it has, which `found` tells of,
-   or what is wrong.
+/* Parse a message: `transform_rows.walk`. Stores its transforms in `found` and returns their number,
+   or ODD or NO_MEMORY. Reads `bytes` only up to `size`.
 
-   bytes   it, `size` of them
-   last    the pair that came last; is changed */
+   last    in and out: the previous pair, for the guess of the next */
 static inline int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int is_cdr, uint32_t *last) {
     uint64_t position = is_cdr ? 4 : 0;
     if (size < position + 4 || (is_cdr && (bytes[0] != 0 || bytes[1] != 1)))
@@ -220,7 +225,8 @@ static inline int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int
     for (uint64_t row = 0; row < count; row++) {
         const uint64_t stamp = is_cdr ? position : position + 4, begin = stamp + 8;
         if (*last < self->count) {
-            /* As a rule what came behind it the last time comes again, to the byte. */
+            /* Publishers send the same frames in the same order: so compare with the pair that
+               followed last time, before the table is searched. */
             const uint32_t number = self->pairs[*last].next;
             const Pair *pair = &self->pairs[number];
             position = numbers_at(begin + pair->size, is_cdr);
@@ -260,7 +266,8 @@ static inline int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int
     return size - position > (is_cdr ? 7 : 0) ? ODD : (int64_t)count;
 }
 
-/* Buffers of arguments, released at the end. */
+/* Open the buffers of all arguments; the caller must call `release_all`. On failure none is open,
+   and an error is set. */
 static int read_all(PyObject *const *arguments, Py_buffer *views, const int *flags, int count) {
     for (int k = 0; k < count; k++) {
         if (PyObject_GetBuffer(arguments[k], &views[k], flags[k]) < 0) {
@@ -279,13 +286,14 @@ static void release_all(Py_buffer *views, int count) {
 
 /* Columns ---------------------------------------------------------------- */
 
-/* Write one transform into its edge's columns; returns whether there is room for it. */
+/* Append one transform to the columns of its edge; returns whether there was room. Called without
+   the GIL: touches only memory that the views own. */
 static inline int is_written(Pairs *self, const uint8_t *bytes, const Found *found, int32_t message) {
     const Pair *pair = &self->pairs[found->pair];
     Target *target = &self->targets[pair->target];
     int64_t *state = target->state.buf;
     const int64_t row = state[COUNT];
-    /* Others may have put other columns in their place. */
+    /* Another reader may have replaced the columns since `aim`: then `ask` must aim again. */
     if (state[MOVED] != target->moved || row < 0 || row >= target->room)
         return 0;
     char *record = (char *)target->records.buf + RECORD * row;
@@ -306,7 +314,8 @@ static inline int is_written(Pairs *self, const uint8_t *bytes, const Found *fou
     return 1;
 }
 
-/* Have `ask` say where a pair's transforms go, with room; returns whether it did. */
+/* Call `ask`, which gives a pair its columns, with room, by `aim` and `lead`. Returns whether it
+   did; sets an error if not. Needs the GIL. */
 static int is_aimed(Pairs *self, PyObject *ask, uint32_t pair, int32_t message, Py_ssize_t rank) {
     self->busy = 2;
     PyObject *answer = PyObject_CallFunction(ask, "Iin", (unsigned)pair, (int)message, rank);
@@ -373,7 +382,7 @@ static PyObject *take(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     for (Py_ssize_t k = 0; k < messages && !failed && !is_told; k++) {
         const uint8_t *bytes = buffer + i64_at(views[1].buf, k);
         const uint64_t length = (uint64_t)i64_at(views[2].buf, k);
-        /* Two of it, each for one layout. */
+        /* Inlined twice, so that each copy is compiled for one layout. */
         const int64_t transforms = is_cdr ? walk(self, bytes, length, 1, &last) : walk(self, bytes, length, 0, &last);
         int32_t message;
         memcpy(&message, (const char *)views[3].buf + 4 * k, sizeof message);
@@ -422,7 +431,7 @@ static void release_target(Target *target) {
     PyBuffer_Release(&target->state);
 }
 
-PyDoc_STRVAR(aim_doc, "Give an edge's columns; see `_scan.pyi`.");
+PyDoc_STRVAR(aim_doc, "Set the columns of an edge; see `_scan.pyi`.");
 
 static PyObject *aim(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
     Pairs *self = (Pairs *)object;
@@ -441,7 +450,7 @@ static PyObject *aim(PyObject *object, PyObject *const *arguments, Py_ssize_t co
         goto failed;
     }
     if (number == self->targeted) {
-        /* Twice as many whenever their number is a power of 2. */
+        /* Doubled whenever the number is a power of two, so no capacity is stored. */
         if ((number & (number - 1)) == 0
             && !grow((void **)&self->targets, (uint64_t)(number ? 2 * number : 1) * sizeof *self->targets)) {
             PyErr_NoMemory();
@@ -460,7 +469,7 @@ failed:
     return NULL;
 }
 
-PyDoc_STRVAR(lead_doc, "Say to which edge a pair's transforms go; see `_scan.pyi`.");
+PyDoc_STRVAR(lead_doc, "Set the edge of a pair's transforms; see `_scan.pyi`.");
 
 static PyObject *lead(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
     Pairs *self = (Pairs *)object;
@@ -481,7 +490,7 @@ static PyObject *lead(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     return Py_NewRef(Py_None);
 }
 
-PyDoc_STRVAR(names_doc, "Both names of a pair; see `_scan.pyi`.");
+PyDoc_STRVAR(names_doc, "Return both names of a pair; see `_scan.pyi`.");
 
 static PyObject *names(PyObject *object, PyObject *argument) {
     const Pairs *self = (Pairs *)object;
@@ -522,7 +531,7 @@ static PyMethodDef pairs_methods[] = {
 };
 
 static PyType_Slot pairs_slots[] = {
-    {Py_tp_doc, "Pairs of frame names by number; see `_scan.pyi`."},
+    {Py_tp_doc, "Table of pairs of frame names; see `_scan.pyi`."},
     {Py_tp_methods, pairs_methods},
     {Py_tp_dealloc, pairs_dealloc},
     {0, NULL},
@@ -534,7 +543,7 @@ static PyType_Spec pairs_spec = {
 
 /* Indexes ---------------------------------------------------------------- */
 
-PyDoc_STRVAR(indexed_doc, "Where the messages of an MCAP message index lie; see `_scan.pyi`.");
+PyDoc_STRVAR(indexed_doc, "Find the messages of an MCAP message index; see `_scan.pyi`.");
 
 static PyObject *indexed(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
     (void)module;
@@ -572,7 +581,7 @@ static PyObject *indexed(PyObject *module, PyObject *const *arguments, Py_ssize_
     return PyBool_FromLong(fits);
 }
 
-PyDoc_STRVAR(pointed_doc, "Where the messages of a ROS 1 chunk's index lie; see `_scan.pyi`.");
+PyDoc_STRVAR(pointed_doc, "Find the messages of a ROS 1 chunk's index; see `_scan.pyi`.");
 
 static PyObject *pointed(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
     (void)module;
@@ -598,7 +607,7 @@ static PyObject *pointed(PyObject *module, PyObject *const *arguments, Py_ssize_
         if (place + 8 > size)
             break;
         const uint64_t length = u32_at(data + place);
-        /* All headers are laid out like the first one. */
+        /* `code` and `owner` are offsets of fields in the first header: others must equal it. */
         head = k ? head : length;
         if (length != head || head > LARGEST_HEADER || head > size - place - 8 || code >= head
             || owner >= head || head - owner < 4)
@@ -619,8 +628,8 @@ static PyObject *pointed(PyObject *module, PyObject *const *arguments, Py_ssize_
 
 /* sqlite's pages --------------------------------------------------------- */
 
-/* A number of up to nine bytes, seven bits in each; returns how many bytes it takes, 0 if it goes
-   on behind the end. */
+/* Read sqlite's variable-length integer: up to nine bytes of seven bits. Returns the number of its
+   bytes; 0 if it continues after the end. */
 static int varint(const uint8_t *bytes, const uint8_t *end, uint64_t *number) {
     uint64_t found = 0;
     for (int k = 0; k < 9 && bytes + k < end; k++) {
@@ -633,7 +642,7 @@ static int varint(const uint8_t *bytes, const uint8_t *end, uint64_t *number) {
     return 0;
 }
 
-/* A column that is a whole number, by its serial type; returns its bytes, -1 if it is none. */
+/* Read an integer column by its serial type. Returns its bytes; -1 if it is no integer. */
 static int whole(uint64_t type, const uint8_t *bytes, const uint8_t *end, int64_t *number) {
     static const int sizes[] = {-1, 1, 2, 3, 4, 6, 8, -1, 0, 0};
     if (type > 9 || sizes[type] < 0 || end - bytes < sizes[type])
@@ -645,7 +654,7 @@ static int whole(uint64_t type, const uint8_t *bytes, const uint8_t *end, int64_
     return sizes[type];
 }
 
-/* The number of a topic's stream, among pairs of both in the order of topics; -1 for none. */
+/* Return the stream of a topic from pairs (topic, stream) in the order of topics; -1 for none. */
 static int64_t stream_of(const char *pairs, Py_ssize_t count, int64_t topic) {
     Py_ssize_t low = 0, high = count;
     while (low < high) {
@@ -658,7 +667,7 @@ static int64_t stream_of(const char *pairs, Py_ssize_t count, int64_t topic) {
     return low < count && i64_at(pairs, 2 * low) == topic ? i64_at(pairs, 2 * low + 1) : -1;
 }
 
-PyDoc_STRVAR(rows_doc, "The rows of a table's leaf pages; see `_scan.pyi`.");
+PyDoc_STRVAR(rows_doc, "Read the rows of a table's leaf pages; see `_scan.pyi`.");
 
 static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
     (void)module;
@@ -723,7 +732,7 @@ static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t c
             const uint64_t length = (types[3] - 12) / 2;
             if (length > (uint64_t)INT32_MAX || payload != (uint64_t)(body - record) + length)
                 goto odd;
-            /* What is longer than this goes on on other pages. */
+            /* sqlite continues a longer record on overflow pages; then a negative start marks it. */
             const int is_here = payload <= (uint64_t)usable - 35;
             if (is_here && length > (uint64_t)(end - body))
                 goto odd;

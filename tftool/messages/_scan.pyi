@@ -1,13 +1,13 @@
-"""What the native scan offers; each function says what it is the twin of."""
+"""Native scan of recorded messages; each function names its twin in Python."""
 
 from collections.abc import Callable
 
 INTERFACE: int
 
 class Pairs:
-    """Pairs of frame names as they were sent, by number, in the order they first came up.
+    """Table of pairs of frame names, numbered in the order in which they first occur.
 
-    All of them come out of messages of one layout.
+    All messages of one table have the same layout.
     """
 
     def take(
@@ -20,53 +20,53 @@ class Pairs:
         ask: Callable[[int, int, int], None],
         /,
     ) -> tuple[int, bytes]:
-        """`rows.walk` and `Template.cut` of many messages, transform by transform into columns.
+        """Write many messages' transforms into columns: `transform_rows.walk`, `Template.cut`.
 
-        Other threads of Python run meanwhile; the arrays must not change.
+        Other Python threads run meanwhile; the arrays must not change.
 
         Args:
-            buffer: The bytes.
-            starts: Where each message begins in it, int64.
-            lengths: How many bytes it has, int64.
-            numbers: What to call it, int32.
-            is_cdr: How they are written.
-            ask: Is called with a pair, a message, and a place in that, at the first transform of
-                a pair and where there is no room for another one: leads the pair to an edge, and
-                aims that at columns with room.
+            buffer: Bytes that contain the messages.
+            starts: Offset of each message in the buffer, int64.
+            lengths: Bytes of each message, int64.
+            numbers: Number of each message, as written into the columns, int32.
+            is_cdr: Whether the layout is CDR, else ROS 1's.
+            ask: Function called with a pair, a message number and the transform's index in that
+                message, at the first transform of a pair and when its columns are full. It must
+                call `lead` for the pair, and `aim` for the edge with larger columns.
 
         Returns:
-            How many transforms of pairs that lead nowhere were left out; the places of the
-            messages that are odd, uint32: those are for `walk`, and nothing of them is taken.
+            The number of transforms dropped because their pair has no edge, and the indices of the
+            messages that only `walk` can judge, uint32. No transform of these is written.
 
         Raises:
-            ValueError: If a message lies outside of the buffer, those before were written the other
-                way, or no room was made.
-            RuntimeError: If another thread does the same right now.
+            ValueError: If a message is outside of the buffer, the table holds pairs of the other
+                layout, or `ask` made no room.
+            RuntimeError: If another thread is scanning with this table.
         """
 
     def names(self, number: int, /) -> tuple[bytes, bytes]:
-        """Parent and child of a pair, in the message's bytes."""
+        """Return parent and child of a pair, as bytes of the message."""
 
     def lead(self, pair: int, edge: int, is_slashed: bool, /) -> None:
-        """Say to which edge a pair's transforms go; to -1, they are left out.
+        """Set the edge of a pair's transforms; -1 drops them.
 
         Args:
-            pair: Its number.
-            edge: One that has been aimed already.
-            is_slashed: Whether its names have a slash that those of the edge do not have.
+            pair: Number of the pair.
+            edge: Number of an edge with columns, set by `aim`.
+            is_slashed: Whether a name of the pair has a leading slash that the edge's name lacks.
         """
 
     def aim(self, edge: int, records: object, messages: object, state: object, /) -> None:
-        """Give the columns into which an edge's transforms are to be written.
+        """Set the columns of an edge's transforms.
 
         Args:
-            edge: Its number; those that come up are numbered from 0 on.
-            records: int64 of shape (room, 8).
-            messages: int32 of shape (room,).
-            state: What `columns.Growing` has as such.
+            edge: Number of the edge; a new edge gets the next number, from 0.
+            records: Samples, int64, shape (room, 8).
+            messages: Message number of each sample, int32, shape (room,).
+            state: As `columns.Growing.state`.
 
         Raises:
-            ValueError: If it is none of them.
+            ValueError: If there is no such edge, or the state is too short.
         """
 
 def indexed(
@@ -78,10 +78,11 @@ def indexed(
     channel: int,
     /,
 ) -> bool:
-    """Where the messages that an MCAP chunk's message index tells lie, into three int64 arrays.
+    """Write offset, length and log time of each message in an MCAP message index to int64 arrays.
 
     Returns:
-        False, with anything in the arrays, where it points at what is no message of the channel.
+        False, with undefined contents of the arrays, if an entry does not point at a message of
+        the channel.
     """
 
 def pointed(
@@ -95,21 +96,21 @@ def pointed(
     owner: int,
     /,
 ) -> bool:
-    """Where the messages that a ROS 1 chunk's index tells lie, into three int64 arrays.
+    """Write offset, length and time of each message in a ROS 1 chunk's index to int64 arrays.
 
     Args:
-        chunk: Its records.
-        index: Of each message seconds, nanoseconds, and where its record begins, uint32.
-        starts: Where to write where each message begins.
-        lengths: Likewise how long it is.
-        log_times: Likewise when it was received.
-        connection: Whose messages they are.
-        code: The byte of the first one's header that says what record it is.
-        owner: The byte of it at which the number of its connection begins.
+        chunk: Records of the chunk.
+        index: For each message seconds, nanoseconds and the offset of its record, uint32.
+        starts: Output: offset of each message.
+        lengths: Output: bytes of each message.
+        log_times: Output: time of reception, nanoseconds.
+        connection: Number of the connection.
+        code: Offset of the op code in the first message's header.
+        owner: Offset of the connection's number in that header.
 
     Returns:
-        False, with anything in the arrays, where it points at what is no message of the
-        connection, or one whose header is laid out in another way.
+        False, with undefined contents of the arrays, if an entry does not point at a message of
+        the connection, or a header differs in layout from the first.
     """
 
 def rows(
@@ -125,23 +126,23 @@ def rows(
     last: int,
     /,
 ) -> tuple[int, int] | None:
-    """What sqlite gives of rosbag2's table `messages`, of some topics.
+    """Read rows of some topics from leaf pages of rosbag2's table `messages`.
 
     Args:
-        pages: Pages of the file, leaf pages of the table among them.
-        places: The byte of `pages` at which each of those begins, int64.
-        streams: A topic and what to call it, in the order of topics, int64 of shape (n, 2).
-        senders: Where to write what each row's topic is called, int32.
-        times: Its timestamp, int64, and likewise the next two.
-        starts: The byte of the pages at which its data begins. Where it goes on on other pages,
-            that at which its cell begins, n, as -1 - n.
-        lengths: How many bytes its data has.
+        pages: Pages of the file, including leaf pages of the table.
+        places: Offset in `pages` of each leaf page, int64.
+        streams: Topic and stream number, in the order of topics, int64, shape (n, 2).
+        senders: Output: stream number of each row, int32.
+        times: Output: timestamp, int64.
+        starts: Output: offset of the data in `pages`, int64. If the data continues on overflow
+            pages, -1 - n with the offset n of the row's cell.
+        lengths: Output: bytes of the data, int64.
         size: Bytes of a page.
-        usable: Bytes of it that sqlite uses.
-        last: The id of the row before the first one.
+        usable: Bytes of a page that sqlite uses.
+        last: Id of the row before the first page.
 
     Returns:
-        How many rows were written, and the id of the last one that was looked at; None, with
-        anything in the arrays, where there is one that is no such row, or not newer than the one
-        before, or more than there is room for.
+        The number of written rows and the id of the last row read. None, with undefined contents of
+        the arrays, if a row has another form or a smaller id than the one before, or the arrays
+        are too short.
     """
