@@ -13,8 +13,8 @@ import pytest
 import tftool as package
 from tests.patience import PATIENCE
 from tftool.app import main as app
-from tftool.app.help_layout import painted
-from tftool.app.index import COMMANDS
+from tftool.app.command_line import made
+from tftool.app.index import COMMANDS, painted
 from tftool.base.errors import (
     InputError,
     LookupException,
@@ -87,7 +87,6 @@ def test_the_nearest_option_is_named_first(tftool):
 
 
 def test_one_option_is_spelt_alike_in_all_commands():
-    import typer
 
     # A frequency where something is printed or drawn; where time runs, how fast.
     other = {("demo", "--rate"), ("play", "--rate")}
@@ -98,9 +97,7 @@ def test_one_option_is_spelt_alike_in_all_commands():
     # A joint to change, and positions of joints.
     other |= {("calibrate", "--joint")}
     spelt = {}
-    commands = app.build()
-    context = typer.Context(commands)
-    for command in (commands.get_command(context, name) for name in COMMANDS):
+    for command in map(made, COMMANDS):
         for param in command.params:
             for name in param.opts:
                 if name.startswith("--") and (command.name, name) not in other:

@@ -117,7 +117,7 @@ def _is_plain(word: str, current: str) -> bool:
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
     """Return the completions that one command offers for the current word."""
-    from tftool.app.help_layout import made
+    from tftool.app.command_line import made
 
     params = made(name).params
     options = {one: param for param in params for one in (*param.opts, *param.secondary_opts)}

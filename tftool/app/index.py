@@ -1,5 +1,15 @@
-"""Table of commands: the groups of the help, one line about each command, and its declaration."""
+"""Table of commands, and the help of `tftool` that lists them.
 
+typer is imported for a command alone: the list of commands does without it.
+"""
+
+import os
+import re
+import shutil
+import signal
+import sys
+import textwrap
+from collections.abc import Iterator
 from importlib import import_module
 from typing import TYPE_CHECKING
 
@@ -66,3 +76,91 @@ def load(name: str) -> "Declaration":
     home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}"
     declaration: Declaration = getattr(import_module(home), name)
     return declaration
+
+
+OPTIONS = {
+    ("--version", "-V"): "Say which version this is, and stop.",
+    ("--install-completion",): "Let Tab complete in the shell (bash, zsh, fish).",
+    ("--show-completion",): "Print the shell's script for that.",
+    ("--help", "-h"): "Show this message and exit.",
+}
+"""Options of `tftool` itself."""
+
+ABOUT = (
+    "TF2 without ROS: learn coordinate frames with two turtles, and ask the same tool about a "
+    "real robot.",
+    "Start with 'tftool demo', then 'tftool echo turtle2 turtle1'.",
+    "Exit status: 0 done; 1 an expectation or a node failed, or a check found something; 2 wrong "
+    "usage; 3 the input cannot be read; 4 the transform is not available; 130 interrupted.",
+)
+
+
+def overview() -> str:
+    """Return the help of `tftool`: its options, and the commands by group."""
+    # The width of a command's help, which typer lays out.
+    width = max(min(shutil.get_terminal_size().columns, 80) - 2, 50)
+    paragraphs = [textwrap.fill(one, width, initial_indent="  ", subsequent_indent="  ")
+                  for one in ABOUT]  # fmt: skip
+    options = [(", ".join(sorted(names, key=len)), words) for names, words in OPTIONS.items()]
+    widest = max(len(name) for name in COMMANDS)
+    lists = [("Options", options)]
+    for title, group in GROUPS.items():
+        lists.append((title, [(name.ljust(widest), words) for name, words in group.items()]))
+    parts = ["Usage: tftool [OPTIONS] COMMAND [ARGS]...", *paragraphs]
+    parts += [f"{title}:\n" + "\n".join(_rows(rows, width)) for title, rows in lists]
+    return "\n\n".join(parts)
+
+
+def _rows(rows: list[tuple[str, str]], width: int) -> Iterator[str]:
+    indent = max(len(first) for first, _ in rows) + 4
+    for first, second in rows:
+        yield textwrap.fill(
+            second,
+            width,
+            initial_indent=f"  {first}".ljust(indent),
+            subsequent_indent=" " * indent,
+        )
+
+
+def show_help(text: str) -> None:
+    """Print a help text: coloured on a terminal, and paged if it is longer than the screen."""
+    if sys.stdout.isatty() and os.environ.get("TERM") != "dumb":
+        is_long = text.count("\n") + 2 > shutil.get_terminal_size().lines
+        if not os.environ.get("NO_COLOR"):
+            text = painted(text)
+        if is_long and sys.stdin.isatty() and _page(text):
+            return
+    sys.stdout.write(f"{text}\n")
+
+
+def _page(text: str) -> bool:
+    """Show a text in the user's pager, else in less; return False if there is no pager."""
+    import shlex
+    import subprocess
+
+    command = shlex.split(os.environ.get("PAGER") or "less")
+    if shutil.which(command[0]) is None:
+        return False
+    # Ctrl-C is the pager's: if this process ended before it, the shell and the pager would
+    # both read the keyboard.
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        # Colours as they are; the text stays on the screen after q.
+        environment = {"LESS": "-RX", **os.environ}
+        subprocess.run(command, input=f"{text}\n", text=True, env=environment, check=False)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    return True
+
+
+def painted(text: str) -> str:
+    """Colour headings, names of options and commands, and examples."""
+    head, colon, lists = text.partition("\n\nArguments:")
+    for title in ("Options", *GROUPS):
+        if not colon:
+            head, colon, lists = text.partition(f"\n\n{title}:")
+    name = r"^(  )((?:-[^ ]|\[|[A-Z]).*?|[a-z][\w-]*)(?=\s{2,}\S|$)"
+    lists = re.sub(name, "\\1\x1b[36m\\2\x1b[0m", colon + lists, flags=re.MULTILINE)
+    head = re.sub(r"^(  tftool .*)$", "\x1b[32m\\1\x1b[0m", head, flags=re.MULTILINE)
+    text = re.sub(r"^(\S[^:\n]*:)$", "\x1b[1;33m\\1\x1b[0m", head + lists, flags=re.MULTILINE)
+    return text.replace("Usage:", "\x1b[1mUsage:\x1b[0m", 1)

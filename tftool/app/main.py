@@ -1,4 +1,7 @@
-"""The `tftool` command: one Typer app, and the one place where errors become exit statuses."""
+"""The `tftool` command: its own options, and the one place where errors become exit statuses.
+
+Each command is a typer app of its own, made when it is named: nothing of the others is imported.
+"""
 
 import gc
 import os
@@ -13,71 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from types import FrameType
 
-    from tftool.app.help_layout import Commands
     from tftool.commands.shared.connection import Providers
-
-
-def build() -> "Commands":
-    """Return the app; each command is built on first use, and imports only what it needs.
-
-    The `obj` of the app's context holds the providers of clocks and links; None means the real
-    ones.
-    """
-    from typing import Annotated, cast
-
-    import typer
-    from typer.main import get_command
-
-    from tftool.app.help_layout import Commands
-
-    app = typer.Typer(
-        name="tftool",
-        cls=Commands,
-        # Help in plain text: rich would cost more than everything else at start-up.
-        rich_markup_mode=None,
-        pretty_exceptions_enable=False,
-        add_completion=False,
-        context_settings={"help_option_names": ["-h", "--help"]},
-    )
-
-    @app.callback(invoke_without_command=True)
-    def tftool(
-        context: typer.Context,
-        version: Annotated[
-            bool, typer.Option("--version", "-V", help="Say which version this is, and stop.")
-        ] = False,
-        install: Annotated[
-            bool,
-            typer.Option(
-                "--install-completion", help="Let Tab complete in the shell (bash, zsh, fish)."
-            ),
-        ] = False,
-        show: Annotated[
-            bool, typer.Option("--show-completion", help="Print the shell's script for that.")
-        ] = False,
-    ) -> None:
-        """TF2 without ROS: learn coordinate frames with two turtles, and ask the same
-        tool about a real robot.
-
-        Start with 'tftool demo', then 'tftool echo turtle2 turtle1'.
-
-        Exit status: 0 done; 1 an expectation or a node failed, or a check found something;
-        2 wrong usage; 3 the input cannot be read; 4 the transform is not available;
-        130 interrupted.
-        """
-        if version:
-            from tftool import __version__
-            from tftool.buffer.native_kernel import BUILD
-
-            sys.stdout.write(f"tftool {__version__} ({BUILD})\n")
-            raise typer.Exit
-        if install or show:
-            _set_up_completion(show=show)
-            raise typer.Exit
-        if context.invoked_subcommand is None:
-            sys.stdout.write(context.get_help() + "\n")
-
-    return cast(Commands, get_command(app))
 
 
 def _set_up_completion(*, show: bool) -> None:
@@ -103,6 +42,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
         An `ExitStatus`, or the status of the program that `tftool run` ran.
     """
     status: int
+    is_own = argv is None
     try:
         if argv is None:
             # Nothing that is made while starting is garbage; looking for it takes a tenth of
@@ -120,6 +60,10 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
         streams.require_descriptors()
         status = _run(list(argv), providers)
         sys.stdout.flush()
+        if is_own:
+            # The end of the process frees what is left; Python would look through all of it for
+            # garbage first, which takes a tenth of the time of a short command.
+            gc.freeze()
     except KeyboardInterrupt as interrupt:
         if interrupt.__cause__ is not None:
             # A node failed on the way out: that is said, and the run was interrupted all the same.
@@ -184,35 +128,16 @@ def _leave_on_signals() -> None:
 
 
 def _run(argv: list[str], providers: "Providers | None") -> int:
-    from typing import cast
-
-    import typer
-
     from tftool.base import process_streams as streams
     from tftool.base.errors import InputError, TftoolError, TransformException, UsageError
 
-    # typer carries its own click since 0.26: its base classes are reached through what it
-    # exports, so that either kind is caught.
-    wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
     try:
-        commands = build()
-        with commands.make_context("tftool", argv, obj=providers) as context:
-            if not gc.isenabled():
-                # A file of 100 KB can make 60,000 frames: with Python's own thresholds the
-                # collector takes a fifth of the time and finds nothing.
-                gc.freeze()
-                gc.set_threshold(50_000, 20, 100)
-                gc.enable()
-            result = commands.invoke(context)
-    except typer.Exit as done:
-        return done.exit_code
-    except typer.Abort:
-        return ExitStatus.INTERRUPTED
-    except wrong_usage as error:
-        from tftool.app.usage_errors import sentence_of
+        rest = _own_options(argv)
+        if rest is None:
+            return ExitStatus.DONE
+        from tftool.app.command_line import run_command
 
-        _complain(*sentence_of(error, argv))
-        return ExitStatus.WRONG_USAGE
+        return run_command(rest, providers)
     except UsageError as error:
         _complain("tftool", str(error))
         return ExitStatus.WRONG_USAGE
@@ -228,7 +153,40 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
             raise error.__cause__ from None
         _complain("tftool", str(error))
         return ExitStatus.FAILED
-    return result if isinstance(result, int) else ExitStatus.DONE
+
+
+def _own_options(words: list[str]) -> list[str] | None:
+    """Act on the options of `tftool` itself; return the words of a command, or None if it is done.
+
+    Raises:
+        UsageError: If there is no such option.
+    """
+    from tftool.app.index import OPTIONS, overview, show_help
+
+    known = {name: names[0] for names in OPTIONS for name in names}
+    asked: list[str] = []
+    rest = list(words)
+    while rest and rest[0].startswith("-") and rest[0] != "-":
+        word = rest.pop(0)
+        if word == "--":
+            break
+        if word not in known:
+            from tftool.app.command_line import refuse_option
+
+            raise refuse_option(word, known)
+        asked.append(known[word])
+    if "--help" in asked or not (asked or rest):
+        show_help(overview())
+    elif "--version" in asked:
+        from tftool import __version__
+        from tftool.buffer.native_kernel import BUILD
+
+        sys.stdout.write(f"tftool {__version__} ({BUILD})\n")
+    elif asked:
+        _set_up_completion(show="--install-completion" not in asked)
+    else:
+        return rest
+    return None
 
 
 def _complain(who: str, sentence: str) -> None:

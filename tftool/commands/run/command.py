@@ -9,7 +9,6 @@ from typer.models import Context
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
-from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import (
     open_empty_session,
@@ -137,10 +136,9 @@ def _run_command(connection: Connection, context: Context, words: list[str]) -> 
     if connection.domain:
         words += ["--domain", str(connection.domain)]
     notice(f"Without ROS this is 'tftool {visible(shlex.join(words))}'.")
-    commands = context.find_root().command
-    with commands.make_context("tftool", words, obj=context.find_root().obj) as other:
-        status = commands.invoke(other)
-    return status if isinstance(status, int) else ExitStatus.DONE
+    # The command line gives what runs another command.
+    status: int = context.obj(words)
+    return status
 
 
 def run(

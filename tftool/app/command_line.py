@@ -1,22 +1,22 @@
-"""Layout of help: commands by purpose, options by subject."""
+"""One command's line: parsed by typer, its help laid out by subject, its refusals as sentences."""
 
+import gc
 import math
-import os
 import re
-import shutil
-import signal
-import subprocess
-import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from difflib import SequenceMatcher
 from inspect import cleandoc
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import typer
-from typer.core import TyperCommand, TyperGroup, TyperOption
+from typer.core import TyperCommand, TyperOption
 from typer.main import get_command
 
-from tftool.app.index import COMMANDS, GROUPS, load
+from tftool.app.index import COMMANDS, load, show_help
+from tftool.base.errors import UsageError
+from tftool.base.exit_status import ExitStatus
+from tftool.commands.shared.notices import complain
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Providers
@@ -24,92 +24,105 @@ if TYPE_CHECKING:
 _SESSION = "help_session"
 _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
 
+PLAINLY = (
+    (r"is not a valid int( range)?\b", "is not a whole number"),
+    (r"is not a valid float( range)?\b", "is not a number"),
+    (r"is not in the range (\S+)<=x<=(\S+?)\.?$", r"is not between \1 and \2."),
+    (r"is not in the range x>=(\S+?)\.?$", r"is less than \1."),
+    (r"(?<![.?])$", "."),
+)
+"""What click says in a programmer's words, and what we say instead."""
 
-class Shown:
-    """Base of commands whose help is coloured on a terminal and paged if longer than the screen.
+UNLIKE = 0.5
+"""Two words that are less alike than this, from 0 to 1, are not mistaken for one another."""
 
-    Used for a command and for the list of commands.
+
+def run_command(words: Sequence[str], providers: "Providers | None" = None) -> int:
+    """Run the command that the first word names, and return its exit status.
+
+    Raises:
+        UsageError: If there is no such command.
+        TftoolError: If the command raises it.
     """
+    name, *rest = words
+    if name not in COMMANDS:
+        raise UsageError(_did_you_mean(f"No such command '{name}'", name, COMMANDS, "'"))
+    # typer carries its own click since 0.26: its base classes are reached through what it
+    # exports, so that either kind is caught.
+    wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
+    command = made(name, providers)
 
-    def get_help(self, ctx: Any) -> str:
-        """Return the help text, or show it in a pager and end the command."""
-        # The class beside this one in a base list makes the text.
-        text: str = super().get_help(ctx)  # type: ignore[misc]
-        if not sys.stdout.isatty() or os.environ.get("TERM") == "dumb":
-            return text
-        is_long = text.count("\n") + 2 > shutil.get_terminal_size().lines
-        if not os.environ.get("NO_COLOR"):
-            text = painted(text)
-        if is_long and sys.stdin.isatty():
-            _page(text)
-            ctx.exit()
-        return text
+    def run_other(words: Sequence[str]) -> int:
+        return run_command(words, providers)
 
-
-def _page(text: str) -> None:
-    """Show a text in the user's pager, else in less; print it if there is no pager."""
-    import shlex
-
-    command = shlex.split(os.environ.get("PAGER") or "less")
-    if shutil.which(command[0]) is None:
-        sys.stdout.write(f"{text}\n")
-        return
-    # Ctrl-C is the pager's: if this process ended before it, the shell and the pager would
-    # both read the keyboard.
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        # Colours as they are; the text stays on the screen after q.
-        environment = {"LESS": "-RX", **os.environ}
-        subprocess.run(command, input=f"{text}\n", text=True, env=environment, check=False)
-    finally:
-        signal.signal(signal.SIGINT, before)
+        with command.make_context(f"tftool {name}", rest, obj=run_other) as context:
+            if not gc.isenabled():
+                # A file of 100 KB can make 60,000 frames: with Python's own thresholds the
+                # collector takes a fifth of the time and finds nothing.
+                gc.freeze()
+                gc.set_threshold(50_000, 20, 100)
+                gc.enable()
+            status = command.invoke(context)
+    except typer.Exit as done:
+        return done.exit_code
+    except typer.Abort:
+        return ExitStatus.INTERRUPTED
+    except wrong_usage as error:
+        complain(f"tftool {name}", f"{_sentence_of(error)} Try 'tftool {name} --help'.")
+        return ExitStatus.WRONG_USAGE
+    return status if isinstance(status, int) else ExitStatus.DONE
 
 
-_HEADING = re.compile(r"^(\S[^:\n]*:)$", re.MULTILINE)
-_NAME = re.compile(r"^(  )((?:-[^ ]|\[|[A-Z]).*?|[a-z][\w-]*)(?=\s{2,}\S|$)", re.MULTILINE)
-_EXAMPLE = re.compile(r"^(  tftool .*)$", re.MULTILINE)
+def refuse_option(word: str, known: Iterable[str]) -> UsageError:
+    """Return the refusal of an option that `tftool` itself does not have."""
+    return UsageError(_did_you_mean(f"No such option: {word}", word, known))
 
 
-def painted(text: str) -> str:
-    """Colour headings, names of options and commands, and examples."""
-    head, colon, lists = text.partition("\n\nArguments:")
-    for title in ("Options", *GROUPS):
-        if not colon:
-            head, colon, lists = text.partition(f"\n\n{title}:")
-    lists = _NAME.sub("\\1\x1b[36m\\2\x1b[0m", colon + lists)
-    text = _EXAMPLE.sub("\x1b[32m\\1\x1b[0m", head) + lists
-    return _HEADING.sub("\x1b[1;33m\\1\x1b[0m", text).replace("Usage:", "\x1b[1mUsage:\x1b[0m", 1)
+def _did_you_mean(refusal: str, word: str, known: Iterable[str], quote: str = "") -> str:
+    near = " or ".join(f"{quote}{one}{quote}" for one in _nearest(word, known))
+    meant = f" Did you mean {near}?" if near else ""
+    return f"{refusal}.{meant} Try 'tftool --help'."
 
 
-class Commands(Shown, TyperGroup):
-    """The `tftool` command, whose help lists its commands by group.
+def _sentence_of(error: Any) -> str:
+    """Return click's reason as a plain sentence."""
+    sentence = error.format_message()
+    near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
+    if hasattr(error, "possibilities"):
+        sentence = error.message
+        near = _nearest(str(getattr(error, "option_name", "")), near)
+    if near:
+        # click sorts them by the alphabet; here the nearest comes first.
+        sentence = f"{error.message.rstrip('.')}. Did you mean {' or '.join(near)}?"
+    for pattern, words in PLAINLY:
+        sentence = re.sub(pattern, words, sentence)
+    return sentence
 
-    A command is built when it is needed: building all commands takes longer than starting Python
-    twice.
-    """
 
-    def list_commands(self, ctx: Any) -> list[str]:
-        """List the names of the commands."""
-        return list(COMMANDS)
+def _nearest(written: str, near: Iterable[str]) -> list[str]:
+    """Return the options nearly as similar to the written word as the best match, best first."""
 
-    def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        """Build a command by name; return None for an unknown name."""
-        return made(cmd_name, ctx.obj) if cmd_name in COMMANDS else None
+    def likeness_of(one: str) -> float:
+        # The first letter is the one that is seldom mistyped.
+        same = one.lstrip("-")[:1] == written.lstrip("-")[:1]
+        return SequenceMatcher(None, written, one).ratio() + 0.1 * same
 
-    def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write the groups of commands."""
-        width = max(len(name) for name in COMMANDS)
-        for title, group in GROUPS.items():
-            with formatter.section(title):
-                formatter.write_dl([(name.ljust(width), words) for name, words in group.items()])
+    likeness = {one: likeness_of(one) for one in near}
+    best = max(likeness.values(), default=0.0)
+    return sorted(
+        (one for one in near if likeness[one] > max(best - 0.1, UNLIKE)),
+        key=lambda one: -likeness[one],
+    )
 
 
 def made(name: str, providers: "Providers | None" = None) -> Any:
     """Build one command with all its options."""
     declaration = load(name)
     command = declaration.with_options(providers)
+    # Help in plain text: rich would cost more than everything else at start-up.
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
-    settings = dict(declaration.settings)
+    settings = {"help_option_names": ["-h", "--help"], **declaration.settings}
     app.command(name, cls=Command, help=_laid_out(command), context_settings=settings)(command)
     return get_command(app)
 
@@ -121,7 +134,7 @@ def _laid_out(command: Callable[..., Any]) -> str:
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
-class Command(Shown, TyperCommand):
+class Command(TyperCommand):
     """A command that groups its options by subject, and lists session options only on request."""
 
     def __init__(self, name: str | None, **words: Any) -> None:
@@ -175,6 +188,11 @@ class Command(Shown, TyperCommand):
 
         with pose_options(collect(given)):
             return super().invoke(ctx)
+
+    def get_help(self, ctx: Any) -> str:
+        """Show the help, and end the command."""
+        show_help(super().get_help(ctx))
+        raise typer.Exit
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the arguments, then the options by their headings."""
@@ -234,8 +252,7 @@ def _help_session() -> Any:
     def show(ctx: Any, param: Any, value: bool) -> None:
         if value:
             ctx.meta[_SESSION] = True
-            typer.echo(ctx.get_help())
-            ctx.exit()
+            ctx.get_help()
 
     return _option(show, ["--help-session"], f"Show this and the options of {SESSION.lower()}.")
 
