@@ -164,12 +164,15 @@ def named(word: str) -> Found:
     return find(word)
 
 
-def scenario_named(word: str, arguments: Mapping[str, str] | None = None) -> "Scenario":
+def scenario_named(
+    word: str, arguments: Mapping[str, str] | None = None, *, expects: bool = True
+) -> "Scenario":
     """Read the scenario that a word names.
 
     Args:
         word: A built-in scenario's name, or a file.
         arguments: Values for arguments it declares.
+        expects: Whether its expectations are judged.
 
     Raises:
         InputError: If there is none, or it cannot be read.
@@ -180,7 +183,7 @@ def scenario_named(word: str, arguments: Mapping[str, str] | None = None) -> "Sc
     found = named(word)
     if found.kind is not Kind.SCENARIO:
         raise UsageError(f"'{visible(word)}' is {kind_in_words(found)}: a scenario is needed here.")
-    return load(found.paths[0], arguments or {})
+    return load(found.paths[0], arguments or {}, expects=expects)
 
 
 def kind_in_words(found: Found) -> str:

@@ -87,7 +87,7 @@ def _did_you_mean(refusal: str, word: str, known: Iterable[str], quote: str = ""
 
 def _sentence_of(error: Any) -> str:
     """Return click's reason as a plain sentence."""
-    sentence = error.format_message()
+    sentence: str = error.format_message()
     near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
     if hasattr(error, "possibilities"):
         sentence = error.message

@@ -54,6 +54,11 @@ def path_of(name: str) -> Path | None:
     return folder() / f"{name}.yaml" if name in names() else None
 
 
+def is_shipped(path: Path) -> bool:
+    """Whether a file is a built-in scenario, whose expectations are known to be right."""
+    return path.parent == folder()
+
+
 def is_like_a_name(word: str) -> bool:
     """Whether a word that is not a file was probably meant as a scenario's name."""
     path = Path(word)

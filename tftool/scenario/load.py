@@ -13,8 +13,8 @@ from typing import Any
 
 from tftool.base.errors import Mistake, ScenarioError, TftoolError, UsageError
 from tftool.base.stamps import CACHE_TIME, Duration, as_seconds, seconds
+from tftool.scenario import builtin, document
 from tftool.scenario import doctor_expectations as doctoring
-from tftool.scenario import document
 from tftool.scenario import units as values
 from tftool.scenario.document import Document, Node, Scalar, text_of
 from tftool.scenario.fields import (
@@ -28,7 +28,6 @@ from tftool.scenario.fields import (
     tagged,
 )
 from tftool.scenario.node_kinds import KINDS, link_of
-from tftool.scenario.questions import SUBJECTS
 from tftool.scenario.scenario import Expectation, NodeEntry, Scenario, Step, When
 from tftool.scenario.script import ACTIONS, StopNode
 from tftool.world.clock import SimClock
@@ -50,34 +49,42 @@ MOST_LOOKS = 1_000_000
 """How often all expectations of a scenario together may look."""
 
 
-def load(path: Path | str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scenario:
+def load(
+    path: Path | str, arguments: Mapping[str, str] = NO_ARGUMENTS, *, expects: bool = True
+) -> Scenario:
     """Read a scenario file.
 
     Args:
         path: The file.
         arguments: Values for arguments the scenario declares.
+        expects: Whether its expectations are judged. Those of a file are checked in any case, and
+            of a built-in scenario they are left out if they are not judged.
 
     Raises:
         InputError: If the file cannot be read; `ScenarioError` with every mistake in it.
         UsageError: If an argument is given that the scenario does not declare.
     """
-    return parse(text_of(path), str(path), arguments)
+    expects = expects or not builtin.is_shipped(Path(path))
+    return parse(text_of(path), str(path), arguments, expects=expects)
 
 
-def parse(text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scenario:
+def parse(
+    text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS, *, expects: bool = True
+) -> Scenario:
     """Parse a scenario from text; see `load`.
 
     Args:
         text: The YAML.
         name: Its name in messages, usually its path.
         arguments: Values for arguments the scenario declares.
+        expects: Whether to read its expectations.
     """
     source = Document(text, name)
     reading = Reading(source)
     try:
         root = source.read()
         reading.mistakes.extend(source.mistakes)
-        return _ScenarioReader(arguments).scenario(root, reading, name)
+        return _ScenarioReader(arguments, expects).scenario(root, reading, name)
     except Unreadable as error:
         raise ScenarioError(name, sorted(reading.mistakes, key=_place)) from error
 
@@ -91,14 +98,16 @@ class _ScenarioReader:
 
     Attributes:
         given: Arguments from outside.
+        expects: Whether expectations are read.
         duration: How long the scenario lasts, once that is known.
         names: Names of its nodes, once all are known.
         looks: How often its expectations look so far.
         not_a_tree: Places where its nodes publish links that no tree can hold.
     """
 
-    def __init__(self, given: Mapping[str, str]) -> None:
+    def __init__(self, given: Mapping[str, str], expects: bool) -> None:
         self.given = given
+        self.expects = expects
         self.duration: Duration | None = None
         self.names: tuple[str, ...] | None = None
         self.looks = 0
@@ -114,7 +123,7 @@ class _ScenarioReader:
             "doctor": Key(doctoring.rules, doctoring.NO_RULES),
             "nodes": Key(self.nodes, ()),
             "script": Key(self.script, ()),
-            "expect": Key(self.expect, ()),
+            "expect": Key(self.expect if self.expects else lambda *_: (), ()),
         }
         entries = reading.entries(root, listed(known))
         if "arguments" not in entries:
@@ -326,6 +335,9 @@ class _ScenarioReader:
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
         """Read one question; several times give several expectations."""
+        # Most commands expect nothing: they do without the questions.
+        from tftool.scenario.questions import SUBJECTS
+
         beside = {name: subject.form.fields for name, subject in SUBJECTS.items()}
         common = {
             "at": Key(self.moments, None),

@@ -1,89 +1,24 @@
 """Running a scenario: builds its world, runs it on simulated or real time, judges it."""
 
-import asyncio
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import replace
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-from tftool.base.errors import NodeFailed, TransformException
+from tftool.base.errors import NodeFailed
 from tftool.base.stamps import Stamp
 from tftool.scenario import load
-from tftool.scenario.answer_checks import Judged
-from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules
 from tftool.scenario.load import NO_ARGUMENTS
 from tftool.scenario.node_kinds import KINDS
-from tftool.scenario.questions import Diagnosed, Logged, ScenarioWorld
-from tftool.scenario.scenario import Expectation, Outcome, Scenario, Verdict
+from tftool.scenario.scenario import Scenario, Verdict
 from tftool.scenario.script import Drive, Press, Script
-from tftool.world.clock import Clock, Phase, SimClock, run
-from tftool.world.frame_listener import logged_in
-from tftool.world.node import Node
+from tftool.world.clock import Clock, SimClock, run
 from tftool.world.supervisor import live
 from tftool.world.world import World
 
-
-def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
-    """Judge one expectation now."""
-    try:
-        answer = expectation.question.answer(scene)
-    except TransformException as error:
-        return expectation.check.refused(error)
-    return expectation.check.judge(answer)
-
-
-class Expectations(Node):
-    """Judge of every expectation at its time, after everything else of that instant.
-
-    Attributes:
-        outcomes: Outcome of each, None for those still to come.
-    """
-
-    phase: ClassVar[Phase] = Phase.WATCH
-
-    def __init__(
-        self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
-    ) -> None:
-        """Watch `world`; log lines and transforms count from now on."""
-        super().__init__(world, "expectations")
-        self.expected = tuple(expected)
-        self.outcomes: list[Outcome | None] = [None] * len(self.expected)
-        self._scene = ScenarioWorld(world, world.clock.now(), rules)
-        for expectation in self.expected:
-            if isinstance(expectation.question, Logged):
-                self._scene.lines[expectation.question] = 0
-        if any(isinstance(expectation.question, Diagnosed) for expectation in self.expected):
-            self._scene.hearing, stop = logged_in(world)
-            self._stops.append(stop)
-        self._stops.append(world.log.listen(self._scene.count, self.name))
-
-    async def run(self) -> None:
-        """Judge all expectations, each at its time."""
-        self._scene.start = self.clock.now()
-        await asyncio.gather(*(self._judge(index) for index in range(len(self.expected))))
-
-    async def _judge(self, index: int) -> None:
-        expectation = self.expected[index]
-        when = expectation.when
-        at = when.first
-        while True:
-            await self.clock.sleep_until(self._scene.start + at, self.phase, self.rank)
-            judged = judge(expectation, self._scene)
-            # "by" is over when it holds, "during" when it does not, both at the last moment.
-            settled = {"at": True, "by": judged.ok, "during": not judged.ok}[when.kind]
-            if settled or at >= when.last:
-                break
-            at = min(at + when.every, when.last)
-        self.outcomes[index] = Outcome(
-            expectation=f"{expectation.question}",
-            line=expectation.line,
-            when=f"{when}",
-            expected=f"{expectation.check}",
-            found=judged.found,
-            at=at,
-            ok=judged.ok,
-        )
+if TYPE_CHECKING:
+    from tftool.scenario.expectations import Expectations
 
 
 StandIn: TypeAlias = Callable[[World], object]
@@ -137,9 +72,14 @@ class Play:
         if presses and not any(entry.kind == "teleop" for entry in scenario.nodes):
             KINDS["teleop"].build(self.world, TELEOP, KINDS["teleop"].defaults())
         self._script = Script(self.world, steps) if steps else None
-        self._expectations = (
-            Expectations(self.world, scenario.expect, scenario.doctor) if scenario.expect else None
-        )
+        self._expectations: Expectations | None = None
+        if scenario.expect:
+            # Most commands expect nothing: they do without the questions.
+            from tftool.scenario import expectations
+
+            self._expectations = expectations.Expectations(
+                self.world, scenario.expect, scenario.doctor
+            )
 
     async def live(self, until: Stamp | None = None, *, endless: bool = False) -> None:
         """Run the scenario.
@@ -161,31 +101,15 @@ class Play:
 
     def verdict(self) -> Verdict:
         """Return the current verdict; expectations not yet due are marked."""
-        judge = self._expectations
         steps = () if self._script is None else tuple(self._script.outcomes)
-        pairs = [] if judge is None else zip(judge.expected, judge.outcomes, strict=True)
+        judged = () if self._expectations is None else self._expectations.judged()
         return Verdict(
             scenario=self.scenario.name,
             file=self.scenario.file,
-            outcomes=(
-                *steps,
-                *(outcome or _not_reached(expected) for expected, outcome in pairs),
-            ),
+            outcomes=(*steps, *judged),
             lasted=self.world.clock.now() - self.start,
             failure=self.failure,
         )
-
-
-def _not_reached(expected: Expectation) -> Outcome:
-    return Outcome(
-        expectation=str(expected.question),
-        line=expected.line,
-        when=str(expected.when),
-        expected=str(expected.check),
-        found="not reached",
-        at=None,
-        ok=False,
-    )
 
 
 def left_to_a_person(scenario: Scenario) -> Scenario:

@@ -40,7 +40,7 @@ def played(
         NodeFailed: If one of its nodes raised.
         UsageError: If the moment is outside the span.
     """
-    scenario = replace(load(found.paths[0], {}), expect=())
+    scenario = replace(load(found.paths[0], expects=False), expect=())
     if cache_time is not None:
         scenario = replace(scenario, cache_time=cache_time)
     clock = SimClock()

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 from tftool.base.errors import Mistake
 from tftool.base.report import Judgement, Report
 from tftool.base.stamps import Duration, as_seconds
-from tftool.scenario.answer_checks import AnswerCheck
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules
 
 if TYPE_CHECKING:
+    from tftool.scenario.answer_checks import AnswerCheck
     from tftool.scenario.questions import Subject
     from tftool.scenario.script import Action
 
@@ -84,7 +84,7 @@ class Expectation:
 
     when: When
     question: "Subject"
-    check: AnswerCheck
+    check: "AnswerCheck"
     line: int
 
     def __str__(self) -> str:

@@ -189,7 +189,7 @@ def _scenario_to_host(
     word: str | None, without: Callable[["NodeEntry"], bool] | None, because: str
 ) -> "Scenario":
     """Return a scenario to host, without expectations; print its name if it is a default."""
-    scenario = scenario_named(word or HOME)
+    scenario = scenario_named(word or HOME, expects=False)
     if without is not None:
         kept = tuple(node for node in scenario.nodes if not without(node))
         scenario = replace(scenario, nodes=kept)

@@ -1,0 +1,94 @@
+"""Judging a scenario's expectations while it is played."""
+
+import asyncio
+from collections.abc import Sequence
+from typing import ClassVar
+
+from tftool.base.errors import TransformException
+from tftool.scenario.answer_checks import Judged
+from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules
+from tftool.scenario.questions import Diagnosed, Logged, ScenarioWorld
+from tftool.scenario.scenario import Expectation, Outcome
+from tftool.world.clock import Phase
+from tftool.world.frame_listener import logged_in
+from tftool.world.node import Node
+from tftool.world.world import World
+
+
+def judge(expectation: Expectation, scene: ScenarioWorld) -> Judged:
+    """Judge one expectation now."""
+    try:
+        answer = expectation.question.answer(scene)
+    except TransformException as error:
+        return expectation.check.refused(error)
+    return expectation.check.judge(answer)
+
+
+class Expectations(Node):
+    """Judge of every expectation at its time, after everything else of that instant.
+
+    Attributes:
+        outcomes: Outcome of each, None for those still to come.
+    """
+
+    phase: ClassVar[Phase] = Phase.WATCH
+
+    def __init__(
+        self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
+    ) -> None:
+        """Watch `world`; log lines and transforms count from now on."""
+        super().__init__(world, "expectations")
+        self.expected = tuple(expected)
+        self.outcomes: list[Outcome | None] = [None] * len(self.expected)
+        self._scene = ScenarioWorld(world, world.clock.now(), rules)
+        for expectation in self.expected:
+            if isinstance(expectation.question, Logged):
+                self._scene.lines[expectation.question] = 0
+        if any(isinstance(expectation.question, Diagnosed) for expectation in self.expected):
+            self._scene.hearing, stop = logged_in(world)
+            self._stops.append(stop)
+        self._stops.append(world.log.listen(self._scene.count, self.name))
+
+    def judged(self) -> tuple[Outcome, ...]:
+        """Return the outcome of each; expectations not yet due are marked."""
+        pairs = zip(self.expected, self.outcomes, strict=True)
+        return tuple(outcome or _not_reached(expected) for expected, outcome in pairs)
+
+    async def run(self) -> None:
+        """Judge all expectations, each at its time."""
+        self._scene.start = self.clock.now()
+        await asyncio.gather(*(self._judge(index) for index in range(len(self.expected))))
+
+    async def _judge(self, index: int) -> None:
+        expectation = self.expected[index]
+        when = expectation.when
+        at = when.first
+        while True:
+            await self.clock.sleep_until(self._scene.start + at, self.phase, self.rank)
+            judged = judge(expectation, self._scene)
+            # "by" is over when it holds, "during" when it does not, both at the last moment.
+            settled = {"at": True, "by": judged.ok, "during": not judged.ok}[when.kind]
+            if settled or at >= when.last:
+                break
+            at = min(at + when.every, when.last)
+        self.outcomes[index] = Outcome(
+            expectation=f"{expectation.question}",
+            line=expectation.line,
+            when=f"{when}",
+            expected=f"{expectation.check}",
+            found=judged.found,
+            at=at,
+            ok=judged.ok,
+        )
+
+
+def _not_reached(expected: Expectation) -> Outcome:
+    return Outcome(
+        expectation=str(expected.question),
+        line=expected.line,
+        when=str(expected.when),
+        expected=str(expected.check),
+        found="not reached",
+        at=None,
+        ok=False,
+    )
