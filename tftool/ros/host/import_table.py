@@ -103,7 +103,7 @@ rclpy.validate_node_name: rclpy.validation: validate_node_name
 rclpy.validate_parameter_name: rclpy.validation: validate_parameter_name
 rclpy.validate_topic_name: rclpy.validation: validate_topic_name
 message_filters: rclpy.message_filters: *
-tf2_py tf2_ros: tf2.core: BufferCore
+tf2_py tf2_ros: tf2.buffer: BufferCore
 tf2_py tf2_ros: .base.errors: TransformException LookupException ConnectivityException
     TimeoutException ExtrapolationException InvalidArgumentException
 tf2_ros tf2_ros.buffer: tf2.buffer: Buffer

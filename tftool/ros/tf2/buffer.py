@@ -1,4 +1,4 @@
-"""tf2_ros: the buffer with waiting lookups.
+"""tf2_py's buffer core and tf2_ros's buffer, with lookups that succeed or fail at once, or wait.
 
 A listener's transforms go directly into its buffer, whether its node spins or not, so that waiting
 in a callback works, on the world's clock.
@@ -6,23 +6,242 @@ in a callback works, on the world's clock.
 
 import asyncio
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 from tftool.base.errors import TransformException
+from tftool.base.stamps import Stamp
+from tftool.buffer.buffer import Buffer as Frames
+from tftool.buffer.sample import TransformStamped
 from tftool.messages.classes import INTERFACES
-from tftool.ros.host import values
+from tftool.ros.host import program, values
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.node import Node
-from tftool.ros.rclpy.time import Duration
-from tftool.ros.tf2.core import BufferCore
+from tftool.ros.rclpy.time import Duration, Time
 from tftool.ros.tf2.interface import NOW, BufferInterface
-from tftool.ros.tf2.lookup_requests import (
-    LookupRequest,
-    full_question,
-    length,
-    question,
-)
-from tftool.world.clock import Phase
+from tftool.ros.tf2.lookup_hints import LookupHints
+from tftool.world import transform_wait as waiting
+from tftool.world.clock import Clock, Phase
+
+
+@dataclass(frozen=True, slots=True)
+class LookupRequest:
+    """Lookup of source in target at one time, or between two.
+
+    Attributes:
+        target: Frame the answer is expressed in.
+        source: Frame whose pose is asked for.
+        time: The moment, that of the source.
+        target_time: The moment of the target, with a fixed frame.
+        fixed: Frame that connects two moments; None for one.
+    """
+
+    target: str
+    source: str
+    time: Stamp
+    target_time: Stamp = 0
+    fixed: str | None = None
+
+    def answer(self, frames: Frames) -> TransformStamped:
+        """Return the transform, or raise."""
+        if self.fixed is None:
+            return frames.lookup_transform(self.target, self.source, self.time)
+        return frames.lookup_transform_full(*self._full)
+
+    def why_not(self, frames: Frames) -> str:
+        """Return why it fails; "" if it succeeds."""
+        if self.fixed is None:
+            return frames.why_not(self.target, self.source, self.time)
+        return frames.why_not_full(*self._full)
+
+    async def wait(self, frames: Frames, clock: Clock) -> None:
+        """Return as soon as it succeeds; raise as soon as it never can."""
+        if self.fixed is None:
+            await waiting.wait_for_transform(frames, clock, self.target, self.source, self.time)
+        else:
+            await waiting.wait_for_transform_full(frames, clock, *self._full)
+
+    @property
+    def _full(self) -> tuple[str, Stamp, str, Stamp, str]:
+        return self.target, self.target_time, self.source, self.time, self.fixed or ""
+
+
+def question(target_frame: str, source_frame: str, time: Any) -> LookupRequest:
+    """Return the lookup requested by a user's code.
+
+    Raises:
+        TypeError: If a frame is not a string, or the time no time.
+    """
+    _require_names(target_frame=target_frame, source_frame=source_frame)
+    return LookupRequest(target_frame, source_frame, stamp(time))
+
+
+def full_question(
+    target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
+) -> LookupRequest:
+    """Return the lookup between two times requested by a user's code.
+
+    Raises:
+        TypeError: If a frame is not a string, or a time no time.
+    """
+    _require_names(target_frame=target_frame, source_frame=source_frame, fixed_frame=fixed_frame)
+    return LookupRequest(
+        target_frame, source_frame, stamp(source_time), stamp(target_time), fixed_frame
+    )
+
+
+def _require_names(**frames: object) -> None:
+    for argument, frame in frames.items():
+        if not isinstance(frame, str):
+            raise TypeError(f"{argument} must be a frame's name, not {type(frame).__name__}")
+
+
+def stamp(time: Any) -> Stamp:
+    """Return the nanoseconds of an rclpy or builtin_interfaces Time.
+
+    Raises:
+        TypeError: If it is neither.
+    """
+    if isinstance(time, Time):
+        return time.nanoseconds
+    if hasattr(time, "sec") and hasattr(time, "nanosec"):
+        return values.stamp_of(time)
+    raise TypeError(
+        f"a lookup's time must be an rclpy.time.Time (Time() means the latest), "
+        f"not {type(time).__name__}"
+    )
+
+
+def length(timeout: Any) -> int:
+    """Return the nanoseconds of a Duration.
+
+    Raises:
+        TypeError: If it is none.
+    """
+    if isinstance(timeout, Duration):
+        return timeout.nanoseconds
+    raise TypeError(
+        f"a timeout must be an rclpy.duration.Duration, not {type(timeout).__name__}: "
+        "write Duration(seconds=1.0)"
+    )
+
+
+class BufferCore:
+    """Frames and the transforms between them.
+
+    Attributes:
+        frames: The buffer itself.
+        hints: Hints about its failed lookups.
+
+    The methods that end in `_core` have the arguments of `Buffer`'s waiting methods except the
+    timeout, and refuse at once.
+    """
+
+    def __init__(self, cache_time: Duration | None = None) -> None:
+        self._program = program.current()
+        kept = 10_000_000_000 if cache_time is None else length(cache_time)
+        self.frames = Frames(kept, log=self._log)
+        self.hints = LookupHints(self._program, self.frames)
+
+    def _log(self, level: str, text: str) -> None:
+        owner = self._program
+        owner.say("ERROR" if level == "ERROR" else "WARN", owner.name, text)
+
+    def _ask(self, request: Callable[[], Any]) -> Any:
+        return self._program.ask(request)
+
+    # Setting
+
+    def set_transform(self, transform: Any, authority: str) -> None:
+        """Insert a sample of a moving link; a rejection is logged."""
+        sample = values.pack_transform(transform)
+        self._ask(lambda: self.frames.set_transform(sample, authority))
+
+    def set_transform_static(self, transform: Any, authority: str) -> None:
+        """Insert a static link; a rejection is logged."""
+        sample = values.pack_transform(transform)
+        self._ask(lambda: self.frames.set_transform_static(sample, authority))
+
+    def clear(self) -> None:
+        """Drop all moving transforms."""
+        self._ask(self.frames.clear)
+
+    # Asking
+
+    def answer(self, asked: LookupRequest) -> Any:
+        """Return the transform as a geometry_msgs TransformStamped, or raise."""
+        return values.unpack_transform(self._ask(lambda: self._looked_up(asked)))
+
+    def _looked_up(self, asked: LookupRequest) -> TransformStamped:
+        try:
+            found = asked.answer(self.frames)
+        except TransformException as error:
+            self.hints.refuse(asked.target, asked.source, error)
+            raise
+        if asked.fixed is None:
+            self.hints.answer(asked.target, asked.source, asked.time)
+        return found
+
+    def _whether(self, asked: LookupRequest) -> tuple[int, str]:
+        reason: str = self._ask(lambda: self._why_not(asked))
+        if reason:
+            self._program.looked_in_vain()
+        return int(not reason), reason
+
+    def _why_not(self, asked: LookupRequest) -> str:
+        reason = asked.why_not(self.frames)
+        self.hints.wait()
+        if reason:
+            self.hints.look_in_vain(asked.target, asked.source)
+        return reason
+
+    def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
+        """Return the pose of source in target as a geometry_msgs TransformStamped.
+
+        Raises:
+            TransformException: If it cannot be given.
+        """
+        return self.answer(question(*asked, **named))
+
+    def lookup_transform_full_core(self, *asked: Any, **named: Any) -> Any:
+        """Return the pose of source at one time in target at another, through a fixed frame.
+
+        Raises:
+            TransformException: If it cannot be given.
+        """
+        return self.answer(full_question(*asked, **named))
+
+    def can_transform_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
+        """Return (whether a lookup would succeed, why not)."""
+        return self._whether(question(*asked, **named))
+
+    def can_transform_full_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
+        """Return (whether a lookup between two times would succeed, why not)."""
+        return self._whether(full_question(*asked, **named))
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
+        """Return the newest time at which both are known."""
+        stamp = self._ask(lambda: self.frames.get_latest_common_time(target_frame, source_frame))
+        return Time(nanoseconds=stamp)
+
+    # Looking round
+
+    def all_frames_as_yaml(self) -> str:
+        """Return every frame as tf2's YAML."""
+        return str(self._ask(self.frames.all_frames_as_yaml))
+
+    def all_frames_as_string(self) -> str:
+        """Return every frame and its parent."""
+        return str(self._ask(self.frames.all_frames_as_string))
+
+    def _allFramesAsDot(self, time: float = 0.0) -> str:  # noqa: N802
+        return str(self._ask(self.frames.all_frames_as_dot))
+
+    def _getFrameStrings(self) -> list[str]:  # noqa: N802
+        return list(self._ask(self.frames.frames))
+
+    def _frameExists(self, frame: str) -> bool:  # noqa: N802
+        return bool(self._ask(lambda: self.frames.frame_exists(frame)))
 
 
 class Buffer(BufferCore, BufferInterface):
@@ -53,7 +272,7 @@ class Buffer(BufferCore, BufferInterface):
         """
         asked = question(target_frame, source_frame, time)
         self._wait(asked, timeout)
-        return self._answer(asked)
+        return self.answer(asked)
 
     def lookup_transform_full(
         self,
@@ -71,7 +290,7 @@ class Buffer(BufferCore, BufferInterface):
         """
         asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(asked, timeout)
-        return self._answer(asked)
+        return self.answer(asked)
 
     def can_transform(
         self,
@@ -108,12 +327,12 @@ class Buffer(BufferCore, BufferInterface):
         """Wait while the answer may still become available, at most for the timeout."""
         limit = length(timeout)
         if limit > 0:
-            self._hints.wait()
+            self.hints.wait()
             self._ask(lambda: self._until(asked, limit))
 
     async def _until(self, asked: LookupRequest, limit: int) -> None:
         clock = self._program.clock
-        attempt = asyncio.ensure_future(asked.wait(self._frames, clock))
+        attempt = asyncio.ensure_future(asked.wait(self.frames, clock))
         try:
             await self._program.first_of(attempt, until=clock.now() + limit, phase=Phase.WATCH)
         finally:
@@ -124,21 +343,22 @@ class Buffer(BufferCore, BufferInterface):
 
     def wait_for_transform_async(self, *asked: Any, **named: Any) -> Future:
         """Return a future that gets the transform as soon as it is available."""
-        return self._promise(question(*asked, **named))
+        return self.promise(question(*asked, **named))
 
     def wait_for_transform_full_async(self, *asked: Any, **named: Any) -> Future:
         """Do as `wait_for_transform_async`, between two times."""
-        return self._promise(full_question(*asked, **named))
+        return self.promise(full_question(*asked, **named))
 
-    def _promise(self, asked: LookupRequest) -> Future:
+    def promise(self, asked: LookupRequest) -> Future:
+        """Return a future that gets the transform as soon as it is available."""
         future = Future(executor=self._program.executor)
-        self._hints.wait()
+        self.hints.wait()
 
         def attempt() -> bool:
             if future.cancelled():
                 return True
             try:
-                found = asked.answer(self._frames)
+                found = asked.answer(self.frames)
             except TransformException:
                 return False
             future.set_result(values.unpack_transform(found))
@@ -154,7 +374,7 @@ class Buffer(BufferCore, BufferInterface):
                     for stop in stops:
                         stop()
 
-            stops.append(self._frames.listen(on_sample))
+            stops.append(self.frames.listen(on_sample))
 
         self._ask(start)
         return future

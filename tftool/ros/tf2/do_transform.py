@@ -5,16 +5,40 @@ each kind of quantity.
 """
 
 import array
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, TypeVar
 
 from tftool.geometry import quantities as carry
 from tftool.geometry.rigid import Transform, Vector3, transform
 from tftool.messages.classes import INTERFACES, duplicate
 from tftool.ros.tf2.interface import ConvertRegistration, TransformRegistration
 
+Do = TypeVar("Do", bound=Callable[[Any, Any], Any])
+
 _FLOATS = {7: "f4", 8: "f8"}
 """How numpy writes a PointField's FLOAT32 and FLOAT64."""
+
+
+def to_msg_msg(msg: Any) -> Any:
+    """Return the message itself."""
+    return msg
+
+
+from_msg_msg = to_msg_msg
+
+
+def _registered(name: str) -> Callable[[Do], Do]:
+    """Register a function with buffers as what transforms a type."""
+    kind = INTERFACES.message(name)
+
+    def register(function: Do) -> Do:
+        TransformRegistration().add(kind, function)
+        conversions = ConvertRegistration()
+        conversions.add_from_msg(kind, from_msg_msg)
+        conversions.add_to_msg(kind, to_msg_msg)
+        return function
+
+    return register
 
 
 def _transform_of(stamped: Any) -> Transform:
@@ -51,6 +75,7 @@ def _headed(data: Any, transform: Any) -> Any:
     return result
 
 
+@_registered("geometry_msgs/PointStamped")
 def do_transform_point(point: Any, transform: Any) -> Any:
     """Transform a PointStamped."""
     result = _headed(point, transform)
@@ -58,6 +83,7 @@ def do_transform_point(point: Any, transform: Any) -> Any:
     return result
 
 
+@_registered("geometry_msgs/Vector3Stamped")
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:
     """Rotate a Vector3Stamped."""
     result = _headed(vector3, transform)
@@ -65,11 +91,13 @@ def do_transform_vector3(vector3: Any, transform: Any) -> Any:
     return result
 
 
+@_registered("geometry_msgs/Pose")
 def do_transform_pose(pose: Any, transform: Any) -> Any:
     """Transform a Pose."""
     return _pose(_transform_of(transform), pose)
 
 
+@_registered("geometry_msgs/PoseStamped")
 def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
     """Transform a PoseStamped."""
     result = _headed(pose, transform)
@@ -77,6 +105,7 @@ def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
     return result
 
 
+@_registered("geometry_msgs/PoseWithCovarianceStamped")
 def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
     """Transform a PoseWithCovarianceStamped."""
     result = _headed(pose, transform)
@@ -92,6 +121,7 @@ def transform_covariance(cov_in: Any, transform: Any) -> Any:
     return np.array(carry.covariance(_transform_of(transform), cov_in))
 
 
+@_registered("geometry_msgs/PolygonStamped")
 def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
     """Transform a PolygonStamped."""
     result = _headed(polygon, transform)
@@ -101,6 +131,7 @@ def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
     return result
 
 
+@_registered("geometry_msgs/Wrench")
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
     """Transform a Wrench: the torque gains that of the force's lever arm."""
     result = duplicate(wrench)
@@ -110,6 +141,7 @@ def do_transform_wrench(wrench: Any, transform: Any) -> Any:
     return result
 
 
+@_registered("geometry_msgs/WrenchStamped")
 def do_transform_wrench_stamped(wrench: Any, transform: Any) -> Any:
     """Transform a WrenchStamped."""
     result = _headed(wrench, transform)
@@ -117,6 +149,7 @@ def do_transform_wrench_stamped(wrench: Any, transform: Any) -> Any:
     return result
 
 
+@_registered("sensor_msgs/PointCloud2")
 def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     """Transform a PointCloud2; other fields, layout and stamp are kept.
 
@@ -158,39 +191,3 @@ def transform_points(point_cloud: Any, transform: Any) -> Any:
 
     points = np.asarray(point_cloud)
     return carry.points(_transform_of(transform), points.astype(np.float64)).astype(points.dtype)
-
-
-def to_msg_msg(msg: Any) -> Any:
-    """Return the message itself."""
-    return msg
-
-
-def from_msg_msg(msg: Any) -> Any:
-    """Return the message itself."""
-    return msg
-
-
-def _register() -> None:
-    """Register these types with buffers."""
-    transforms, conversions = TransformRegistration(), ConvertRegistration()
-    for name, function in (
-        ("geometry_msgs/PointStamped", do_transform_point),
-        ("geometry_msgs/Vector3Stamped", do_transform_vector3),
-        ("geometry_msgs/Pose", do_transform_pose),
-        ("geometry_msgs/PoseStamped", do_transform_pose_stamped),
-        (
-            "geometry_msgs/PoseWithCovarianceStamped",
-            do_transform_pose_with_covariance_stamped,
-        ),
-        ("geometry_msgs/PolygonStamped", do_transform_polygon_stamped),
-        ("geometry_msgs/Wrench", do_transform_wrench),
-        ("geometry_msgs/WrenchStamped", do_transform_wrench_stamped),
-        ("sensor_msgs/PointCloud2", do_transform_cloud),
-    ):
-        kind = INTERFACES.message(name)
-        transforms.add(kind, function)
-        conversions.add_from_msg(kind, from_msg_msg)
-        conversions.add_to_msg(kind, to_msg_msg)
-
-
-_register()

@@ -11,15 +11,15 @@ from tftool.base.errors import (
     TransformException,
 )
 from tftool.messages.classes import INTERFACES
+from tftool.ros.host.values import time_message
 from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.action_server import ActionServer
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
-from tftool.ros.rclpy.time import Duration, Time
-from tftool.ros.tf2.buffer import Buffer
+from tftool.ros.rclpy.time import Duration
+from tftool.ros.tf2.buffer import Buffer, LookupRequest, full_question, length, question
 from tftool.ros.tf2.interface import NOW, BufferInterface
-from tftool.ros.tf2.lookup_requests import length, stamp
 
 _PADDING = Duration(seconds=2.0)
 
@@ -71,9 +71,7 @@ class BufferClient(BufferInterface):
         Raises:
             TransformException: If it cannot be given, or the server does not answer in time.
         """
-        return self._ask(
-            timeout, target_frame=target_frame, source_frame=source_frame, source_time=_sent(time)
-        )
+        return self._ask(question(target_frame, source_frame, time), timeout)
 
     def lookup_transform_full(
         self,
@@ -89,15 +87,8 @@ class BufferClient(BufferInterface):
         Raises:
             TransformException: If it cannot be given, or the server does not answer in time.
         """
-        return self._ask(
-            timeout,
-            target_frame=target_frame,
-            target_time=_sent(target_time),
-            source_frame=source_frame,
-            source_time=_sent(source_time),
-            fixed_frame=fixed_frame,
-            advanced=True,
-        )
+        asked = full_question(target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self._ask(asked, timeout)
 
     def can_transform(self, *asked: Any, **named: Any) -> bool:
         """Return whether a lookup would succeed."""
@@ -111,11 +102,18 @@ class BufferClient(BufferInterface):
         """Close the client."""
         self.action_client.destroy()
 
-    def _ask(self, timeout: Any, **fields: Any) -> Any:
+    def _ask(self, asked: LookupRequest, timeout: Any) -> Any:
         if not self.action_client.server_is_ready():
             raise TimeoutException("The BufferServer is not ready.")
-        wait = Duration(nanoseconds=length(timeout))
-        goal = _action().Goal(timeout=wait.to_msg(), **fields)
+        goal = _action().Goal(
+            timeout=Duration(nanoseconds=length(timeout)).to_msg(),
+            target_frame=asked.target,
+            target_time=time_message(asked.target_time),
+            source_frame=asked.source,
+            source_time=time_message(asked.time),
+            fixed_frame=asked.fixed or "",
+            advanced=asked.fixed is not None,
+        )
         padding = self.timeout_padding
         extra = length(padding) / 1e9 if isinstance(padding, Duration) else float(padding)
         # The answer needs a moment to come back, even where nothing is added for that.
@@ -159,22 +157,18 @@ class BufferServer:
         self._server = ActionServer(node, _action(), ns, self._answer)
 
     async def _answer(self, goal: Any) -> Any:
-        asked = goal.request
-        moment = Time.from_msg(asked.source_time)
-        found: Future
-        words: tuple[Any, ...] = (asked.target_frame, asked.source_frame, moment)
-        if asked.advanced:
-            target_time = Time.from_msg(asked.target_time)
-            words = (words[0], target_time, *words[1:], asked.fixed_frame)
-            found = self.buffer.wait_for_transform_full_async(*words)
-            look: Any = self.buffer.lookup_transform_full_core
-        else:
-            found = self.buffer.wait_for_transform_async(*words)
-            look = self.buffer.lookup_transform_core
-        await self._first(found, Duration.from_msg(asked.timeout))
+        sent = goal.request
+        asked = question(sent.target_frame, sent.source_frame, sent.source_time)
+        if sent.advanced:
+            asked = full_question(
+                *(sent.target_frame, sent.target_time),
+                *(sent.source_frame, sent.source_time, sent.fixed_frame),
+            )
+        found = self.buffer.promise(asked)
+        await self._first(found, Duration.from_msg(sent.timeout))
         result = _action().Result()
         try:
-            result.transform = look(*words)
+            result.transform = self.buffer.answer(asked)
         except TransformException as refused:
             result.error.error = next(
                 number for kind, number in _NUMBERS if isinstance(refused, kind)
@@ -207,10 +201,6 @@ class BufferServer:
     def destroy(self) -> None:
         """Stop serving."""
         self._server.destroy()
-
-
-def _sent(time: Any) -> Any:
-    return Time(nanoseconds=stamp(time)).to_msg()
 
 
 def _succeeds(look: Any, *asked: Any, **named: Any) -> bool:
