@@ -9,7 +9,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from tftool.base.stamps import seconds
+from tftool.base.stamps import Duration, seconds
 from tftool.ros.host import fibers
 
 T = TypeVar("T")
@@ -68,11 +68,21 @@ class StateMonitor:
             return False
         if owner is None:
             return self._block(take, timeout)
-        return bool(owner.ask(lambda: self._wait(owner, take, timeout)))
+        length = None if timeout is None else seconds(timeout)
+        return bool(owner.ask(lambda: self._wait(owner, take, length)))
 
-    async def _wait(self, owner: Any, take: Callable[[], bool], timeout: float | None) -> bool:
-        loop, clock = asyncio.get_running_loop(), owner.clock
-        end = None if timeout is None else clock.now() + seconds(timeout)
+    def sleep(self, owner: Any, length: Duration, is_over: Callable[[], bool]) -> None:
+        """Block a program's thread for a duration of the world's, unless it is over before."""
+        if not owner.interrupted:
+            owner.ask(lambda: self._wait(owner, is_over, max(0, length)))
+
+    def wake(self) -> None:
+        """Let every waiting thread look again."""
+        self.change(lambda: None)
+
+    async def _wait(self, owner: Any, take: Callable[[], bool], length: Duration | None) -> bool:
+        loop = asyncio.get_running_loop()
+        end = None if length is None else owner.clock.now() + length
         is_late = False
         while True:
             changed: asyncio.Future[None] = loop.create_future()

@@ -1,15 +1,16 @@
 """rclpy's times, durations, clocks and rates, based on the world's clock."""
 
-import asyncio
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from enum import IntEnum
 from functools import total_ordering
 from typing import Any
 
 from tftool.base.stamps import NANOSECONDS
 from tftool.ros.host import program, values
+from tftool.ros.host.locks import StateMonitor
 from tftool.ros.rclpy.exceptions import NotInitializedException, ROSInterruptException
 
 S_TO_NS = NANOSECONDS
@@ -191,6 +192,8 @@ class Clock:
         self._clock_type = clock_type
         self._program = program.current()
         self._jump_handles: list[JumpHandle] = []
+        self._state = StateMonitor()
+        """Changed when sleeping threads have to look whether they go on."""
 
     @property
     def clock_type(self) -> ClockType:
@@ -219,23 +222,19 @@ class Clock:
     def _sleep(self, duration: int, context: Any) -> bool:
         """Block on the world's clock; return False if something else ended it."""
         _require_started(context)
-        return self._block(_Sleep(self._program), duration, context)
+        return self._block(duration, context)
 
     def _block(
-        self,
-        sleep: "_Sleep",
-        duration: int,
-        context: Any,
-        is_over: Callable[[], bool] = lambda: False,
+        self, duration: int, context: Any, is_over: Callable[[], bool] = lambda: False
     ) -> bool:
-        """Block until a sleep ends; return whether program and context go on."""
+        """Block for a duration or until it is over; return whether program and context go on."""
 
         def has_ended() -> bool:
             return context is not None and not context.ok()
 
-        stop = None if context is None else context.on_change(sleep.end)
+        stop = None if context is None else context.on_change(self._state.wake)
         try:
-            sleep.start(duration, lambda: is_over() or has_ended())
+            self._state.sleep(self._program, duration, lambda: is_over() or has_ended())
         finally:
             if stop is not None:
                 stop()
@@ -259,41 +258,6 @@ class Clock:
 
     def __repr__(self) -> str:
         return f"Clock(clock_type={self._clock_type.name})"
-
-
-class _Sleep:
-    """A program's sleep, which others may interrupt."""
-
-    def __init__(self, owner: Any) -> None:
-        self._owner = owner
-        self._timers: set[asyncio.Future[None]] = set()
-
-    def start(self, duration: int, is_over: Callable[[], bool]) -> None:
-        """Block for a duration, unless it was ended before."""
-        if not self._owner.interrupted:
-            self._owner.ask(lambda: self._wait(max(0, duration), is_over))
-
-    async def _wait(self, duration: int, is_over: Callable[[], bool]) -> None:
-        owner = self._owner
-        # Here, where others end it: before, it could end between the look and the timer.
-        if is_over():
-            return
-        timer = owner.clock.timer(owner.clock.now() + duration, owner.turn, owner.rank)
-        self._timers.add(timer)
-        try:
-            await asyncio.wait({timer})
-        finally:
-            self._timers.discard(timer)
-            timer.cancel()
-
-    def end(self) -> None:
-        """Wake all waiting threads."""
-
-        def wake() -> None:
-            for timer in list(self._timers):
-                timer.cancel()
-
-        self._owner.ask(wake)
 
 
 def _require_started(context: Any) -> None:
@@ -357,7 +321,6 @@ class ROSClock(Clock):
         until, is_changed = super().now().nanoseconds + duration, False
         if self._is_overridden:
             until = self._override.nanoseconds + duration
-        sleep = _Sleep(self._program)
 
         def is_over() -> bool:
             reached = self._is_overridden and self._override.nanoseconds >= until
@@ -367,13 +330,13 @@ class ROSClock(Clock):
             nonlocal is_changed
             is_changed = is_changed or jump.clock_change is not ClockChange.ROS_TIME_NO_CHANGE
             if is_over():
-                sleep.end()
+                self._state.wake()
 
         threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
         with self.create_jump_callback(threshold, post_callback=on_jump):
             # Only a jump ends a sleep while a time source gives the time.
             length = _FOR_EVER if self._is_overridden else duration
-            return self._block(sleep, length, context, is_over) and not is_changed
+            return self._block(length, context, is_over) and not is_changed
 
     @contextmanager
     def _jumping(self, jump: "TimeJump") -> Iterator[None]:
@@ -395,33 +358,29 @@ class ClockChange(IntEnum):
     SYSTEM_TIME_NO_CHANGE = 4
 
 
+@dataclass(kw_only=True, eq=False)
 class JumpThreshold:
     """Smallest jump for which a callback is called."""
 
-    def __init__(
-        self,
-        *,
-        min_forward: Duration | None,
-        min_backward: Duration | None,
-        on_clock_change: bool = True,
-    ) -> None:
-        if min_forward is not None and min_forward.nanoseconds <= 0:
+    min_forward: Duration | None
+    min_backward: Duration | None
+    on_clock_change: bool = True
+
+    def __post_init__(self) -> None:
+        if self.min_forward is not None and self.min_forward.nanoseconds <= 0:
             raise ValueError("min_forward must be a positive non-zero duration")
-        if min_backward is not None and min_backward.nanoseconds >= 0:
+        if self.min_backward is not None and self.min_backward.nanoseconds >= 0:
             raise ValueError("min_backward must be a negative non-zero duration")
-        if min_forward is None and min_backward is None and not on_clock_change:
+        if self.min_forward is None and self.min_backward is None and not self.on_clock_change:
             raise ValueError("At least one threshold must be enabled")
-        self.min_forward = min_forward
-        self.min_backward = min_backward
-        self.on_clock_change = on_clock_change
 
 
+@dataclass(eq=False)
 class TimeJump:
     """One jump of a clock."""
 
-    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
-        self.clock_change = clock_change
-        self.delta = delta
+    clock_change: ClockChange
+    delta: Duration
 
 
 class JumpHandle:
@@ -435,7 +394,8 @@ class JumpHandle:
         after: Callable[[TimeJump], object] | None,
     ) -> None:
         self._siblings, self._threshold = siblings, threshold
-        self._before, self._after = before, after
+        self.call_before = before or (lambda: None)
+        self.call_after = after or (lambda jump: None)
         siblings.append(self)
 
     def concerns(self, jump: TimeJump) -> bool:
@@ -447,16 +407,6 @@ class JumpHandle:
             or (least is not None and jump.delta >= least)
             or (most is not None and jump.delta <= most)
         )
-
-    def call_before(self) -> None:
-        """Call back before the jump."""
-        if self._before is not None:
-            self._before()
-
-    def call_after(self, jump: TimeJump) -> None:
-        """Call back after the jump."""
-        if self._after is not None:
-            self._after(jump)
 
     def unregister(self) -> None:
         """Remove the callback."""
@@ -479,8 +429,8 @@ class Rate:
         self._program = seat.program
         self._due = self._program.clock.now() + self._period
         self._context = seat.context
-        self._sleep = _Sleep(self._program)
-        self._stop = self._context.on_change(self._sleep.end)
+        self._state = StateMonitor()
+        self._stop = self._context.on_change(self._state.wake)
         self._over = False
         self._siblings = seat.rates
         self._siblings.add(self)
@@ -498,7 +448,9 @@ class Rate:
         now = self._program.clock.now()
         if self._due < now:
             self._due += -(-(now - self._due) // self._period) * self._period
-        self._sleep.start(self._due - now, lambda: self._over or not self._context.ok())
+        self._state.sleep(
+            self._program, self._due - now, lambda: self._over or not self._context.ok()
+        )
         if not self._over:
             self._require_context()
         self._due += self._period
@@ -514,4 +466,4 @@ class Rate:
             self._siblings.discard(self)
             self._timer.destroy()
             self._stop()
-            self._sleep.end()
+            self._state.wake()
