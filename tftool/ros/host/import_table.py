@@ -45,7 +45,8 @@ rclpy.event_handler: rclpy.qos_events: QoSPublisherEventType QoSSubscriptionEven
     QoSRequestedDeadlineMissedInfo=QoSCountInfo QoSLivelinessLostInfo=QoSCountInfo
     QoSMessageLostInfo=QoSCountInfo
 rclpy.qos_overriding_options: rclpy.qos: QoSOverridingOptions QosCallbackResult
-    InvalidQosOverridesError _declare_qos_parameters _get_qos_policy_parameter
+    InvalidQosOverridesError _declare_qos_parameters=declare_qos_parameters
+    _get_qos_policy_parameter=qos_policy_parameter
 rclpy.qos_overriding_options rclpy.qos: rclpy.qos: QoSPolicyKind
 rclpy.service_introspection rclpy.service rclpy.client: rclpy.services: ServiceIntrospectionState
 rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME

@@ -22,7 +22,12 @@ from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
 from tftool.ros.rclpy.node_graph import NodeGraph
 from tftool.ros.rclpy.node_parameters import NodeParameters, ServedParameters, teller
-from tftool.ros.rclpy.qos import QoSProfile, declare_overrides, profile_of
+from tftool.ros.rclpy.qos import (
+    QoSOverridingOptions,
+    QoSProfile,
+    declare_qos_parameters,
+    profile_of,
+)
 from tftool.ros.rclpy.qos_events import EndpointWatch
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.services import Client, Service
@@ -177,10 +182,8 @@ class Node(NodeGraph, NodeParameters):
     ) -> Publisher:
         """Create a publisher."""
         _require_message(msg_type)
-        profile, full = profile_of(qos_profile), self._tftool.full(topic)
-        if qos_overriding_options is not None:
-            profile = copy.copy(profile)
-            declare_overrides(self, "publisher", f"/{full}", profile, qos_overriding_options)
+        full = self._tftool.full(topic)
+        profile = self.__profile(Publisher, full, qos_profile, qos_overriding_options)
         make = publisher_class or Publisher
         made: Publisher = self.__keep(make, msg_type, topic, full, profile)
         self.__watch(made, callback_group, event_callbacks)
@@ -202,16 +205,24 @@ class Node(NodeGraph, NodeParameters):
         """Create a subscription that calls `callback` with every message."""
         _require_message(msg_type)
         _require_callable(callback)
-        profile, full = profile_of(qos_profile), self._tftool.full(topic)
+        full = self._tftool.full(topic)
         group = callback_group or self._default_callback_group
-        if qos_overriding_options is not None:
-            profile = copy.copy(profile)
-            declare_overrides(self, "subscription", f"/{full}", profile, qos_overriding_options)
+        profile = self.__profile(Subscription, full, qos_profile, qos_overriding_options)
         made: Subscription = self.__keep(
             Subscription, msg_type, topic, full, callback, profile, group, raw
         )
         self.__watch(made, group, event_callbacks)
         return made
+
+    def __profile(
+        self, kind: Any, full: str, given: QoSProfile | int, options: QoSOverridingOptions | None
+    ) -> QoSProfile:
+        """Return the profile of a topic's end, with parameters for what they may override."""
+        profile = profile_of(given)
+        if options is not None:
+            profile = copy.copy(profile)
+            declare_qos_parameters(kind, self, f"/{full}", profile, options)
+        return profile
 
     def __watch(self, made: Any, group: Any, wanted: Any) -> None:
         """Watch for events of a topic's other ends."""

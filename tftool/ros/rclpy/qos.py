@@ -1,7 +1,7 @@
 """rclpy's quality-of-service profiles. Within a process only depth and latching matter."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from enum import Enum, IntEnum
 from typing import Any
 
@@ -286,9 +286,6 @@ class QoSPresetProfiles(Enum):
         return cls[name.upper()].value
 
 
-_DEFAULT = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
-
-
 class InvalidQosOverridesError(Exception):
     """Error for a refused profile from parameters."""
 
@@ -301,32 +298,23 @@ class QosCallbackResult:
     reason: str = ""
 
 
+@dataclass(slots=True)
 class QoSOverridingOptions:
     """Policies of a topic that parameters may set, and the callback that checks the result."""
 
-    def __init__(
-        self,
-        policy_kinds: Sequence[QoSPolicyKind],
-        *,
-        callback: Callable[[QoSProfile], QosCallbackResult] | None = None,
-        entity_id: str | None = None,
-    ) -> None:
-        self.policy_kinds = tuple(policy_kinds)
-        self.callback = callback
-        self.entity_id = entity_id
+    policy_kinds: Sequence[QoSPolicyKind]
+    _: KW_ONLY
+    callback: Callable[[QoSProfile], QosCallbackResult] | None = None
+    entity_id: str | None = None
 
     @classmethod
-    def with_default_policies(
-        cls,
-        *,
-        callback: Callable[[QoSProfile], QosCallbackResult] | None = None,
-        entity_id: str | None = None,
-    ) -> "QoSOverridingOptions":
+    def with_default_policies(cls, **options: Any) -> "QoSOverridingOptions":
         """Return options for history, depth and reliability."""
-        return cls(_DEFAULT, callback=callback, entity_id=entity_id)
+        kinds = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
+        return cls(kinds, **options)
 
 
-def _get_qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
+def qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
     """Return a policy's value as a parameter: a lower-case name, or a number."""
     value = getattr(qos, policy.name.lower())
     if isinstance(value, Duration):
@@ -334,22 +322,21 @@ def _get_qos_policy_parameter(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
     return value if policy is QoSPolicyKind.DEPTH else value.name.lower()
 
 
-def declare_overrides(
-    node: Any, sort: str, topic: str, qos: QoSProfile, options: QoSOverridingOptions
+def declare_qos_parameters(
+    entity_type: Any, node: Any, topic: str, qos: QoSProfile, options: QoSOverridingOptions
 ) -> None:
     """Declare the parameters of a topic's policies, and apply their values to the profile.
 
     Raises:
         InvalidQosOverridesError: If a value is none of its policy, or the callback refuses.
     """
+    sort = "publisher" if "Publisher" in entity_type.__name__ else "subscription"
     which = f"{sort}_{options.entity_id}" if options.entity_id else sort
     for policy in options.policy_kinds:
         name = f"qos_overrides.{topic}.{which}.{policy.name.lower()}"
-        default = _get_qos_policy_parameter(qos, policy)
-        if node.has_parameter(name):
-            value = node.get_parameter(name).value
-        else:
-            value = node.declare_parameter(name, default).value
+        default = qos_policy_parameter(qos, policy)
+        known = node.has_parameter(name)
+        value = (node.get_parameter(name) if known else node.declare_parameter(name, default)).value
         field = policy.name.lower()
         before = getattr(qos, field)
         try:
@@ -365,11 +352,3 @@ def declare_overrides(
         result = options.callback(qos)
         if not result.successful:
             raise InvalidQosOverridesError(f"qos_overrides of {topic}: {result.reason}")
-
-
-def _declare_qos_parameters(
-    entity_type: Any, node: Any, topic: str, qos: QoSProfile, options: QoSOverridingOptions
-) -> None:
-    """Declare the parameters, called as in rclpy with the class of the topic's endpoint."""
-    sort = "publisher" if "Publisher" in entity_type.__name__ else "subscription"
-    declare_overrides(node, sort, topic, qos, options)
