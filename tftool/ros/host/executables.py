@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.base.color import BACKGROUND, Color
 from tftool.base.errors import UsageError
@@ -33,6 +33,9 @@ from tftool.world.world import World
 
 if TYPE_CHECKING:
     from tftool.robots.robot_model import Robot
+
+
+T = TypeVar("T")
 
 
 class HasItsOwnCommand(UsageError):
@@ -63,38 +66,43 @@ class Asked:
         """Return a text parameter, and declare it."""
         return str(self.parameters.pop(name, default))
 
-    def flag(self, name: str, default: bool) -> bool:
-        """Return a boolean parameter.
+    def take(self, name: str, default: T, fits: Callable[[Any], bool], what: str) -> T:
+        """Return a parameter, and declare it.
 
         Raises:
-            UsageError: If it is neither.
+            UsageError: If it does not fit: `what` names the values that do.
         """
-        value = self.parameters.pop(name, default)
-        if not isinstance(value, bool):
-            raise UsageError(f"parameter '{name}' is true or false, not {value!r}")
+        value: T = self.parameters.pop(name, default)
+        if isinstance(value, bool) is not isinstance(default, bool) or not fits(value):
+            raise UsageError(f"parameter '{name}' is {what}, not {value!r}")
         return value
+
+    def flag(self, name: str, default: bool) -> bool:
+        """Return a boolean parameter."""
+        return self.take(name, default, lambda _: True, "true or false")
 
     def number(self, name: str, default: float) -> float:
-        """Return a parameter that is a finite number.
+        """Return a parameter that is a finite number."""
 
-        Raises:
-            UsageError: If it is none.
-        """
-        value = self.parameters.pop(name, default)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
-            raise UsageError(f"parameter '{name}' is a number, not {value!r}")
-        return float(value)
+        def fits(value: Any) -> bool:
+            return isinstance(value, int | float) and isfinite(value)
+
+        return float(self.take(name, default, fits, "a number"))
 
     def channel(self, name: str, default: int) -> int:
-        """Return a parameter that is a colour channel.
+        """Return a parameter that is a colour channel."""
 
-        Raises:
-            UsageError: If it is none.
-        """
-        value = self.parameters.pop(name, default)
-        if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= 255:
-            raise UsageError(f"parameter '{name}' is a whole number from 0 to 255, not {value!r}")
-        return value
+        def fits(value: Any) -> bool:
+            return isinstance(value, int) and 0 <= value <= 255
+
+        return self.take(name, default, fits, "a whole number from 0 to 255")
+
+    def remapped(self, *names: str) -> list[str]:
+        """Return the full names of topics after remapping."""
+        return [
+            self.options.remapped(expand(one, self.name, self.namespace), self.name, self.namespace)
+            for one in names
+        ]
 
 
 def _turtlesim(asked: Asked) -> Node:
@@ -140,13 +148,11 @@ def _static_publisher(asked: Asked) -> Node:
 
 def _mimic(asked: Asked) -> Node:
     topics = {"input/pose": "turtle1/pose", "output/cmd_vel": "turtle2/cmd_vel"}
-    ends = [
-        asked.options.remapped(join(asked.namespace, name), asked.name, asked.namespace)
-        for name in topics
-    ]
     leader, copy = (
         end.removesuffix(tail) if end.endswith(tail) else default.removesuffix(tail)
-        for end, tail, default in zip(ends, ("/pose", "/cmd_vel"), topics.values(), strict=True)
+        for end, tail, default in zip(
+            asked.remapped(*topics), ("/pose", "/cmd_vel"), topics.values(), strict=True
+        )
     )
     return Mimic(asked.world, asked.name, leader=leader, copy=copy)
 
@@ -169,19 +175,8 @@ def _robot_of(asked: Asked) -> "Robot | None":
     return None
 
 
-def _joint_topics(asked: Asked) -> tuple[str, str]:
-    """Return the topics of joint states and description for a node."""
-    from tftool.world.nodes.joints import DESCRIPTION, JOINT_STATES
-
-    joint_states, description = (
-        asked.options.remapped(join(asked.namespace, name), asked.name, asked.namespace)
-        for name in (JOINT_STATES, DESCRIPTION)
-    )
-    return joint_states, description
-
-
 def _robot_state_publisher(asked: Asked) -> Node:
-    from tftool.world.nodes.joints import RobotStatePublisher
+    from tftool.world.nodes.joints import DESCRIPTION, JOINT_STATES, RobotStatePublisher
 
     robot = _robot_of(asked)
     if robot is None:
@@ -196,12 +191,12 @@ def _robot_state_publisher(asked: Asked) -> Node:
         frame_prefix=asked.text("frame_prefix", ""),
         publish_frequency=asked.number("publish_frequency", 20.0),
         ignore_timestamp=asked.flag("ignore_timestamp", False),
-        topics=_joint_topics(asked),
+        topics=asked.remapped(JOINT_STATES, DESCRIPTION),
     )
 
 
 def _joint_state_publisher(asked: Asked) -> Node:
-    from tftool.world.nodes.joints import JointStatePublisher
+    from tftool.world.nodes.joints import DESCRIPTION, JOINT_STATES, JointStatePublisher
 
     positions = {
         name.removeprefix("zeros."): asked.number(name, 0.0)
@@ -217,13 +212,8 @@ def _joint_state_publisher(asked: Asked) -> Node:
         robot=_robot_of(asked),
         positions=positions,
         rate=asked.number("rate", 10.0),
-        sources=[
-            asked.options.remapped(
-                expand(one, asked.name, asked.namespace), asked.name, asked.namespace
-            )
-            for one in sources
-        ],
-        topics=_joint_topics(asked),
+        sources=asked.remapped(*sources),
+        topics=asked.remapped(JOINT_STATES, DESCRIPTION),
     )
 
 

@@ -1,20 +1,21 @@
 """A node's queries about other nodes, and the descriptions of topics' ends."""
 
 from collections.abc import Callable, Iterable, Iterator
+from copy import copy
 from dataclasses import dataclass, field
 from enum import IntEnum
+from itertools import chain
 from typing import Any, TypeVar
 
 from tftool.messages.classes import interface_name
+from tftool.ros.host.names import join
 from tftool.ros.host.program import Program
 from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.qos import (
-    DurabilityPolicy,
     HistoryPolicy,
-    LivelinessPolicy,
     QoSProfile,
-    ReliabilityPolicy,
     profile_from,
+    qos_profile_unknown,
 )
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.rclpy.services import Client
@@ -48,19 +49,6 @@ class TypeHash:
         return f"RIHS{self.version:02}_{self.value.hex()}"
 
 
-def _unknown() -> QoSProfile:
-    return QoSProfile(
-        history=HistoryPolicy.UNKNOWN,
-        depth=0,
-        reliability=ReliabilityPolicy.UNKNOWN,
-        durability=DurabilityPolicy.UNKNOWN,
-        liveliness=LivelinessPolicy.UNKNOWN,
-        lifespan=Duration(),
-        deadline=Duration(),
-        liveliness_lease_duration=Duration(),
-    )
-
-
 @dataclass(slots=True)
 class TopicEndpointInfo:
     """Publisher or subscription of a topic, with its quality of service."""
@@ -69,7 +57,7 @@ class TopicEndpointInfo:
     node_namespace: str = ""
     topic_type: str = ""
     endpoint_type: TopicEndpointTypeEnum = TopicEndpointTypeEnum.INVALID
-    qos_profile: QoSProfile = field(default_factory=_unknown)
+    qos_profile: QoSProfile = field(default_factory=lambda: copy(qos_profile_unknown))
     topic_type_hash: TypeHash = field(default_factory=TypeHash)
     endpoint_gid: list[int] = field(default_factory=list)
 
@@ -127,7 +115,8 @@ class NodeGraph:
     _tftool: NodeSeat
 
     def __look(self, question: Callable[[], T]) -> T:
-        return _ask(self._tftool, question)
+        found: T = self._tftool.program.ask(question)
+        return found
 
     # Nodes
 
@@ -167,41 +156,33 @@ class NodeGraph:
             if (kind := interface_name(topic.kind))
         }
         for name in world.endpoints.topics():
-            ends = [
-                *world.endpoints.of(name, PUBLISHER),
-                *world.endpoints.of(name, SUBSCRIPTION),
-            ]
-            found[name] = {end.interface for end in ends}
+            ends = (world.endpoints.of(name, role) for role in (PUBLISHER, SUBSCRIPTION))
+            found[name] = {end.interface for end in chain(*ends)}
         return _listed((name, kind) for name, kinds in found.items() for kind in kinds)
 
     def count_publishers(self, topic_name: str) -> int:
         """Count the publishers of a topic."""
-        full = self._tftool.full(topic_name)
-        endpoints = self._tftool.world.endpoints
-        return self.__look(lambda: len(endpoints.of(full, PUBLISHER)))
+        return len(self.__ends(topic_name, PUBLISHER))
 
     def count_subscribers(self, topic_name: str) -> int:
         """Count the subscriptions of a topic."""
-        full = self._tftool.full(topic_name)
-        endpoints = self._tftool.world.endpoints
-        return self.__look(lambda: len(endpoints.of(full, SUBSCRIPTION)))
+        return len(self.__ends(topic_name, SUBSCRIPTION))
 
     def get_publishers_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
         """Return the ROS nodes that publish a topic, with their quality of service."""
-        return self.__ends(topic_name, PUBLISHER)
+        return [endpoint_info(end) for end in self.__ends(topic_name, PUBLISHER)]
 
     def get_subscriptions_info_by_topic(
         self, topic_name: str, no_mangle: bool = False
     ) -> list[TopicEndpointInfo]:
         """Return the ROS nodes that subscribe to a topic, with their quality of service."""
-        return self.__ends(topic_name, SUBSCRIPTION)
+        return [endpoint_info(end) for end in self.__ends(topic_name, SUBSCRIPTION)]
 
-    def __ends(self, topic_name: str, role: Role) -> list[TopicEndpointInfo]:
+    def __ends(self, topic_name: str, role: Role) -> list[Endpoint]:
         full = self._tftool.full(topic_name)
-        endpoints = self._tftool.world.endpoints
-        return self.__look(lambda: [endpoint_info(end) for end in endpoints.of(full, role)])
+        return self.__look(lambda: list(self._tftool.world.endpoints.of(full, role)))
 
     # Services
 
@@ -268,7 +249,8 @@ class NodeGraph:
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
     """Return every served action with its type."""
     seat = seat_of(node)
-    return _ask(seat, lambda: _listed(_served_actions(None, seat)))
+    found: NamesAndTypes = seat.program.ask(lambda: _listed(_served_actions(None, seat)))
+    return found
 
 
 def get_action_server_names_and_types_by_node(
@@ -293,12 +275,6 @@ def get_action_client_names_and_types_by_node(
     """
     seat = seat_of(node)
     return _of_node(seat, remote_node_name, remote_node_namespace, _sought_actions, seat)
-
-
-def _ask(seat: NodeSeat, question: Callable[[], T]) -> T:
-    """Run a query in the loop's thread."""
-    found: T = seat.program.ask(question)
-    return found
 
 
 def _node_names(seat: NodeSeat) -> list[str]:
@@ -333,14 +309,14 @@ def _of_node(
     *args: Any,
 ) -> NamesAndTypes:
     """Return what `find` returns for a node, by its full name."""
-    full = f"{namespace.strip('/')}/{name}".strip("/")
+    full = join(namespace, name)
 
     def found() -> NamesAndTypes:
         if full not in _node_names(seat):
             raise NodeNameNonExistentError(f"there is no node '/{full}'")
         return _listed(find(full, *args))
 
-    return _ask(seat, found)
+    return seat.program.ask(found)  # type: ignore[no-any-return]
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:

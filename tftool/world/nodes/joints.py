@@ -79,7 +79,7 @@ class RobotStatePublisher(Node):
         frame_prefix: str = "",
         publish_frequency: float = 20.0,
         ignore_timestamp: bool = False,
-        topics: tuple[str, str] = (JOINT_STATES, DESCRIPTION),
+        topics: Sequence[str] = (JOINT_STATES, DESCRIPTION),
     ) -> None:
         """Add the node to a world.
 
@@ -212,7 +212,7 @@ class JointStatePublisher(Node):
         positions: Mapping[str, float] | None = None,
         rate: float = 10.0,
         sources: Sequence[str] = (),
-        topics: tuple[str, str] = (JOINT_STATES, DESCRIPTION),
+        topics: Sequence[str] = (JOINT_STATES, DESCRIPTION),
     ) -> None:
         """Add the node to a world.
 
