@@ -413,25 +413,26 @@ def _service_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
     _list(pairs, asked, show, hidden=asked.include_hidden_services)
 
 
-def _service_type(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    _listen(node)
-    kinds = dict(node.get_service_names_and_types()).get(_full(asked.service), [])
+def _show_types(pairs: Any, name: str, show: Print) -> int:
+    kinds = dict(pairs).get(_full(name), [])
     for kind in kinds:
         show(kind)
     return 0 if kinds else UNKNOWN
 
 
+def _service_type(node: Node, asked: argparse.Namespace, show: Print) -> int:
+    _listen(node)
+    return _show_types(node.get_service_names_and_types(), asked.service, show)
+
+
 def _service_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
-    status = 0
     _listen(node)
     full = _full(asked.service)
     kinds = dict(node.get_service_names_and_types()).get(full, [])
-    if not kinds:
-        status = UNKNOWN
     show(f"Type: {', '.join(kinds) or 'unknown'}")
     show(f"Clients count: {node.count_clients(full)}")
     show(f"Services count: {node.count_services(full)}")
-    return status
+    return 0 if kinds else UNKNOWN
 
 
 def _service_find(node: Node, asked: argparse.Namespace, show: Print) -> None:
@@ -525,21 +526,17 @@ def _param_set(node: Node, asked: argparse.Namespace, show: Print) -> int:
     client = _parameters(node, asked.node)
     value = names.yaml_value(asked.value)
     (result,) = _answer(node, client.set_parameters([Parameter(asked.name, value=value)])).results
-    if result.successful:
-        show("Set parameter successful")
-        return 0
-    show(f"Setting parameter failed: {result.reason}")
-    return UNKNOWN
+    failed = f"Setting parameter failed: {result.reason}"
+    show("Set parameter successful" if result.successful else failed)
+    return 0 if result.successful else UNKNOWN
 
 
 def _param_delete(node: Node, asked: argparse.Namespace, show: Print) -> int:
     client = _parameters(node, asked.node)
     (result,) = _answer(node, client.delete_parameters([asked.name])).results
-    if result.successful:
-        show("Deleted parameter successfully")
-        return 0
-    show(f"Deleting parameter failed: {result.reason}")
-    return UNKNOWN
+    failed = f"Deleting parameter failed: {result.reason}"
+    show("Deleted parameter successfully" if result.successful else failed)
+    return 0 if result.successful else UNKNOWN
 
 
 def _param_dump(node: Node, asked: argparse.Namespace, show: Print) -> None:
@@ -597,10 +594,8 @@ def _param_load(node: Node, asked: argparse.Namespace, show: Print) -> int:
         raise UsageError(f"'{asked.file}' sets no parameters of {_full(asked.node)}")
     results = _answer(node, client.set_parameters(list(given.values()))).results
     for name, result in zip(given, results, strict=True):
-        if result.successful:
-            show(f"Set parameter {name} successful")
-        else:
-            show(f"Set parameter {name} failed: {result.reason}")
+        outcome = "successful" if result.successful else f"failed: {result.reason}"
+        show(f"Set parameter {name} {outcome}")
     return 0 if all(result.successful for result in results) else UNKNOWN
 
 
@@ -644,10 +639,7 @@ def _action_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
 
 def _action_type(node: Node, asked: argparse.Namespace, show: Print) -> int:
     _listen(node)
-    kinds = dict(get_action_names_and_types(node)).get(_full(asked.action), [])
-    for kind in kinds:
-        show(kind)
-    return 0 if kinds else UNKNOWN
+    return _show_types(get_action_names_and_types(node), asked.action, show)
 
 
 def _action_info(node: Node, asked: argparse.Namespace, show: Print) -> None:
@@ -742,15 +734,7 @@ def _pkg_xml(asked: argparse.Namespace, workspace: Workspace) -> str:
 
 
 def _interface_list(asked: argparse.Namespace, workspace: Workspace) -> str:
-    wanted = [
-        kind
-        for kind, only in zip(
-            rosidl_runtime.KINDS,
-            (asked.only_msgs, asked.only_srvs, asked.only_actions),
-            strict=True,
-        )
-        if only
-    ]
+    wanted = [kind for kind in rosidl_runtime.KINDS if getattr(asked, f"only_{kind}s")]
     lines = []
     for kind in wanted or rosidl_runtime.KINDS:
         found = rosidl_runtime.interfaces(kinds=[kind])

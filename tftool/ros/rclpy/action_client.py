@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import Callable
 from enum import IntEnum
-from typing import Any
+from typing import Any, NamedTuple
 
 from tftool.base.errors import TftoolError
 from tftool.messages.classes import INTERFACES, duplicate
@@ -32,20 +32,18 @@ class GoalStatus(IntEnum):
 STATUS: dict[str, GoalStatus] = {name: GoalStatus(number) for name, number in ENDED.items()}
 
 
-class _Result:
+class _Result(NamedTuple):
     """Result of get_result: a status number and the result message."""
 
-    def __init__(self, status: int, result: Any) -> None:
-        self.status = status
-        self.result = result
+    status: int
+    result: Any
 
 
-class _Feedback:
+class _Feedback(NamedTuple):
     """Argument of a feedback callback."""
 
-    def __init__(self, goal_id: Any, feedback: Any) -> None:
-        self.goal_id = goal_id
-        self.feedback = feedback
+    goal_id: Any
+    feedback: Any
 
 
 class ClientGoalHandle:

@@ -39,21 +39,22 @@ class CancelResponse(IntEnum):
 
 
 class ServerGoalHandle:
-    """A goal on its server's side."""
+    """A goal on its server's side.
+
+    Attributes:
+        request: The goal message.
+        is_cancel_requested: Whether a cancellation was requested and accepted.
+        goal_id: Its id.
+    """
 
     def __init__(self, server: "ActionServer", goal: WorldGoal, request: Any) -> None:
         self._server = server
         self._goal = goal
-        self._request = request
         self._status: Status | None = None
-        self._canceling = False
         self._executing = False
+        self.request = request
+        self.is_cancel_requested = False
         self.goal_id = goal_id_message(goal.goal_id)
-
-    @property
-    def request(self) -> Any:
-        """The goal message."""
-        return self._request
 
     @property
     def is_active(self) -> bool:
@@ -61,16 +62,11 @@ class ServerGoalHandle:
         return self._status is None and not self._goal.done
 
     @property
-    def is_cancel_requested(self) -> bool:
-        """Whether a cancellation was requested and accepted."""
-        return self._canceling
-
-    @property
     def status(self) -> int:
         """Its status, a number of GoalStatus."""
         if self._status is not None:
             return int(STATUS[self._status])
-        if self._canceling:
+        if self.is_cancel_requested:
             return int(GoalStatus.STATUS_CANCELING)
         return int(GoalStatus.STATUS_EXECUTING if self._executing else GoalStatus.STATUS_ACCEPTED)
 
@@ -88,15 +84,15 @@ class ServerGoalHandle:
 
     def succeed(self, response: Any = None) -> None:
         """Mark the goal as reached."""
-        self._end("succeeded")
+        self._status = "succeeded"
 
     def abort(self, response: Any = None) -> None:
         """Mark the goal as aborted by the server."""
-        self._end("aborted")
+        self._status = "aborted"
 
     def canceled(self, response: Any = None) -> None:
         """Mark the goal as cancelled by the client."""
-        self._end("canceled")
+        self._status = "canceled"
 
     def execute(self, execute_callback: Any = None) -> None:
         """Start executing it."""
@@ -106,18 +102,11 @@ class ServerGoalHandle:
     def destroy(self) -> None:
         """Do nothing."""
 
-    def _end(self, status: Status) -> None:
-        self._status = status
-
     def finish(self, result: Any) -> None:
         """Send the result."""
         status = self._status or "aborted"
         copy = duplicate(result)
         self._server.seat.program.ask(lambda: self._goal.finish(status, copy))
-
-    def request_cancel(self) -> None:
-        """Record that the client asked for its cancellation."""
-        self._canceling = True
 
 
 class ActionServer(WorkQueue):
@@ -262,7 +251,7 @@ class ActionServer(WorkQueue):
             if handle.is_active:
                 accepted = await _outcome(self._on_cancel(handle)) == CancelResponse.ACCEPT
             if accepted:
-                handle.request_cancel()
+                handle.is_cancel_requested = True
         finally:
             self.seat.program.ask(lambda: goal.decide_cancel(accepted))
 
