@@ -122,8 +122,6 @@ class StateMachine:
         )
 
 
-__all__ = ["LifecycleState", "TransitionCallbackReturn"]
-
 F = TypeVar("F", bound=Callable[..., Any])
 
 SUCCESS = TransitionCallbackReturn.SUCCESS

@@ -129,9 +129,8 @@ class NodeParameters:
                 )
         descriptor.name = name
         descriptor.type = int(kind)
-        parameter = Parameter(name, None if value is not None else Type.NOT_SET, value)
-        if value is not None and kind.check(value):
-            parameter = Parameter(name, kind, value)
+        fits = value is not None and kind.check(value)
+        parameter = Parameter(name, kind if fits else Type.from_parameter_value(value), value)
         self._descriptors[name] = descriptor
         reason = self.__range_fault(parameter)
         if not reason:

@@ -1,12 +1,13 @@
 """rclpy's parameters: named, typed values."""
 
 import array
+from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from tftool.messages.classes import INTERFACES
-from tftool.messages.parameter_values import value_message, value_of
+from tftool.messages.parameter_values import SCALARS, value_message, value_of
 from tftool.ros.host import names
 
 
@@ -33,25 +34,17 @@ class ParameterType(IntEnum):
         """
         if value is None:
             return cls.NOT_SET
-        for kind, found in (
-            (bool, cls.BOOL),
-            (int, cls.INTEGER),
-            (float, cls.DOUBLE),
-            (str, cls.STRING),
-        ):
+        for kind, number in SCALARS.items():  # bool before int, which it is as well
             if isinstance(value, kind):
-                return found
+                return cls(number)
         if isinstance(value, list | tuple | array.array):
-            kinds = {cls.from_parameter_value(one) if not isinstance(one, bytes) else
-                     cls.BYTE_ARRAY for one in value}  # fmt: skip
+            kinds = {
+                cls.BYTE_ARRAY if isinstance(one, bytes) else cls.from_parameter_value(one)
+                for one in value
+            }
             if kinds <= {cls.BYTE_ARRAY}:
                 return cls.BYTE_ARRAY
-            if len(kinds) == 1 and (only := kinds.pop()) in (
-                cls.BOOL,
-                cls.INTEGER,
-                cls.DOUBLE,
-                cls.STRING,
-            ):
+            if len(kinds) == 1 and cls.BOOL <= (only := kinds.pop()) <= cls.STRING:
                 return cls(only + 5)
         raise TypeError(f"The given value is not one of the allowed types: {value!r}")
 
@@ -65,57 +58,32 @@ class ParameterType(IntEnum):
             return False
 
 
+@dataclass(slots=True)
 class Parameter:
-    """One parameter's name, type and value."""
+    """One parameter's name, type and value; the type follows from the value unless given."""
 
-    Type = ParameterType
+    Type: ClassVar[type[ParameterType]] = ParameterType
 
-    def __init__(self, name: str, type_: ParameterType | None = None, value: Any = None) -> None:
-        if type_ is None:
-            type_ = ParameterType.from_parameter_value(value)
-        if not isinstance(type_, ParameterType):
+    name: str
+    type_: ParameterType = None  # type: ignore[assignment]
+    value: Any = None
+
+    def __post_init__(self) -> None:
+        if self.type_ is None:
+            self.type_ = ParameterType.from_parameter_value(self.value)
+        if not isinstance(self.type_, ParameterType):
             raise TypeError("type must be an instance of 'Parameter.Type'")
-        if value is not None and not type_.check(value):
-            raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
-        self._name = name
-        self._type = type_
-        self._value = value
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return self._name
-
-    @property
-    def type_(self) -> ParameterType:
-        """Its type."""
-        return self._type
-
-    @property
-    def value(self) -> Any:
-        """Its value."""
-        return self._value
-
-    def __repr__(self) -> str:
-        return f"Parameter(name={self._name!r}, type_={self._type!r}, value={self._value!r})"
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Parameter) and (self._name, self._type, self._value) == (
-            other._name,
-            other._type,
-            other._value,
-        )
-
-    __hash__ = None  # type: ignore[assignment]
+        if self.value is not None and not self.type_.check(self.value):
+            raise ValueError(f"Type '{self.type_}' and value '{self.value}' do not agree")
 
     def get_parameter_value(self) -> Any:
         """Return it as an rcl_interfaces ParameterValue."""
-        return value_message(self._value, int(self._type))
+        return value_message(self.value, int(self.type_))
 
     def to_parameter_msg(self) -> Any:
         """Return it as an rcl_interfaces Parameter."""
         return INTERFACES.message("rcl_interfaces/Parameter")(
-            name=self._name, value=self.get_parameter_value()
+            name=self.name, value=self.get_parameter_value()
         )
 
     @classmethod
