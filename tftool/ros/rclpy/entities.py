@@ -6,7 +6,8 @@ Each entity keeps arrivals until an executor takes them.
 import asyncio
 import inspect
 from collections import deque
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any, Final, Self
 
 from tftool.ros.host.program import TICK
@@ -22,18 +23,11 @@ MOST_WAITING: Final = 1000
 """Requests or goals that may wait for a node that takes none; more are refused."""
 
 
-class RequiredHandle:
-    """Handle for an entity's `with` block, checked to exist."""
-
-    def __init__(self, require: Callable[[], object]) -> None:
-        self._require = require
-
-    def __enter__(self) -> Self:
-        self._require()
-        return self
-
-    def __exit__(self, *args: object) -> None:
-        """Do nothing: there is nothing to release."""
+@contextmanager
+def required(require: Callable[[], object]) -> Iterator[None]:
+    """Check, for the handle of an entity's `with` block, that the entity exists."""
+    require()
+    yield
 
 
 class NodeEntity:
@@ -65,9 +59,9 @@ class NodeEntity:
         self.seat.forget(self)
 
     @property
-    def handle(self) -> RequiredHandle:
+    def handle(self) -> AbstractContextManager[None]:
         """Handle that raises InvalidHandle once destroyed."""
-        return RequiredHandle(lambda: self.seat.require_of(self))
+        return required(lambda: self.seat.require_of(self))
 
     def __enter__(self) -> Self:
         return self
@@ -259,7 +253,7 @@ class Timer(NodeEntity):
         self._last = seat.world.clock.now()
         self.due = self._last + period_ns
         self._canceled = not autostart
-        self._takes_info = callback is not None and not _takes_none(callback)
+        self._takes_info = callback is not None and not accepts(callback)
 
     @property
     def timer_period_ns(self) -> int:
@@ -338,11 +332,12 @@ class RateTimer(Timer):
     only_ends_spin_once = True
 
 
-def _takes_none(callback: Callable[..., Any]) -> bool:
+def accepts(callback: Callable[..., Any], *args: object) -> bool:
+    """Return whether a callback can be called with these arguments, by its signature."""
     try:
-        inspect.signature(callback).bind()
+        inspect.signature(callback).bind(*args)
     except TypeError:
         return False
-    except ValueError:
+    except ValueError:  # It has no signature.
         return True
     return True

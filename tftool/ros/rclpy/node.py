@@ -3,6 +3,7 @@
 import copy
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.messages.classes import Message
@@ -15,8 +16,8 @@ from tftool.ros.rclpy.entities import (
     MutuallyExclusiveCallbackGroup,
     NodeEntity,
     RateTimer,
-    RequiredHandle,
     Timer,
+    required,
 )
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
@@ -149,9 +150,9 @@ class Node(NodeGraph, NodeParameters):
         return self._default_callback_group
 
     @property
-    def handle(self) -> RequiredHandle:
+    def handle(self) -> AbstractContextManager[None]:
         """Handle that raises InvalidHandle once destroyed."""
-        return RequiredHandle(self._tftool.require)
+        return required(self._tftool.require)
 
     def __enter__(self) -> "Node":
         return self

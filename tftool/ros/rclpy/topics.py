@@ -1,6 +1,5 @@
 """Publishers and subscriptions, and messages as ROS 2's bytes."""
 
-import inspect
 from collections import deque
 from collections.abc import Callable
 from typing import Any, TypedDict
@@ -8,7 +7,7 @@ from typing import Any, TypedDict
 from tftool.messages.classes import INTERFACES, Message
 from tftool.messages.codec import codec
 from tftool.ros.host import values
-from tftool.ros.rclpy.entities import NodeEntity, Work
+from tftool.ros.rclpy.entities import NodeEntity, Work, accepts
 from tftool.ros.rclpy.exceptions import InvalidHandle
 from tftool.ros.rclpy.qos import (
     HistoryPolicy,
@@ -43,7 +42,7 @@ def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
 
 
 class Publisher(NodeEntity):
-    """Sends messages on a topic."""
+    """Sends messages on a topic; its `endpoint` is its entry in the graph."""
 
     def __init__(
         self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
@@ -58,7 +57,7 @@ class Publisher(NodeEntity):
         quality = quality_of(profile, offered=True)
         self._withdrawn = False
         latched = quality.is_latched and full not in values.TF_TOPICS
-        self._endpoint = Endpoint(
+        self.endpoint = Endpoint(
             PUBLISHER,
             seat.authority,
             full,
@@ -68,15 +67,10 @@ class Publisher(NodeEntity):
         )
         self._lease: Silence | None = None
         if quality.timing is not None and quality.timing.is_manual:
-            seat.world.endpoints.set_alive(self._endpoint, False)
+            seat.world.endpoints.set_alive(self.endpoint, False)
             self._lease = Silence(seat, quality.timing.lease, self._expired)
-        self._leave = seat.world.endpoints.add(self._endpoint)
+        self._leave = seat.world.endpoints.add(self.endpoint)
         self.event_watch: EndpointWatch | None = None
-
-    @property
-    def endpoint(self) -> Endpoint:
-        """Its entry in the graph."""
-        return self._endpoint
 
     @property
     def topic_name(self) -> str:
@@ -110,9 +104,9 @@ class Publisher(NodeEntity):
         self._be_alive()
         if self.event_watch is not None:
             self.event_watch.message_passed()
-        if self._endpoint.kept is not None:
-            self._endpoint.kept.append(value)
-        self._topic.publish(value, self._endpoint)
+        if self.endpoint.kept is not None:
+            self.endpoint.kept.append(value)
+        self._topic.publish(value, self.endpoint)
 
     def get_subscription_count(self) -> int:
         """Count the subscriptions."""
@@ -125,10 +119,10 @@ class Publisher(NodeEntity):
     def _be_alive(self) -> None:
         if self._lease is not None:
             self._lease.end()
-            self.seat.world.endpoints.set_alive(self._endpoint, True)
+            self.seat.world.endpoints.set_alive(self.endpoint, True)
 
     def _expired(self) -> None:
-        self.seat.world.endpoints.set_alive(self._endpoint, False)
+        self.seat.world.endpoints.set_alive(self.endpoint, False)
         if self.event_watch is not None:
             self.event_watch.lease_expired()
 
@@ -157,7 +151,7 @@ class MessageInfo(TypedDict):
 
 
 class Subscription(NodeEntity):
-    """Receives a topic's messages."""
+    """Receives a topic's messages; its `endpoint` is its entry in the graph."""
 
     is_a_callback = True
 
@@ -180,12 +174,12 @@ class Subscription(NodeEntity):
         self.topic = topic
         self.full = full
         self._queue: deque[Any] = deque(maxlen=_room(profile))
-        self._takes_info = _takes_two(callback)
+        self._takes_info = not accepts(callback, None) and accepts(callback, None, None)
         self._quality = quality_of(profile, offered=False)
         # What other processes send, and sent before, comes to a latched one by itself.
         self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
         self._topic: Any = seat.world.topic(full, values.carried(kind, full))
-        self._endpoint = Endpoint(
+        self.endpoint = Endpoint(
             SUBSCRIPTION,
             seat.authority,
             full,
@@ -193,7 +187,7 @@ class Subscription(NodeEntity):
             self._quality,
             deliver=self._accept if self._is_fed else None,
         )
-        self._leave = seat.world.endpoints.add(self._endpoint)
+        self._leave = seat.world.endpoints.add(self.endpoint)
         self.event_watch: EndpointWatch | None = None
         self._stop = self._topic.subscribe(self._arrived, seat.authority)
         if self._quality.is_latched:
@@ -204,11 +198,6 @@ class Subscription(NodeEntity):
     def topic_name(self) -> str:
         """The topic's full name."""
         return f"/{self.full}"
-
-    @property
-    def endpoint(self) -> Endpoint:
-        """Its entry in the graph."""
-        return self._endpoint
 
     def get_publisher_count(self) -> int:
         """Count the publishers of its topic."""
@@ -305,17 +294,3 @@ class RosoutPublisher(Publisher):
 def _room(profile: QoSProfile) -> int | None:
     """Return how many messages a profile keeps; None for all of them."""
     return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)
-
-
-def _takes_two(callback: Callable[..., Any]) -> bool:
-    try:
-        inspect.signature(callback).bind(object())
-    except TypeError:
-        try:
-            inspect.signature(callback).bind(object(), object())
-        except TypeError:
-            return False
-        return True
-    except ValueError:
-        return False
-    return False
