@@ -101,13 +101,18 @@ class RcutilsLogger:
         speaker = name or self.name
         text = str(message)
 
+        # Read here: the frame goes on while the loop works.
+        line = 0 if frame is None else frame.f_lineno
+
         def say() -> None:
             owner.say(level, speaker, text)
             rosout = _rosout_of(owner, speaker)
             if rosout is not None:
+                place = ("", "", 0)
+                if frame is not None:
+                    place = frame.f_code.co_filename, frame.f_code.co_name, line
                 rosout.tell(int(severity), speaker, text, place)
 
-        place = _place(frame)
         owner.ask(say)
         return True
 
@@ -190,11 +195,8 @@ class _Call:
 def _rosout_of(owner: program.Program, logger: str) -> Any:
     """Return the /rosout publisher of a logger: of the node with the nearest parent logger."""
     told = [seat.rosout for seat in owner.nodes if seat.rosout is not None]
-    return max((one for one in told if one.speaks_for(logger)), key=_depth, default=None)
-
-
-def _depth(rosout: Any) -> int:
-    return len(rosout.logger)
+    fitting = (one for one in told if one.speaks_for(logger))
+    return max(fitting, key=lambda rosout: len(rosout.logger), default=None)
 
 
 def _caller_frame() -> FrameType | None:
@@ -202,13 +204,6 @@ def _caller_frame() -> FrameType | None:
     while frame is not None and frame.f_code.co_filename == __file__:
         frame = frame.f_back
     return frame
-
-
-def _place(frame: FrameType | None) -> tuple[str, str, int]:
-    """Return file, function and line of the caller."""
-    if frame is None:
-        return "", "", 0
-    return frame.f_code.co_filename, frame.f_code.co_name, frame.f_lineno
 
 
 _root_logger = RcutilsLogger()

@@ -105,15 +105,13 @@ class AsyncParameterClient:
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
         """Set parameters from a file."""
-        given = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
-        return self.set_parameters(list(given.values()), callback)
+        return self.set_parameters(_of_file(parameter_file, use_wildcard), callback)
 
     def load_parameter_file_atomically(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future:
         """Set parameters from a file together: all or none."""
-        given = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
-        return self.set_parameters_atomically(list(given.values()), callback)
+        return self.set_parameters_atomically(_of_file(parameter_file, use_wildcard), callback)
 
     def on_parameter_event(
         self,
@@ -124,8 +122,12 @@ class AsyncParameterClient:
         """Call `callback` with every change of any node's parameters."""
         kind = INTERFACES.message("rcl_interfaces/ParameterEvent")
         return self.node.create_subscription(
-            kind, "/parameter_events", callback, qos_profile, **options
+            kind, PARAMETER_EVENTS, callback, qos_profile, **options
         )
+
+
+def _of_file(file: str, use_wildcard: bool) -> list[Any]:
+    return list(parameter_dict_from_yaml_file(file, use_wildcard).values())
 
 
 def _messages(parameters: Sequence[Any]) -> list[Any]:
@@ -133,19 +135,18 @@ def _messages(parameters: Sequence[Any]) -> list[Any]:
 
 
 @dataclass(eq=False, slots=True)
-class ParameterCallbackHandle:
-    """Handle of a callback for one parameter of one node."""
-
-    parameter_name: str
-    node_name: str
-    callback: Callable[[Any], object]
-
-
-@dataclass(eq=False, slots=True)
 class ParameterEventCallbackHandle:
     """Handle of a callback for every event."""
 
     callback: Callable[[Any], object]
+
+
+@dataclass(eq=False, slots=True)
+class ParameterCallbackHandle(ParameterEventCallbackHandle):
+    """Handle of a callback for one parameter of one node."""
+
+    parameter_name: str
+    node_name: str
 
 
 class ParameterEventHandler:
@@ -200,7 +201,7 @@ class ParameterEventHandler:
         self, parameter_name: str, node_name: str, callback: Callable[[Any], object]
     ) -> ParameterCallbackHandle:
         """Call `callback` with a parameter's message whenever it is set."""
-        handle = ParameterCallbackHandle(parameter_name, self._resolve_path(node_name), callback)
+        handle = ParameterCallbackHandle(callback, parameter_name, self._resolve_path(node_name))
         # As in ROS 2, who came last is told first.
         self._of_one.insert(0, handle)
         return handle
