@@ -255,3 +255,50 @@ def test_many_frames_that_say_the_same_are_one_line_of_evidence():
     verbose = io.StringIO()
     Console(file=verbose, width=2000).print(finding_view.render(made.judged(), verbose=True))
     assert "link11 in base_link" in verbose.getvalue()
+
+
+def frozen_marker(frame: str) -> Robot:
+    made = robot()
+    made.hears("/wall_marker", frame, 10.0, "visualization_msgs/Marker", begin=1.0)
+    kind, rows = made.heard["/wall_marker"]
+    made.heard["/wall_marker"] = (kind, [(rows[0][0], *row[1:]) for row in rows])
+    return made
+
+
+def test_messages_that_repeat_one_stamp_are_no_matter_of_the_cache_or_the_network():
+    assert ids(frozen_marker("base_link"), notes=True) == ["frozen-stamp"]
+    finding = found(frozen_marker("base_link"), "frozen-stamp")
+    assert (finding.topics, finding.count) == (("/wall_marker",), 70)
+    # In odom a marker needs no transform that moves.
+    assert ids(frozen_marker("odom"), notes=True) == []
+
+
+def test_stamps_that_repeat_while_a_slow_simulation_stands_are_not_frozen():
+    """A localiser at 50 Hz of the wall clock, and a simulation that makes a step in two seconds."""
+    made = Robot(start=12.0, log_from=START)
+    for step in range(10):
+        made.sent("odom", "base_link", 2.0 * step, drives(step), stamp=seconds(12.0 + 0.06 * step))
+        for tick in range(100):
+            at = 2.0 * step + tick / 50
+            made.sent("map", "odom", at, stamp=seconds(12.0 + 0.06 * step))
+    told = ids(made, notes=True)
+    assert "frozen-stamp" not in told
+    assert "repeated-stamp" in told
+
+
+def test_seconds_of_a_slow_network_are_no_part_of_a_clock_that_was_never_set():
+    made = Robot(log_from=START + 184 * 86_400)
+    made.moving("odom", "base_link")
+    for child in ("arm", "hand"):
+        made.moving("base_link", child, end=LASTS - 2.8, latency=2.8)
+    found_shift = found(made, "shifted-clock")
+    assert found_shift.message.startswith("all stamps are 184 days before their reception")
+    assert "3 of 3 streams" in found_shift.evidence[0]
+    assert ids(made) == ["stale-stamp"]
+    assert {child for _, child in found(made, "stale-stamp").edges} == {"arm", "hand"}
+
+
+def test_a_map_in_odometry_may_jump_as_odometry_in_a_map():
+    made = robot()
+    made.moving("odom", "map", 20.0, lambda t: (0.5 * (t > 4), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
+    assert "teleport" not in ids(made)

@@ -105,9 +105,13 @@ def test_statics_that_are_offered_to_no_late_subscriber():
     assert found(made, "static-not-latched").topics == ("/tf_static",)
 
 
-def test_statics_spread_over_messages_are_a_note():
+def test_statics_in_more_messages_than_a_player_keeps_are_a_note():
+    """rosbag2 offers the last ten messages to late subscribers, whoever sent them."""
     made = robot()
-    made.static("base_link", "camera", at=0.1)
+    for number in range(9):
+        made.static("base_link", f"camera_{number}", at=0.1)
+    assert ids(made, notes=True) == []
+    made.static("base_link", "imu", at=0.2)
     assert found(made, "latched-overwrite").frames == ("laser",)
 
 
@@ -207,3 +211,30 @@ def test_a_player_latches_one_message_for_each_publisher_that_is_known():
     made.sent("base_link", "imu", 0.1, topic="/tf_static", node="/camera")
     finding = found(made, "latched-overwrite")
     assert (finding.frames, finding.publishers) == (("camera",), ("/camera",))
+
+
+def test_a_gap_explains_waits_only_where_all_that_is_late_falls_into_it():
+    def gapped(latency: float) -> Robot:
+        made = robot(odometry=False)
+        made.moving("odom", "base_link", 50.0, without=(3.0, 4.0), latency=latency)
+        return made
+
+    assert found(gapped(0.005), "sensor-outruns-tf").because_of == "gap"
+    # Each transform is 200 ms late: that is so without the gap, too.
+    assert found(gapped(0.2), "sensor-outruns-tf").because_of is None
+
+
+@pytest.mark.parametrize("frame", ["map", "odom"])
+def test_what_is_placed_in_the_world_waits_for_no_transform_of_the_robot(frame):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", latency=0.005)
+    made.moving("map", "odom", 5.0, latency=0.2)
+    made.hears("/goal", frame, kind="geometry_msgs/PoseStamped")
+    assert ids(made, notes=True) == []
+
+
+def test_a_mount_sent_on_tf_that_holds_up_a_sensor_belongs_on_tf_static():
+    made = robot(laser=False)
+    made.moving("base_link", "laser", 4.0, stands)
+    cures = [fix.text for fix in found(made, "sensor-outruns-tf").fixes]
+    assert any("laser in base_link" in cure and "/tf_static" in cure for cure in cures)

@@ -199,4 +199,4 @@ def test_odometry_of_a_pair_that_tf_does_not_join_is_a_note():
     made = robot(odometry=False)
     made.static("map", "odom")
     made.odometry = says(drives)
-    assert ids(made, notes=True) == ["split-tree", "latched-overwrite"]
+    assert ids(made, notes=True) == ["split-tree"]

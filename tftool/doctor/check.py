@@ -53,7 +53,8 @@ class Check:
         why: Why the rule and its thresholds are as they are; empty where that is plain.
         because_of: Findings that explain this one: what both must share, and the ids of the
             causes. "edge", "child", "frame": at least one; "stream": an edge or a topic;
-            "path": an edge of the way to the sensor, or the topic; "anything": nothing.
+            "path": an edge of the way to the sensor, or the topic; "gap": likewise, where all
+            that is late falls into gaps; "anything": nothing.
             The first that fits counts.
     """
 

@@ -2,12 +2,13 @@
 
 from collections import defaultdict
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from tftool.base.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 from tftool.doctor.check import checks_of, threads
-from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fix, Hit, Severity
+from tftool.doctor.findings import STALE_AFTER, Area, Confidence, Fact, Fix, Hit, Severity
 from tftool.doctor.model import Limits, Model
 from tftool.doctor.stamp_stream import JOINT_STATES, Heard, Track, unsorted_share
 from tftool.doctor.wording import several, span
@@ -116,13 +117,23 @@ def _name(stream: "Track | Heard") -> str:
     return stream.name if isinstance(stream, Track) else stream.topic
 
 
+def _hit(stream: "Track | Heard", facts: dict[str, Fact], **given: Any) -> Hit:
+    """Return a hit about an edge or a topic; `given` are other attributes of `Hit`."""
+    given = {"since": int(stream.logs[0]), "count": len(stream.stamps), **given}
+    facts = {"what": _name(stream), **facts}
+    if isinstance(stream, Track):
+        return Hit(edges=(stream.edge,), publishers=stream.nodes, facts=facts, **given)
+    return Hit(topics=(stream.topic,), frames=(stream.frame,), facts=facts, **given)
+
+
 @check(
     "shifted-clock",
     Severity.NOTE,
     rule="more than half of all streams are stamped by one constant of more than 2 s before "
     "or after their reception, to within 1 s",
-    headline="all stamps are {by:span} {side} their reception, constant to {spread:span}",
-    detail="{streams} streams; latencies and the cache are judged against the clock of the stamps",
+    headline="{most} stamps are {by:span} {side} their reception, constant to {spread:span}",
+    detail="{streams} of {of} streams; latencies and the cache are judged against the clock of the "
+    "stamps",
     consequence="none for lookups within the recording; a live listener on another computer "
     "refuses all of it",
     fixes=(Fix("set the clock of the robot (chrony, NTP), if it was not played again on purpose"),),
@@ -146,6 +157,8 @@ def shifted_clock(model: Model, limits: Limits) -> Iterator[Hit]:
             "side": "before" if model.shift.by > 0 else "after",
             "spread": model.shift.spread,
             "streams": model.shift.streams,
+            "of": model.shift.of,
+            "most": "all" if model.shift.streams == model.shift.of else "most",
         },
         alone=True,
     )
@@ -256,22 +269,14 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         off = one.latency[beside] - one.latency[places]
         worst = int(np.abs(off).argmax())
         place = int(places[worst])
-        yield Hit(
-            edges=(one.edge,) if isinstance(one, Track) else (),
-            topics=() if isinstance(one, Track) else (one.topic,),
-            frames=() if isinstance(one, Track) else (one.frame,),
-            publishers=one.nodes if isinstance(one, Track) else (),
-            since=int(one.logs[place]),
-            count=len(places),
-            facts={
-                "what": _name(one),
-                "count": len(places),
-                "of": len(one.stamps),
-                "stamp": int(one.stamps[place]),
-                "off": abs(int(off[worst])),
-                "side": "ahead of" if off[worst] > 0 else "behind",
-            },
-        )
+        facts: dict[str, Fact] = {
+            "count": len(places),
+            "of": len(one.stamps),
+            "stamp": int(one.stamps[place]),
+            "off": abs(int(off[worst])),
+            "side": "ahead of" if off[worst] > 0 else "behind",
+        }
+        yield _hit(one, facts, since=int(one.logs[place]), count=len(places))
 
 
 @check(
@@ -299,9 +304,9 @@ def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     because_of=(
         ("anything", "time-jump-back"),
         ("stream", "clock-mixture"),
+        ("stream", "frozen-stamp"),
         ("stream", "cache-short"),
         ("stream", "clock-offset"),
-        ("edge", "frozen-stamp"),
     ),
 )
 def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
@@ -313,26 +318,13 @@ def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
             least = max(least, track.period)
         if len(track.stamps) > 1 and track.median_latency > least:
             severity = Severity.ERROR if track.median_latency > cache else Severity.WARNING
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                since=int(track.logs[0]),
-                count=len(track.stamps),
-                severity=severity,
-                facts={"what": track.name, "late": track.median_latency},
-            )
+            yield _hit(track, {"late": track.median_latency}, severity=severity)
     for heard in model.heard:
-        # A latched message is old by intention.
-        if len(heard.stamps) < 3 or not heard.is_spatial:
+        # A latched message is old by intention, and where nothing moves an old one is as good.
+        if len(heard.stamps) < 3 or not heard.is_spatial or model.rests(heard.frame):
             continue
         if heard.median_latency > limits["messages"] * NANOSECONDS:
-            yield Hit(
-                topics=(heard.topic,),
-                frames=(heard.frame,),
-                since=int(heard.logs[0]),
-                count=len(heard.stamps),
-                facts={"what": heard.topic, "late": heard.median_latency},
-            )
+            yield _hit(heard, {"late": heard.median_latency})
 
 
 @check(
@@ -495,46 +487,60 @@ def zero_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "frozen-stamp",
     Severity.WARNING,
-    rule="one stamp is sent {times:g} times or more, over more than {seconds:g} s",
+    rule="one stamp is sent {times:g} times or more, while the clock of the stamps goes on by "
+    "more than {seconds:g} s; messages only if a moving transform places them",
     headline="{where} {concerned:repeats|repeat} one stamp",
-    detail="{edge}: {stamp:moment} {count:times}, for {lasted:span}",
-    consequence="lookups at any other time refuse: the buffer holds only that stamp",
-    fixes=(Fix("set the stamp inside the loop: t.header.stamp = self.get_clock().now().to_msg()"),),
+    detail="{what}: {stamp:moment} {count:times}, for {lasted:span}",
+    consequence="{so}",
+    fixes=(
+        Fix("set the stamp inside the loop: {name}.header.stamp = self.get_clock().now().to_msg()"),
+    ),
     causes=("the stamp is set once, before the loop",),
     limits={"times": 10, "seconds": 1.0},
     needs=("log times",),
+    why="while a slow simulation's clock stands still, stamps repeat as they should",
     because_of=(("edge", "zero-stamp"),),
 )
 def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """A stamp is repeated without change."""
-    for track in model.dynamic:
-        frozen = _frozen(track, limits)
-        if frozen is not None:
-            stamp, count, lasted = frozen
-            yield Hit(
-                edges=(track.edge,),
-                publishers=track.nodes,
-                since=int(track.logs[0]),
-                count=count,
-                facts={"edge": track.name, "count": count, "stamp": stamp, "lasted": lasted},
-            )
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    for one in streams:
+        frozen = _frozen(one, limits)
+        if frozen is None:
+            continue
+        stamp, count, lasted = frozen
+        facts: dict[str, Fact] = {"count": count, "stamp": stamp, "lasted": lasted}
+        if isinstance(one, Track):
+            facts |= {
+                "edge": one.name,
+                "name": "t",
+                "so": "lookups at any other time refuse: the buffer holds only that stamp",
+            }
+        elif one.frame not in model.frames or model.rests(one.frame):
+            continue
+        else:
+            facts |= {
+                "name": "message",
+                "so": "each is placed where its frame was at that time, and refused once the cache "
+                "has forgotten it",
+            }
+        yield _hit(one, facts, count=count, alone="edge" not in facts)
 
 
-def _frozen(track: Track, limits: Limits) -> tuple[int, int, int] | None:
-    """Return a repeated stamp, its count, and its duration."""
-    if track.is_orderly and limits["times"] > 1:
+def _frozen(stream: "Track | Heard", limits: Limits) -> tuple[int, int, int] | None:
+    """Return a repeated stamp, its count, and its duration on the clock of the stamps."""
+    stamps = stream.stamps
+    if limits["times"] > 1 and not (stamps[1:] == stamps[:-1]).any():
         return None
-    if len(track.steps) == len(track.stamps) - 1 and limits["times"] > 1:
-        return None  # each stamp comes once
-    stamped = track.stamps != 0
+    stamped = stamps != 0
     if np.count_nonzero(stamped) < max(limits["times"], 1):
         return None
-    values, counts = np.unique(track.stamps[stamped], return_counts=True)
+    values, counts = np.unique(stamps[stamped], return_counts=True)
     most = int(np.argmax(counts))
     if counts[most] < limits["times"]:
         return None
-    logs = track.logs[track.stamps == values[most]]
-    lasted = int(logs.max() - logs.min())
+    arrivals = stream.arrivals[stamps == values[most]]
+    lasted = int(arrivals.max() - arrivals.min())
     if lasted <= limits["seconds"] * NANOSECONDS:
         return None
     return int(values[most]), int(counts[most]), lasted

@@ -354,18 +354,20 @@ def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
 @check(
     "latched-overwrite",
     Severity.NOTE,
-    rule="the last static message lacks some children; if publishers are known, the last one"
-    " of the same publisher",
+    rule="the last static message of a publisher lacks some children; where publishers are "
+    "unknown, as in rosbag2, the last {kept:g} messages do",
     headline="statics are in {messages} messages",
-    detail="the last lacks {lost}",
-    consequence="a player that publishes them from one node keeps only the last for late listeners",
+    detail="{told} {lost}",
+    consequence="a player keeps only so many for late listeners",
     fixes=(
         Fix("start listeners before playing"),
         Fix("or combine them in one message:", "tftool edit RECORDING -o WHOLE --statics-first"),
     ),
     causes=("several static publishers",),
     links=threads("ros/ros_comm#706", "ros2/geometry2#585"),
+    limits={"kept": 10},
     needs=("recording",),
+    why="rosbag latches the last message of each publisher, and rosbag2 keeps the last ten",
 )
 def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
     """Statics are in several messages, and playback keeps only the last."""
@@ -377,14 +379,20 @@ def latched_overwrite(model: Model, limits: Limits) -> Iterator[Hit]:
             node = transforms.publishers[transforms.senders[message]].node
             held[node][message].add(edge.child)
     for node, messages in held.items():
-        last = max(messages, key=lambda one: (int(transforms.log_times[one]), one))
-        lost = sorted(set().union(*messages.values()) - messages[last])
+        order = sorted(messages, key=lambda one: (int(transforms.log_times[one]), one))
+        lasts = order[-1 if node else -int(limits["kept"]) :]
+        lost = sorted(set().union(*messages.values()).difference(*(messages[n] for n in lasts)))
         if lost:
             yield Hit(
                 frames=tuple(lost),
                 publishers=(node,) if node else (),
                 count=len(messages),
-                facts={"messages": len(messages), "lost": lost, "kept": len(messages[last])},
+                facts={
+                    "messages": len(messages),
+                    "lost": lost,
+                    "kept": sum(len(messages[number]) for number in lasts),
+                    "told": "the last lacks" if node else f"the last {len(lasts)} lack",
+                },
                 alone=True,
             )
 
@@ -394,11 +402,13 @@ class Waits:
     """Waiting times until each message of a topic can be placed in a frame.
 
     Attributes:
+        stamps: The messages' stamps, shape (n,).
         waits: Time from arrival until it can be placed, nanoseconds, shape (n,); or NEVER.
         link: The edge that holds it up most.
         links: The moving edges on the way.
     """
 
+    stamps: Stamps
     waits: Stamps
     link: Track
     links: tuple[Track, ...]
@@ -438,14 +448,14 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
     latest = served.max(axis=0)
     waits = np.where(latest == NEVER, NEVER, np.maximum(latest - arrivals, 0))
     blame = np.bincount(served.argmax(axis=0)[waits > 0], minlength=len(links))
-    return Waits(waits, links[int(blame.argmax())], tuple(links))
+    return Waits(stamps, waits, links[int(blame.argmax())], tuple(links))
 
 
 @check(
     "sensor-outruns-tf",
     Severity.WARNING,
-    rule="the 95 % quantile of the waits for the last transform that a message needs is "
-    "{seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
+    rule="the 95 % quantile of the waits for the last transform that a message on the robot needs "
+    "is {seconds:g} s or more, or a share above {never:g} never gets it. A note if a share"
     " above {refused:g} has to wait and the quantile is {note:g} s or more. At least "
     "{messages:g} messages",
     headline="{topic} arrives before the transforms it needs",
@@ -476,18 +486,22 @@ def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Wa
         ("stream", "clock-mixture"),
         (
             "path",
-            "gap edge-stopped stale-stamp clock-offset zero-stamp frozen-stamp single-sample "
+            "edge-stopped stale-stamp clock-offset zero-stamp frozen-stamp single-sample "
             "nan-transform future-stamp loop",
         ),
+        ("gap", "gap"),
         ("frame", "loop"),
     ),
 )
 def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     """Lookups at the sensor's stamps refuse, because transforms arrive later."""
     fixed = model.sensor_frame
+    around = {track.parent for track in model.above(fixed)}
     for heard in model.heard:
         if not heard.is_spatial or len(heard.stamps) < limits["messages"]:
             continue
+        if heard.frame in around or last_part(heard.frame) in _WORLDS:
+            continue  # where it is in the world is known without the robot
         waits = waits_of(model, heard, fixed)
         if waits is None:
             continue
@@ -526,10 +540,23 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
                 "latency": link.median_latency,
                 "arrives": arrival(link.median_latency),
                 "path": [list(track.edge) for track in waits.links],
+                "gap": _only_in_holes(waits, limits["seconds"]),
             },
             fixes=_cures(heard, waits, limits["seconds"]),
             alone=True,
         )
+
+
+_WORLDS = frozenset({"map", "world", "earth"})
+
+
+def _only_in_holes(waits: Waits, wait: float) -> bool:
+    """Whether few messages wait too long but those stamped in a gap of a link."""
+    late = waits.waits > wait * NANOSECONDS
+    for link in waits.links:
+        for begin, end in holes(link, gap.limits):
+            late &= (waits.stamps <= begin) | (waits.stamps > end)
+    return float(np.count_nonzero(late)) <= 0.05 * len(late)
 
 
 def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
@@ -544,6 +571,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     ahead = Fix(
         f"or date {waits.link.name} {math.ceil(worst / 1e6)} ms further ahead (transform_tolerance)"
     )
+    mount = Fix(f"or, if {waits.link.name} is a mount, as it never moved: send it on /tf_static")
     return (
         Fix(
             f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms is enough for all "
@@ -551,6 +579,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
         ),
         *((Fix(f"or {often}") if later < wait * NANOSECONDS else Fix(often),) if often else ()),
         *((ahead,) if waits.link.is_localisation else ()),
+        *((mount,) if not waits.link.moves else ()),
         Fix(f"let the message filter's queue hold {depth} message{'s' * (depth > 1)}"),
     )
 
@@ -607,12 +636,12 @@ def least_rate(link: str, period: int, later: int, wait: float) -> str:
         "log times",
         "headers",
     ),
-    because_of=(("stream", "clock-mixture"),),
+    because_of=(("stream", "clock-mixture frozen-stamp"),),
 )
 def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     """Messages are older than the cache time when they arrive."""
     for heard in model.heard:
-        if not heard.is_spatial or len(heard.stamps) < 3:
+        if not heard.is_spatial or len(heard.stamps) < 3 or model.rests(heard.frame):
             continue
         latency = heard.latency[heard.stamps != 0]
         if not len(latency):
@@ -656,7 +685,7 @@ def cache_short(model: Model, limits: Limits) -> Iterator[Hit]:
     why="every recording needs its first second to start, and a localiser that stamps ahead"
     " always loses that time",
     because_of=(
-        ("stream", "clock-mixture"),
+        ("stream", "clock-mixture frozen-stamp"),
         ("edge", "wild-stamp"),
     ),
 )

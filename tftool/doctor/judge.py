@@ -255,7 +255,9 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
             return bool(children & mine) or bool(parents & set(hit.frames))
         case "frame":
             return bool(set(hit.frames) & set(cause.frames))
-        case "path":
+        case "gap" if not hit.facts.get("gap"):
+            return False
+        case "path" | "gap":
             path = hit.facts.get("path")
             edges = {(str(a), str(b)) for a, b in path} if isinstance(path, list) else set()
             return bool((edges | set(hit.edges)) & set(cause.edges)) or bool(

@@ -49,6 +49,8 @@ def proposed_join(model: Model, main: Tree, lesser: Tree) -> Join | None:
         found = _described(model, tree.root, other.frames) or _in_odometry(model, tree, other)
         if found is not None:
             return found
+    if (replaced := _replaced(model, main, lesser)) is not None:
+        return replaced
     if _are_two_robots(main, lesser):
         text = (
             f"two robots: give both a frame in common, as a map that the localiser of each places "
@@ -115,6 +117,17 @@ def _in_odometry(model: Model, tree: Tree, other: Tree) -> Join | None:
     return None
 
 
+def _replaced(model: Model, main: Tree, lesser: Tree) -> Join | None:
+    """Return how a transform that joins two trees lost its child to another parent."""
+    for track in model.tracks:
+        ends = {model.tree_of[name].root for name in track.edge}
+        if ends == {main.root, lesser.root}:
+            other = model.parents[track.child].parent
+            why = f"{track.name} joined them until {track.child} got the parent {other}"
+            return Join(track.edge, why, Fix(f"{why}: keep one of the two parents"), guess=False)
+    return None
+
+
 def _localised(tree: Tree, other: Tree) -> Join | None:
     """Propose map to odom, by REP-105, if one tree has a map and the other's root is odometry."""
     if not last_part(tree.root).startswith(("odom", "camera_init")):
@@ -133,8 +146,8 @@ def _by_another_name(tree: Tree, other: Tree) -> Join | None:
     for name in sorted(other.frames):
         if _prefix(name) != _prefix(root) or _core(name) != _core(root):
             continue
-        why = f"{name} is near: {root} may be the same frame by another name"
-        fix = Fix(f"{why}; if so:", static_publisher(name, root, Transform()))
+        why = f"{name} is near: {root} may be a frame of the same part"
+        fix = Fix(f"{why}; if so, publish where it is:", static_publisher(name, root))
         return Join((name, root), why, fix)
     return None
 

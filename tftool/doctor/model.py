@@ -63,11 +63,13 @@ class Shift:
         by: Time from stamp to reception of most messages, nanoseconds; negative if stamped later.
         spread: Deviation of `by`: the median of the streams, nanoseconds.
         streams: How many streams have it.
+        of: How many streams there are.
     """
 
     by: Duration
     spread: Duration
     streams: int
+    of: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,6 +257,11 @@ class Model:
         legs = up_to_join(frame, other, self.above)
         return None if legs is None else legs[0] + legs[1]
 
+    def rests(self, frame: str) -> bool:
+        """Whether no transform that moves lies between a frame and the fixed one."""
+        path = self.path(frame, self.fixed_frame)
+        return path is not None and all(track.static for track in path)
+
     def below(self, frame: str) -> frozenset[str]:
         """Return a frame and all its descendants by the newest parents."""
         found: set[str] = set()
@@ -383,10 +390,16 @@ class Model:
 
     def _find_shift(self, streams: list[Stream]) -> None:
         """Find the constant by which most stamps differ from arrivals, and remove it."""
-        late, spreads = [], []
+        late, spreads, moving = [], [], []
         for stream in streams:
-            is_static = isinstance(stream, Track) and stream.static
-            if is_static or len(stream.stamps) < 3 or sum(stream.families) != stream.families[1]:
+            is_moving = False
+            if isinstance(stream, Track):
+                if stream.static:
+                    continue
+                is_moving = stream.moves and not stream.is_localisation
+            elif isinstance(stream, Heard) and not stream.is_spatial:
+                continue
+            if len(stream.stamps) < 3 or sum(stream.families) != stream.families[1]:
                 continue
             if not stream.families[1]:
                 continue
@@ -394,15 +407,20 @@ class Model:
             low, middle, high = np.percentile(delays, (10, 50, 90), method="nearest").tolist()
             late.append(int(middle))
             spreads.append(int(high) - int(low))
+            if is_moving:
+                moving.append(int(middle))
         by = sorted(late)[len(late) // 2] if late else 0
         # One stream alone may be late by seconds of its own fault, and by hours hardly.
         if abs(by) <= (SHIFT if len(late) > 1 else WILD):
             return
-        alike = [spread for one, spread in zip(late, spreads, strict=True) if abs(one - by) < LAP]
+        # Beside days, seconds are the delay of a network; what it delays least tells the clock.
+        near = max(LAP, abs(by) // 10_000)
+        alike = [spread for one, spread in zip(late, spreads, strict=True) if abs(one - by) < near]
         spread = sorted(alike)[len(alike) // 2]
         if 2 * len(alike) <= len(late) or spread > LAP:
             return
-        self.shift = Shift(by, spread, len(alike))
+        by = min([one for one in moving if LAP <= by - one < near], default=by)
+        self.shift = Shift(by, spread, len(alike), len(late))
         for stream in streams:
             is_wall = stream.stamps >= SIMULATED_BELOW
             stream.arrivals = np.where(is_wall, stream.logs - by, stream.logs)

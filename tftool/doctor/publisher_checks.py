@@ -687,4 +687,7 @@ def _switches_off(track: Track) -> Fix:
             "enable_odom_tf: false (diff_drive_controller), publish_odom_tfs: false (Create 3), "
             "publish_tf: false (robot_localization, RTAB-Map odometry)"
         )
-    return Fix("stop one of the two publishers, or give the frames of one another name")
+    return Fix(
+        "stop one of the two publishers, or give the frames of one another name; for a joint, look "
+        "also for two publishers of its state"
+    )

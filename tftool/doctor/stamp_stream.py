@@ -294,8 +294,13 @@ class Track(Stream):
 
     @cached_property
     def is_localisation(self) -> bool:
-        """Whether REP-105 lets the edge jump: it places odometry or a map in a larger frame."""
+        """Whether REP-105 lets the edge jump: it places odometry or a map in a larger frame.
+
+        Some localisers publish the inverse, the map in odometry.
+        """
         parent, child = last_part(self.parent), last_part(self.child)
+        if parent.startswith("odom"):
+            return child.startswith("map")
         return parent in ("map", "earth", "world") and child.startswith(("odom", "map"))
 
     @cached_property
