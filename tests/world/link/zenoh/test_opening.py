@@ -54,8 +54,8 @@ class LateWire:
     zid = "0a"
     neighbours = frozenset()
 
-    def __init__(self, reach, local):
-        self.others = frozenset(local.others)
+    def __init__(self, reach, place):
+        self.others = frozenset(place.others)
         self.looks = 0
 
     @property

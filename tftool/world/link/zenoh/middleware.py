@@ -17,7 +17,7 @@ from tftool.world.link.zenoh import keys, rendezvous
 from tftool.world.link.zenoh.keys import Attachment, Token
 from tftool.world.link.zenoh.reach import SECURED, ZenohReach, protocol_of
 from tftool.world.link.zenoh.rendezvous import Rendezvous
-from tftool.world.link.zenoh.transport import KeyPublisher, Local, Query, Sample, Wire
+from tftool.world.link.zenoh.transport import KeyPublisher, Query, Sample, Wire
 
 SERVICE: Final = Quality(depth=10)
 """ROS 2's quality of services."""
@@ -66,19 +66,15 @@ class ZenohMiddleware(Middleware):
         self._nodes: dict[str, int] = {}
         self._numbers = 0
         self._stops: list[Callable[[], None]] = []
-        others: dict[str, int] = {}
-        local = Local()
         # Without sockets a password guards this machine's processes; zenoh asks it of all
         # that connect, other machines' too, which cannot know it.
         outward = bool(reach.listen or reach.connect)
         if reach.config is None and (rendezvous.HAS_UNIX_SOCKETS or not outward):
-            self._place = place = Rendezvous(options.domain)
-            place.enter()
-            others = place.others
-            passwords = place.folder / rendezvous.PASSWORDS
-            local = Local(place.endpoint, tuple(others), place.password, passwords)
+            self._place = Rendezvous(options.domain)
+            self._place.enter()
+        others = {} if self._place is None else self._place.others
         try:
-            self.wire = Wire(reach, local)
+            self.wire = Wire(reach, self._place)
         except BaseException:
             self._leave()
             raise

@@ -6,9 +6,7 @@ import json
 import sys
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from tftool.base.errors import LinkError
@@ -17,7 +15,7 @@ from tftool.world.endpoints import Quality
 from tftool.world.link.inbox import Inbox
 from tftool.world.link.outbox import Outbox
 from tftool.world.link.zenoh.reach import ZenohReach
-from tftool.world.link.zenoh.rendezvous import USER
+from tftool.world.link.zenoh.rendezvous import PASSWORDS, USER, Rendezvous
 
 
 class Sample(NamedTuple):
@@ -78,23 +76,6 @@ class KeyPublisher:
             self._outbox.put(self._publisher.undeclare)
 
 
-@dataclass(frozen=True, slots=True)
-class Local:
-    """Rules by which a process meets the others of its machine.
-
-    Attributes:
-        endpoint: Endpoint on which it listens, "" for none.
-        others: Their endpoints.
-        password: Their shared password, "" where none is needed.
-        passwords: The file that has it, as zenoh reads it.
-    """
-
-    endpoint: str = ""
-    others: tuple[str, ...] = ()
-    password: str = ""
-    passwords: Path = Path()
-
-
 class Wire:
     """An open zenoh session.
 
@@ -103,18 +84,18 @@ class Wire:
         oversized: Number of messages above the size limit.
     """
 
-    def __init__(self, reach: ZenohReach, local: Local) -> None:
+    def __init__(self, reach: ZenohReach, place: Rendezvous | None) -> None:
         """Open the session; callbacks are queued until `start`.
 
         Args:
             reach: Reach beyond this machine.
-            local: Meeting point of this machine's processes.
+            place: Meeting point of this machine's processes, if there is one.
 
         Raises:
             LinkError: If zenoh is missing, or an endpoint cannot be used.
         """
         self._zenoh = import_zenoh()
-        self._session = open_zenoh(self._zenoh, reach, local)
+        self._session = open_zenoh(self._zenoh, reach, place)
         self.zid = str(self._session.zid())
         self.oversized = 0
         self._inbox = Inbox()
@@ -375,13 +356,13 @@ def import_zenoh() -> Any:
     return zenoh
 
 
-def open_zenoh(zenoh: Any, reach: ZenohReach, local: Local) -> Any:
+def open_zenoh(zenoh: Any, reach: ZenohReach, place: Rendezvous | None) -> Any:
     """Open a zenoh session.
 
     Args:
         zenoh: The library.
         reach: Reach beyond this machine.
-        local: Meeting point of this machine's processes.
+        place: Meeting point of this machine's processes, if there is one.
 
     Raises:
         LinkError: If an endpoint or a file cannot be used.
@@ -393,7 +374,7 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, local: Local) -> Any:
             config.insert_json5("timestamping/enabled", "true")
         else:
             config = zenoh.Config()
-            for key, value in settings(reach, local).items():
+            for key, value in settings(reach, place).items():
                 config.insert_json5(key, json.dumps(value))
         return zenoh.open(config)
     except Exception as error:
@@ -404,15 +385,15 @@ def open_zenoh(zenoh: Any, reach: ZenohReach, local: Local) -> Any:
         ) from error
 
 
-def settings(reach: ZenohReach, local: Local) -> dict[str, Any]:
+def settings(reach: ZenohReach, place: Rendezvous | None) -> dict[str, Any]:
     """Return zenoh's settings; its defaults would listen on every interface."""
     outward = bool(reach.listen or reach.connect)
     found: dict[str, Any] = {
         # A router passes on between this machine's processes, which know each other
         # directly, and the world outside; a peer passes nothing on.
         "mode": "router" if outward else "peer",
-        "listen/endpoints": [*([local.endpoint] if local.endpoint else []), *reach.listen],
-        "connect/endpoints": [*local.others, *reach.connect],
+        "listen/endpoints": [*([] if place is None else [place.endpoint]), *reach.listen],
+        "connect/endpoints": [*([] if place is None else place.others), *reach.connect],
         "listen/exit_on_failure": True,
         "connect/timeout_ms": -1,
         "connect/exit_on_failure": False,
@@ -429,11 +410,11 @@ def settings(reach: ZenohReach, local: Local) -> dict[str, Any]:
         "transport/unicast/accept_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
         "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTED,
     }
-    if local.password:
+    if place is not None and place.password:
         found |= {
             "transport/auth/usrpwd/user": USER,
-            "transport/auth/usrpwd/password": local.password,
-            "transport/auth/usrpwd/dictionary_file": str(local.passwords),
+            "transport/auth/usrpwd/password": place.password,
+            "transport/auth/usrpwd/dictionary_file": str(place.folder / PASSWORDS),
         }
     if reach.certificates is not None:
         files = reach.certificates
