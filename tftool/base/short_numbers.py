@@ -1,8 +1,13 @@
-"""Short text for durations, rates and sizes, and JSON-safe numbers."""
+"""Short text for counts, durations, rates and sizes, and JSON-safe numbers."""
 
 import math
 
 from tftool.base.stamps import Duration, as_seconds
+
+
+def count(number: int, word: str) -> str:
+    """Return a number with its noun: "1 link", "2,104 links"."""
+    return f"{number:,} {word}" if number == 1 else f"{number:,} {word}s"
 
 
 def short_duration(duration: Duration) -> str:

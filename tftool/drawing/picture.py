@@ -10,9 +10,8 @@ from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from tftool.base.counts import count
 from tftool.base.escaping import distinct, visible
-from tftool.base.short_numbers import short_duration
+from tftool.base.short_numbers import count, short_duration
 from tftool.base.stamps import Duration
 from tftool.buffer.sample import Snapshot
 from tftool.drawing.drawn_forest import Forest, facts, grow, recorded_at

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from tftool.base.counts import count
 from tftool.base.escaping import visible
+from tftool.base.short_numbers import count
 from tftool.drawing.recording_view import table, wrapped
 from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot

@@ -3,8 +3,8 @@
 from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from tftool.base.counts import count
 from tftool.base.escaping import visible
+from tftool.base.short_numbers import count
 from tftool.recordings.odometry import implying
 
 if TYPE_CHECKING:

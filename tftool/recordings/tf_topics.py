@@ -10,9 +10,9 @@ from typing import Final
 
 import numpy as np
 
-from tftool.base.counts import count
 from tftool.base.errors import InputError
 from tftool.base.near_names import near_names
+from tftool.base.short_numbers import count
 from tftool.recordings.contract import Edge, Progress, Source, Transforms
 
 SHARED_ROOTS: Final = frozenset({"earth", "map", "world"})

@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 
-from tftool.base.counts import count
 from tftool.base.errors import NodeFailed
 from tftool.base.escaping import visible
+from tftool.base.short_numbers import count
 from tftool.base.stamps import Duration, as_seconds
 from tftool.buffer.sample import Snapshot
 from tftool.geometry.planar import heading

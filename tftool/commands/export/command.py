@@ -5,10 +5,10 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from tftool.base.counts import count
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.short_numbers import count
 from tftool.base.stamps import LATEST, Duration
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse

@@ -4,10 +4,10 @@ import json
 import sys
 from pathlib import Path
 
-from tftool.base.counts import count
 from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.short_numbers import count
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.open_from import open_from

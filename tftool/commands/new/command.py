@@ -10,9 +10,9 @@ import tempfile
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
-from tftool.base.counts import count
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
+from tftool.base.short_numbers import count
 from tftool.commands.new import EXAMPLES
 from tftool.commands.new.blanks import with_blanks
 from tftool.commands.shared.contradictions import refuse

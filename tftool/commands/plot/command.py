@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from rich.console import Console
 
-from tftool.base.counts import count
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.short_numbers import count
 from tftool.base.stamps import Duration, Stamp
 from tftool.commands.plot.plot_style import PlotStyle
 from tftool.commands.shared.connection import Connection

@@ -9,12 +9,11 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from tftool.base.counts import count
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.near_names import near_names
-from tftool.base.short_numbers import short_size
+from tftool.base.short_numbers import count, short_size
 from tftool.base.stamps import seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session

@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from tftool.base.counts import count
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.near_names import did_you_mean
+from tftool.base.short_numbers import count
 from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session

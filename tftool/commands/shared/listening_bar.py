@@ -9,7 +9,7 @@ from rich.live import Live
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.text import Text
 
-from tftool.base.counts import count
+from tftool.base.short_numbers import count
 from tftool.base.stamps import Duration, as_seconds
 from tftool.world.clock import WallClock
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from tftool.base.counts import count
 from tftool.base.escaping import visible
+from tftool.base.short_numbers import count
 
 if TYPE_CHECKING:
     from tftool.buffer.buffer import Buffer

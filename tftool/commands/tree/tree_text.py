@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from rich.console import Console
 from rich.text import Text
 
-from tftool.base.counts import count
+from tftool.base.short_numbers import count
 from tftool.buffer.sample import Snapshot
 from tftool.drawing import frame_tree
 from tftool.drawing.frame_tree import NOTHING, Marks, advice, compact

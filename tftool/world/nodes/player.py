@@ -1,6 +1,6 @@
 """A node that plays a recording's transforms at its own or another rate."""
 
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from tftool.base.stamps import NANOSECONDS, Duration, Stamp, seconds
 from tftool.buffer.clock_jumps import FELL_BACK, LEAST_FALL
@@ -13,6 +13,7 @@ from tftool.world.world import World
 
 if TYPE_CHECKING:
     from tftool.recordings.timeline import Due, Timeline
+    from tftool.world.link.feed import TopicFeed
 
 CLOCK_QUALITY: Final = Quality(depth=10)
 
@@ -27,19 +28,6 @@ RECENT: Final = seconds(1)
 
 SLOWEST, FASTEST = 0.01, 100.0
 """Rates that a player takes."""
-
-
-class Feed(Protocol):
-    """Sender of other topics' messages."""
-
-    def seek(self, moment: Stamp) -> None:
-        """Continue from a time."""
-
-    def send_until(self, moment: Stamp) -> None:
-        """Send everything due up to a time."""
-
-    def next_due(self) -> Stamp | None:
-        """Return the time of the next message; None at the end."""
 
 
 class Player(Node):
@@ -69,7 +57,7 @@ class Player(Node):
         is_restamped: bool = False,
         is_silent: bool = False,
         names_topics: bool = False,
-        feed: Feed | None = None,
+        feed: "TopicFeed | None" = None,
     ) -> None:
         """Add the node to a world.
 

@@ -1,0 +1,20 @@
+"""The exit statuses of the `tftool` command.
+
+A module of its own, because the command imports it before it can handle a signal.
+"""
+
+from enum import IntEnum
+
+
+class ExitStatus(IntEnum):
+    """Exit status of a command."""
+
+    DONE = 0
+    FAILED = 1
+    """An expectation or a node failed, or a check found something."""
+    WRONG_USAGE = 2
+    UNREADABLE = 3
+    """The input cannot be read."""
+    NO_TRANSFORM = 4
+    """The transform is not available."""
+    INTERRUPTED = 130
