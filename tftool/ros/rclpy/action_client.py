@@ -3,9 +3,9 @@
 import asyncio
 from collections.abc import Callable
 from enum import IntEnum
+from functools import partial
 from typing import Any, NamedTuple
 
-from tftool.base.errors import TftoolError
 from tftool.messages.classes import INTERFACES, duplicate
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import Requester
@@ -71,7 +71,7 @@ class ClientGoalHandle:
 
     def cancel_goal_async(self) -> Future:
         """Ask the server to cancel; return a future of its response."""
-        return self._client.cancel(self, self._goal)
+        return self._client.promise(partial(_cancelled, self._goal, self.goal_id))
 
     def cancel_goal(self) -> Any:
         """Ask the server to cancel, and block until it has responded."""
@@ -124,7 +124,6 @@ class ActionClient(Requester):
         """
         if not isinstance(goal, self.type_.Goal):
             raise TypeError(f"Expected {self.type_.Goal}, got {type(goal)}")
-        future = Future(executor=self.seat.executor)
         goal_id = goal_uuid or goal_id_message(new_goal_id())
         copy = duplicate(goal)
 
@@ -135,23 +134,16 @@ class ActionClient(Requester):
             told = feedback_callback
             self.put(lambda: told(_Feedback(goal_id, message)))
 
-        async def send() -> None:
-            world = self.seat.world
+        async def send() -> ClientGoalHandle | None:
             if not self.is_served():
-                return
-            try:
-                handle = world.send_goal(self.full, copy, on_feedback, goal_id=bytes(goal_id.uuid))
-            except TftoolError as error:
-                refused = error
-                self.settle(future, lambda: future.set_exception(refused))
-                return
+                return None
+            goal_key = bytes(goal_id.uuid)
+            handle = self.seat.world.send_goal(self.full, copy, on_feedback, goal_id=goal_key)
             # Shielded: the decision is the server's, whether or not this client waits for it.
             accepted = handle.decided is None or await asyncio.shield(handle.decided)
-            held = ClientGoalHandle(self, goal_id, handle if accepted else None)
-            self.settle(future, lambda: future.set_result(held))
+            return ClientGoalHandle(self, goal_id, handle if accepted else None)
 
-        self.ask(send())
-        return future
+        return self.promise(send)
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
         """Send a goal, and block until its result arrives."""
@@ -162,34 +154,15 @@ class ActionClient(Requester):
 
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
         """Return a future of a goal's end."""
-        future = Future(executor=self.seat.executor)
 
-        async def wait() -> None:
+        async def wait() -> _Result | None:
             if goal is None:
-                return
+                return None
             end = await goal.result()
-            status = STATUS[end.status]
-            result = values.unpack(end.value, self.type_.Result)
+            handle.status = int(STATUS[end.status])
+            return _Result(handle.status, values.unpack(end.value, self.type_.Result))
 
-            def arrive() -> None:
-                handle.status = int(status)
-                future.set_result(_Result(int(status), result))
-
-            self.settle(future, arrive)
-
-        self.ask(wait())
-        return future
-
-    def cancel(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
-        """Return a future of the response to a cancellation."""
-        future = Future(executor=self.seat.executor)
-
-        async def ask() -> None:
-            answer = await _cancelled(goal, handle.goal_id)
-            self.settle(future, lambda: future.set_result(answer))
-
-        self.ask(ask())
-        return future
+        return self.promise(wait)
 
 
 async def _cancelled(goal: WorldGoal | None, goal_id: Any) -> Any:

@@ -8,8 +8,10 @@ import inspect
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from functools import partial
 from typing import Any, Final, Self
 
+from tftool.base.errors import TftoolError
 from tftool.ros.host.program import TICK
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat
@@ -118,25 +120,38 @@ class Requester(WorkQueue):
             self.seat.program.looked_in_vain()
         return ready
 
-    def ask(self, question: Coroutine[Any, Any, None]) -> None:
-        """Send a request in the loop's thread; it is cancelled with this entity."""
+    def promise(self, request: Callable[[], Coroutine[Any, Any, Any]]) -> Future:
+        """Return a future of a response; a request that returns None stays unanswered.
+
+        It runs in the loop, and is cancelled with this entity. The executor that serves this
+        completes the future, and runs its callbacks.
+        """
+        future = Future(executor=self.seat.executor)
+
+        async def work() -> None:
+            try:
+                response = await request()
+            except TftoolError as error:
+                complete: Callable[[], object] = partial(future.set_exception, error)
+            else:
+                complete = partial(future.set_result, response)
+                if response is None:
+                    return
+
+            def settle() -> None:
+                if not future.cancelled():
+                    future.set_executor(self.seat.executor)
+                    complete()
+
+            self.put(settle)
 
         def start() -> None:
-            task = asyncio.get_running_loop().create_task(question)
+            task = asyncio.get_running_loop().create_task(work())
             self._asking.add(task)
             task.add_done_callback(self._asking.discard)
 
         self.seat.program.ask(start)
-
-    def settle(self, future: Future, complete: Callable[[], object]) -> None:
-        """Complete a future in the executor that serves this; it runs the callbacks."""
-
-        def work() -> None:
-            if not future.cancelled():
-                future.set_executor(self.seat.executor)
-                complete()
-
-        self.put(work)
+        return future
 
     def withdraw(self) -> None:
         """Cancel all requests."""

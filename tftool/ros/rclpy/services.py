@@ -7,6 +7,7 @@ import asyncio
 import inspect
 from collections.abc import Callable
 from enum import IntEnum
+from functools import partial
 from typing import Any
 
 from tftool.base.errors import TftoolError
@@ -71,9 +72,7 @@ class Client(_Introspected, Requester):
         """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
-        future = Future(executor=self.seat.executor)
-        self.ask(self._call(duplicate(request), future))
-        return future
+        return self.promise(partial(self._call, duplicate(request)))
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Send a request, and block until the response arrives.
@@ -96,19 +95,12 @@ class Client(_Introspected, Requester):
         """Stop waiting for a response."""
         future.cancel()
 
-    async def _call(self, request: Any, future: Future) -> None:
-        world = self.seat.world
+    async def _call(self, request: Any) -> Any:
         # As in ROS 2, a request that no server takes yet is not kept: it stays unanswered.
         if not self.is_served():
-            return
-        try:
-            answer = await world.call(self.full, duplicate(request))
-            response = values.unpack(answer, self.srv_type.Response)
-        except TftoolError as error:
-            failure = error
-            self.settle(future, lambda: future.set_exception(failure))
-            return
-        self.settle(future, lambda: future.set_result(response))
+            return None
+        answer = await self.seat.world.call(self.full, duplicate(request))
+        return values.unpack(answer, self.srv_type.Response)
 
 
 class Service(_Introspected, WorkQueue):
