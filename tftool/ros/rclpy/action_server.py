@@ -1,7 +1,6 @@
 """Server of rclpy.action: accepts goals and executes them."""
 
 import asyncio
-import inspect
 from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
@@ -11,7 +10,7 @@ from tftool.messages.classes import duplicate
 from tftool.ros.host import values
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.rclpy.action_client import STATUS, GoalStatus
-from tftool.ros.rclpy.entities import WorkQueue
+from tftool.ros.rclpy.entities import WorkQueue, outcome
 from tftool.ros.rclpy.qos import (
     QoSProfile,
     qos_profile_action_status_default,
@@ -236,20 +235,20 @@ class ActionServer(WorkQueue):
     async def _consider(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
         ask = self.seat.program.ask
         try:
-            response = await _outcome(self._on_goal(handle.request))
+            response = await outcome(self._on_goal(handle.request))
         except Exception:
             # As in ROS 2 it ends the executor that spins; the client must not wait for ever.
             ask(lambda: self._decide(goal, False))
             raise
         accepted = ask(lambda: self._decide(goal, response == GoalResponse.ACCEPT))
         if accepted:
-            await _outcome(self._on_accepted(handle))
+            await outcome(self._on_accepted(handle))
 
     async def _consider_cancel(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
         accepted = False
         try:
             if handle.is_active:
-                accepted = await _outcome(self._on_cancel(handle)) == CancelResponse.ACCEPT
+                accepted = await outcome(self._on_cancel(handle)) == CancelResponse.ACCEPT
             if accepted:
                 handle.is_cancel_requested = True
         finally:
@@ -262,7 +261,7 @@ class ActionServer(WorkQueue):
         async def work() -> None:
             logger = self.seat.ros_node.get_logger()
             try:
-                result = await _outcome(chosen(handle))
+                result = await outcome(chosen(handle))
             except Exception as error:
                 # As in ROS 2 it ends the goal, and nothing else.
                 logger.error(f"Error raised in execute callback: {error_sentence(error)}")
@@ -279,8 +278,3 @@ class ActionServer(WorkQueue):
         if executor is None:
             raise TftoolError("an action is executed by the executor that spins its node")
         executor.create_task(work())
-
-
-async def _outcome(value: Any) -> Any:
-    """Return a callback's result; a coroutine is awaited."""
-    return await value if inspect.isawaitable(value) else value

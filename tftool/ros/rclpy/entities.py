@@ -347,6 +347,11 @@ class RateTimer(Timer):
     only_ends_spin_once = True
 
 
+async def outcome(value: Any) -> Any:
+    """Return a callback's result; a coroutine is awaited."""
+    return await value if inspect.isawaitable(value) else value
+
+
 def accepts(callback: Callable[..., Any], *args: object) -> bool:
     """Return whether a callback can be called with these arguments, by its signature."""
     try:

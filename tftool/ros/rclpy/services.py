@@ -4,7 +4,6 @@ Requests and responses wait until an executor takes them, as with all entities.
 """
 
 import asyncio
-import inspect
 from collections.abc import Callable
 from enum import IntEnum
 from functools import partial
@@ -13,7 +12,7 @@ from typing import Any
 from tftool.base.errors import TftoolError
 from tftool.messages.classes import duplicate
 from tftool.ros.host import values
-from tftool.ros.rclpy.entities import MOST_WAITING, Requester, WorkQueue
+from tftool.ros.rclpy.entities import MOST_WAITING, Requester, WorkQueue, outcome
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat
@@ -140,40 +139,25 @@ class Service(_Introspected, WorkQueue):
                 f"'{self.seat.authority}' does not process (does it spin?)"
             )
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
-        message = values.unpack(request, self.srv_type.Request)
         self._open.add(answer)
-
-        def settle(response: Any) -> None:
-            self._send(duplicate(response), answer)
-
-        self.put(lambda: self._answer(message, settle))
+        self.put(partial(self._answer, values.unpack(request, self.srv_type.Request), answer))
         try:
             return await answer
         finally:
             self._open.discard(answer)
 
-    def _answer(self, request: Any, settle: Callable[[Any], None]) -> Any:
-        response = self.callback(request, self.srv_type.Response())
-        if inspect.iscoroutine(response):
-            return self._later(response, settle)
-        settle(self._checked(response))
-        return None
-
-    async def _later(self, response: Any, settle: Callable[[Any], None]) -> None:
-        settle(self._checked(await response))
-
-    def _checked(self, response: Any) -> Any:
+    async def _answer(self, request: Any, answer: "asyncio.Future[Any]") -> None:
+        response = await outcome(self.callback(request, self.srv_type.Response()))
         if not isinstance(response, self.srv_type.Response):
             raise TypeError(
                 f"the callback of service '{self.srv_name}' must return a "
                 f"{self.srv_type.__name__}.Response, not {type(response).__name__}"
             )
-        return response
+        sent = duplicate(response)
 
-    def _send(self, response: Any, answer: "asyncio.Future[Any]") -> None:
         def send() -> None:
             if not answer.done():
-                answer.set_result(response)
+                answer.set_result(sent)
 
         self.seat.program.ask(send)
 

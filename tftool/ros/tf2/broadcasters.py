@@ -4,6 +4,7 @@ A listener's transforms go straight into its buffer, whether its node spins or n
 """
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from typing import Any
 
 from tftool.base.stamps import as_seconds, seconds
@@ -68,24 +69,23 @@ class TransformListener:
             lambda _, text: program.say("WARN", program.name, text),
         )
 
-        def moving(message: TransformMessage) -> None:
-            watch.read(world.clock.now())
-            arrivals.note()
-            for sample in message.transforms:
-                self.buffer.frames.set_transform(sample, message.authority)
+        frames = self.buffer.frames
 
-        def fixed(message: TransformMessage) -> None:
+        def insert(insert_one: Callable[..., bool], message: TransformMessage) -> None:
             watch.read(world.clock.now())
             arrivals.note()
             for sample in message.transforms:
-                self.buffer.frames.set_transform_static(sample, message.authority)
+                insert_one(sample, message.authority)
 
         for sample in world.static_transforms():
-            self.buffer.frames.set_transform_static(sample, AUTHORITY)
+            frames.set_transform_static(sample, AUTHORITY)
             arrivals.note()
-        self._stops = [world.tf_static.subscribe(fixed, self._member.authority)]
+        owner = self._member.authority
+        self._stops = [
+            world.tf_static.subscribe(partial(insert, frames.set_transform_static), owner)
+        ]
         if not static_only:
-            self._stops.append(world.tf.subscribe(moving, self._member.authority))
+            self._stops.append(world.tf.subscribe(partial(insert, frames.set_transform), owner))
         return arrivals
 
     def _stop(self) -> None:
