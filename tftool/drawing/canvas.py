@@ -7,26 +7,25 @@ as arrows. Scales account for cells that are twice as high as wide. The drawing 
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Final, TypeAlias
+from typing import Final
 
+import numpy as np
 from rich.segment import Segment
 
 from tftool.base.color import Color
-from tftool.base.fixed_width import fitted
 from tftool.drawing import sprites, theme
 from tftool.drawing.cells import (
     Cell,
-    Ink,
+    CellSheet,
+    Dots,
     Line,
-    LooseInk,
-    Stroke,
-    cells_of,
-    line_of,
-    sign_of,
-    style_of,
+    Mask,
+    Numbers,
+    Points,
+    blended,
+    packed,
 )
-from tftool.drawing.labels import Label, PlacedLabel, Placer
+from tftool.drawing.labels import Label, PlacedLabel, Placer, label_text
 from tftool.drawing.plane import (
     FARTHEST,
     Drawn,
@@ -37,25 +36,13 @@ from tftool.drawing.plane import (
     Viewport,
     grid_step,
 )
-from tftool.drawing.theme import (
-    LINK,
-    ROLES,
-    X_AXIS,
-    Y_AXIS,
-    Z_AXIS,
-    PaperColors,
-    on_field,
-    paper,
-)
 from tftool.geometry.motion.unicycle import FIELD
-
-_Overlay: TypeAlias = dict[int, dict[int, Cell]]
 
 MOST_NAMED: Final = 80
 """Of more frames, only the first have their names beside them."""
 
-MOST_TURNING: Final = 1500
-"""How many strokes of a moving drawing are drawn: each of them is redrawn at every look."""
+PIXELS_PER_METRE: Final = 45.0
+"""Of turtlesim, in which pens have their widths."""
 
 WITH_SCALE: Final = (26, 9)
 """Columns and rows from which the grid's metres stand at its sides."""
@@ -65,23 +52,12 @@ THICK_FROM: Final = 26
 """Rows from which axes are two dots wide."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Pens:
-    """Cells of a drawing by pen, with the drawn length of each stroke."""
+class _KeptDrawing:
+    """Dots of a drawing that grows: its key, and how many of its strokes are drawn."""
 
     key: object = None
-    done: int = 0
-    is_new: bool = False
-    is_cut: bool = False
-
-
-@dataclass(slots=True)
-class _KeptRow:
-    """Static cells of a row, what they were made from, and their line."""
-
-    state: object
-    cells: list[Cell]
-    line: Line | None = None
+    done = 0
+    dots: Dots
 
 
 class Canvas:
@@ -120,151 +96,158 @@ class Canvas:
         self._ascii = ascii_only
         self._plain = ascii_only or mono
         self._palette = palette
-        self._paper = paper(palette)
-        self._field_colors: PaperColors | None = None
+        self._paper = theme.paper(palette)
         # Equal to no view, so that the first one starts from scratch.
         self._view = Viewport(0.0, 0.0, 0.0)
         self._placer = Placer(self.columns, self.rows)
+        self._sheet: CellSheet | None = None
 
     def lines(self, picture: PlanePicture, view: Viewport) -> list[Line]:
         """Draw a picture of exactly the requested lines and cells."""
         if not self.columns or not self.rows:
             return [[] for _ in range(self.rows)]
         if view != self._view:
-            self._fresh(view)
+            self._view = view
+            self._grid = self._gridded()
+            self._pen, self._trails = _KeptDrawing(), _KeptDrawing()
         field = picture.field
-        self._field_colors = None if field is None else on_field(field.color)
-        self._stand(field)
-        self._follow(picture)
-        loose = self._loose(picture)
-        signs = self._signs(picture, loose)
+        self._inside = self._cells_inside(field)
+        sheet = CellSheet(self.columns, self.rows)
+        sheet.lay(self._grid, self._ground_color("grid", field), ascii_only=self._ascii)
+        if field is not None:
+            sheet.grounds[self._inside] = packed(field.color)
+            self._grow(self._pen, picture.pen, (field.x, field.y, field.theta), field)
+            sheet.lay(self._pen.dots, ascii_only=self._ascii)
+        self._grow(self._trails, picture.trails, picture.fixed)
+        dots = self._trails.dots
+        sheet.lay(dots, self._faint(dots.colors, field), ascii_only=self._ascii)
+        marked = self._mark(sheet, picture)
+        self._sign(sheet, picture, marked)
         step = grid_step(view.per_row)
-        drawn = []
-        for row in range(self.rows):
-            dots, over = loose.marks.get(row), signs.get(row)
-            if dots is None and over is None:
-                line = self._still(row)
-            else:
-                line = self._joined(row, dots or {}, over or {})
-            drawn.append([*self._left_of(row, step), *line] if self.gutter else line)
+        drawn = sheet.lines(self._sheet)
+        self._sheet = sheet
+        if self.gutter:
+            labels = self._labels_at_left(step)
+            drawn = [[labels[row], *line] for row, line in enumerate(drawn)]
         return [*drawn, self._below(step)] if self._footer else drawn
 
-    # What stays from look to look
+    # The ground and what is drawn on it
 
-    def _fresh(self, view: Viewport) -> None:
-        """Start again with another part of the plane."""
-        self._view = view
-        self._wide, self._high = 0.5 * view.per_row * self.columns, view.per_row * self.rows
-        self._pen, self._pen_ink = _Pens(), self._new_ink()
-        self._trails, self._trail_ink = _Pens(), self._new_ink()
-        self._grid = self._gridded()
-        self._standing: object = None
-        self._inside: list[tuple[int, int]] = [(0, 0)] * self.rows
-        self._kept: list[_KeptRow | None] = [None] * self.rows
-        self._field_colors = None
-
-    def _new_ink(self) -> Ink:
+    def _ends(self, lines: Points) -> Points:
+        """Convert lines of the plane, shape (n, 4), to dots, shape (n, 2, 2)."""
         view = self._view
-        return Ink(self.columns, self.rows, view.left, view.bottom, self._wide, self._high)
+        with np.errstate(all="ignore"):
+            ends = (lines.reshape(-1, 2, 2) - (view.left, view.bottom)) * (4.0 / view.per_row)
+        ends[..., 1] = 4.0 * self.rows - ends[..., 1]
+        return ends
 
-    def _gridded(self) -> Ink:
+    def _gridded(self) -> Dots:
         """Draw faint lines at every step; without colours, dots at their crossings."""
-        ink, view = self._new_ink(), self._view
-        step = grid_step(view.per_row)
-        xs = list(_multiples(view.left, view.left + self._wide, step))
-        ys = list(_multiples(view.bottom, view.bottom + self._high, step))
-        color = self._paper.grid
+        dots, view = Dots(self.columns, self.rows), self._view
+        right = view.left + 0.5 * view.per_row * self.columns
+        top, step = view.bottom + view.per_row * self.rows, grid_step(view.per_row)
+        xs, ys = list(_multiples(view.left, right, step)), list(_multiples(view.bottom, top, step))
         if self._plain:
-            for x in xs:
-                for y in ys:
-                    ink.draw((x, y, x, y, color, 0))
-            return ink
-        for x in xs:
-            ink.draw((x, view.bottom, x, view.bottom + self._high, color, 0))
-        for y in ys:
-            ink.draw((view.left, y, view.left + self._wide, y, color, 0))
-        return ink
+            lines = [(x, y, x, y) for x in xs for y in ys]
+        else:
+            lines = [(x, view.bottom, x, top) for x in xs]
+            lines += [(view.left, y, right, y) for y in ys]
+        dots.draw(self._ends(np.array(lines, float)), 0)
+        return dots
 
-    def _stand(self, field: TurtleField | None) -> None:
-        """Determine which cells are on the field."""
-        where = None if field is None else (field.x, field.y, field.theta)
-        if where == self._standing:
-            return
-        self._standing = where
-        self._inside = [(0, 0)] * self.rows
-        if field is None:
-            return
-        corners = [self.place(*corner) for corner in field.corners()]
-        for row in range(self.rows):
-            ends = _crossings(corners, row + 0.5)
-            if ends is not None:
-                first = max(0, math.ceil(ends[0] - 0.5))
-                self._inside[row] = first, min(self.columns, math.floor(ends[1] + 0.5))
-
-    def _follow(self, picture: PlanePicture) -> None:
-        """Draw new ends of the trails; start again if they changed or became shorter."""
-        field = picture.field
+    def _cells_inside(self, field: TurtleField | None) -> Mask:
+        """Return which cells are on the field."""
+        inside = np.zeros((self.rows, self.columns), bool)
         if field is not None:
-            moved = (field.x, field.y, field.theta)
-            self._pen, self._pen_ink = self._grown(
-                picture.pen, (moved, picture.pen.edition), self._pen, self._pen_ink, field
-            )
-        self._trails, self._trail_ink = self._grown(
-            picture.trails, (picture.fixed, picture.trails.edition), self._trails, self._trail_ink
-        )
+            corners = [self.place(*corner) for corner in field.corners()]
+            for row in range(self.rows):
+                ends = _crossings(corners, row + 0.5)
+                if ends is not None:
+                    first = max(0, math.ceil(ends[0] - 0.5))
+                    inside[row, first : max(first, math.floor(ends[1] + 0.5))] = True
+        return inside
 
-    def _grown(
-        self, drawn: Drawn, key: object, pens: _Pens, ink: Ink, field: TurtleField | None = None
-    ) -> tuple[_Pens, Ink]:
-        total = drawn.forgotten + len(drawn.strokes)
-        first = max(0, pens.done - drawn.forgotten)
-        moves, is_cut = key != pens.key, pens.is_cut
-        if moves or total < pens.done or is_cut:
-            ink, first = self._new_ink(), 0
-            self._kept = [None] * self.rows
-            # On a sheet that moves from look to look everything is redrawn every time.
-            is_cut = moves and pens.is_new and len(drawn.strokes) > MOST_TURNING
-            first = len(drawn.strokes) - MOST_TURNING if is_cut else 0
-        turned = field is not None and (field.x, field.y, field.theta) != (0.0, 0.0, 0.0)
-        for index in range(first, len(drawn.strokes)):
-            stroke = drawn.strokes[index]
-            ink.draw(_carried(stroke, field) if turned and field is not None else stroke)
-        return _Pens(key, total, moves, is_cut), ink
+    def _ground_color(self, role: str, field: TurtleField | None) -> Numbers | int:
+        """Return a colour of `PaperColors` by cell: that beside the field, and that on it."""
+        beside = packed(getattr(self._paper, role))
+        if field is None:
+            return beside
+        return np.where(self._inside, packed(getattr(theme.on_field(field.color), role)), beside)
 
-    # Drawn at every look
+    def _grow(
+        self, kept: "_KeptDrawing", drawn: Drawn, place: object, field: TurtleField | None = None
+    ) -> None:
+        """Draw new ends of a trail; start again if it moved, changed or became shorter."""
+        key, total = (place, drawn.edition), drawn.forgotten + len(drawn.strokes)
+        if kept.key != key or total < kept.done:
+            kept.key, kept.done = key, 0
+            kept.dots = Dots(self.columns, self.rows)
+        new = drawn.strokes[max(0, kept.done - drawn.forgotten) :]
+        kept.done = total
+        if not new:
+            return
+        lines = np.array([stroke[:4] for stroke in new])
+        if field is not None:
+            lines = field.placed(lines)
+        colors = np.array([packed(stroke[4]) for stroke in new])
+        # Dots leave gaps between them, so a trail needs a few more to look as wide as it is.
+        per_pixel = 1.3 / PIXELS_PER_METRE * 4.0 / self._view.per_row
+        wide = np.array([max(1, round(per_pixel * stroke[5])) for stroke in new])
+        for one in np.unique(wide).tolist():
+            some = wide == one
+            kept.dots.draw(self._ends(lines[some]), colors[some], one)
 
-    def _loose(self, picture: PlanePicture) -> LooseInk:
-        """Draw the lines to parents, the pair's line, walls and axes."""
-        view = self._view
-        ink = LooseInk(self.columns, self.rows, view.left, view.bottom, self._wide, self._high)
-        for one in picture.frames:
-            if one.parent is not None:
-                for ends in _dashes((one.x, one.y), one.parent, 0.25 * view.per_row):
-                    ink.draw((*ends, LINK, 0))
-        if picture.field is not None:
-            # Without a colour of its own the field has an edge.
-            for ends in _edges(picture.field, _SIDES) if self._plain else ():
-                ink.draw((*ends, LINK, 0))
-            for ends in _edges(picture.field, picture.field.walls):
-                ink.draw((*ends, theme.WALL, 0))
+    def _faint(self, colors: Numbers, field: TurtleField | None) -> Numbers:
+        """Return the paler colours of trails."""
+        beside = colors
+        if self._palette is theme.LIGHT:
+            beside = blended(beside, theme.INK, 0.55)
+        beside = blended(beside, self._palette.panel, 0.3)
+        if field is None:
+            return beside
+        return np.where(self._inside, blended(colors, field.color, 0.1), beside)
+
+    # Drawn above it
+
+    def _mark(self, sheet: CellSheet, picture: PlanePicture) -> Mask:
+        """Draw the lines to parents, walls and axes; return the cells they take."""
+        view, field = self._view, picture.field
+        links = [
+            ends
+            for one in picture.frames
+            if one.parent is not None
+            for ends in _dashes((one.x, one.y), one.parent, 0.25 * view.per_row)
+        ]
+        # Without a colour of its own the field has an edge.
+        edges = [] if field is None or not self._plain else list(_edges(field, _SIDES))
+        walls = [] if field is None else list(_edges(field, field.walls))
+        link = self._ground_color("link", field)
+        layers: list[tuple[list[tuple[float, float, float, float]], Numbers | int]]
+        layers = [(links + edges, link), (walls, packed(theme.WALL))]
         length = axis_length(view, self.rows)
-        for one in picture.frames:
-            if not one.is_frame:
-                continue
-            for (along, up), color in zip(one.axes, (X_AXIS, Y_AXIS, Z_AXIS), strict=False):
-                if math.hypot(along, up) > 0.05:
-                    end = one.x + length * along, one.y + length * up
-                    ink.draw((one.x, one.y, *end, color, 0))
-                    if self.rows >= THICK_FROM:
-                        # A dot beside it, so that the axis is two dots wide.
-                        aside = 0.25 * view.per_row / math.hypot(along, up)
-                        x, y = one.x - aside * up, one.y + aside * along
-                        ink.draw((x, y, end[0] - aside * up, end[1] + aside * along, color, 0))
-        return ink
+        for number, role in enumerate(("x_axis", "y_axis", "z_axis")):
+            lines = []
+            for one in picture.frames:
+                along, up = one.axes[number] if one.is_frame and number < len(one.axes) else (0, 0)
+                if (reach := math.hypot(along, up)) <= 0.05:
+                    continue
+                end = one.x + length * along, one.y + length * up
+                lines.append((one.x, one.y, *end))
+                if self.rows >= THICK_FROM:
+                    # A dot beside it, so that the axis is two dots wide.
+                    x, y = -0.25 * view.per_row * up / reach, 0.25 * view.per_row * along / reach
+                    lines.append((one.x + x, one.y + y, end[0] + x, end[1] + y))
+            layers.append((lines, self._ground_color(role, field)))
+        marked = np.zeros_like(self._inside)
+        for lines, color in layers:
+            if lines:
+                dots = Dots(self.columns, self.rows)
+                dots.draw(self._ends(np.array(lines)), 0)
+                marked |= sheet.lay(dots, color, ascii_only=self._ascii)
+        return marked
 
-    def _signs(self, picture: PlanePicture, loose: LooseInk) -> _Overlay:
+    def _sign(self, sheet: CellSheet, picture: PlanePicture, marked: Mask) -> None:
         """Draw turtles, origins and names above the dots."""
-        signs: _Overlay = {}
         hard: set[tuple[int, int]] = set()
         labels: list[Label] = []
         per_metre = 1.0 / self._view.per_row
@@ -274,30 +257,47 @@ class Canvas:
         if not bodies:
             below.reverse()
         above = [one for one in picture.frames if not one.is_turtle]
-        reaches: dict[str, int] = {}
         for one in (*below, *above):
             place = self.place(one.x, one.y)
             if not self._is_near(place):
                 continue
-            color = self._ink_of(one, place)
-            cells = self._sprite(one, place, color, per_metre, bodies, hard)
+            cells = self._sprite(
+                one,
+                place,
+                self._ink_of(one, on_field=self._on_field(place)),
+                per_metre,
+                bodies,
+                hard,
+            )
             for column, row, cell in cells:
                 if 0 <= column < self.columns and 0 <= row < self.rows:
-                    signs.setdefault(row, {})[column] = cell
+                    sheet.put(column, row, cell)
                     hard.add((row, column))
-            reaches[one.name] = (
-                math.ceil(1.6 * per_metre) if one.is_turtle and bodies else 1 if self._plain else 2
-            )
         for one in _by_weight(picture):
             place = self.place(one.x, one.y)
             if self._is_near(place) and len(labels) < MOST_NAMED:
-                labels.append(self._label(one, place, reaches[one.name]))
+                name = one.name if one.is_frame else f"{one.name} (no frame)"
+                text = label_text(name, one.age, self.columns, 10, ascii_only=self._ascii)
+                row = min(self.rows - 1, max(0, math.floor(place[1])))
+                reach = 1 if self._plain else 2
+                if one.is_turtle and bodies:
+                    reach = math.ceil(1.6 * per_metre)
+                labels.append(Label(one.name, text, math.floor(place[0]), row, reach))
         # Lines and axes had better stay in sight.
-        soft = {(row, column) for row, cells in loose.marks.items() for column in cells}
+        soft = set(zip(*(where.tolist() for where in np.nonzero(marked)), strict=True))
         named = {one.name: one for one in picture.frames}
         for placed in self._placer.placed(labels, hard, soft):
-            self._write(signs, placed, named[placed.label.name])
-        return signs
+            sheet.write(placed.column, placed.row, placed.label.text,
+                        self._letter_inks(placed, named[placed.label.name]))  # fmt: skip
+
+    def _letter_inks(self, placed: PlacedLabel, one: PlaneFrame) -> list[int]:
+        """Return a colour for each letter of a name, readable on its ground."""
+        inks = []
+        for on_field in (False, True):
+            ink = self._ink_of(one, on_field=on_field)
+            brightens = on_field and not theme.is_stale(one.age)
+            inks.append(packed(theme.blend(ink, theme.WHITE, 0.4) if brightens else ink))
+        return [inks[on] for on in self._inside[placed.row, placed.column :].tolist()]
 
     def _sprite(
         self,
@@ -327,112 +327,15 @@ class Canvas:
             return [(free, row, Cell(arrows[sprites.octant(one.theta)], color, None, True))]
         return sprites.badge(*place, one.theta, color, per_metre, blocks=not self._ascii)
 
-    def _label(self, one: PlaneFrame, place: Point, reach: int) -> Label:
-        more = "~" if self._ascii else "…"
-        text = fitted(one.name, max(10, self.columns // 3), more=more)
-        if not one.is_frame:
-            text = f"{text} (no frame)"
-        if theme.is_stale(one.age):
-            text = f"{text} {one.age:.1f} s ago"
-        text = fitted(text, self.columns, more=more)
-        if self._ascii:
-            text = text.encode("ascii", "replace").decode("ascii")
-        row = min(self.rows - 1, max(0, math.floor(place[1])))
-        return Label(one.name, text, math.floor(place[0]), row, reach)
-
-    def _ink_of(self, one: PlaneFrame, place: Point) -> Color:
+    def _ink_of(self, one: PlaneFrame, *, on_field: bool) -> Color:
         """Return a frame's colour on its ground; amber or red if it is stale."""
-        palette = theme.DARK if self._on_field(place) else self._palette
+        palette = theme.DARK if on_field else self._palette
         return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
 
-    def _write(self, signs: _Overlay, placed: PlacedLabel, one: PlaneFrame) -> None:
-        """Write a name, each letter in a colour readable on its ground."""
-        cells = signs.setdefault(placed.row, {})
-        inks: dict[bool, Color] = {}
-        for offset, sign in cells_of(placed.label.text):
-            place = placed.column + offset, placed.row
-            on_field = self._on_field(place)
-            if on_field not in inks:
-                ink = self._ink_of(one, place)
-                brightens = on_field and not theme.is_stale(one.age)
-                inks[on_field] = theme.blend(ink, theme.WHITE, 0.4) if brightens else ink
-            cells[place[0]] = Cell(sign, inks[on_field])
-
-    # Cells to lines
-
-    def _still(self, row: int) -> Line:
-        """Return a line without moving parts, cached until a trail changes there."""
-        kept = self._base(row)
-        if kept.line is None:
-            kept.line = line_of(kept.cells)
-        return kept.line
-
-    def _base(self, row: int) -> "_KeptRow":
-        """Return a row of all static parts, composed again only after a trail grew."""
-        ground = None if self._field_colors is None else self._field_colors.ground
-        state = (
-            self._pen_ink.revisions[row],
-            self._trail_ink.revisions[row],
-            self._inside[row],
-            ground,
-        )
-        kept = self._kept[row]
-        if kept is None or kept.state != state:
-            kept = self._kept[row] = _KeptRow(state, self._cells(row))
-        return kept
-
-    def _joined(self, row: int, dots: dict[int, tuple[int, Color]], signs: dict[int, Cell]) -> Line:
-        cells = list(self._base(row).cells)
-        for column, (mask, color) in dots.items():
-            colors = self._colors(row, column)
-            role = ROLES.get(color)
-            ink = color if role is None else colors[role]
-            cells[column] = Cell(sign_of(mask, ascii_only=self._ascii), ink, cells[column].ground)
-        for column, cell in signs.items():
-            ground = cell.ground or cells[column].ground
-            cells[column] = Cell(cell.text, cell.ink, ground, cell.bold)
-        return line_of(cells)
-
-    def _cells(self, row: int) -> list[Cell]:
-        """Return a row of grid, pens and trails, each cell with its ground."""
-        ascii_only = self._ascii
-        grid = self._grid.cells(row, ascii_only=ascii_only)
-        cells = list(grid)
-        first, end = self._inside[row]
-        field = self._field_colors
-        if field is not None and first < end:
-            for column in range(first, end):
-                below = cells[column]
-                cells[column] = Cell(
-                    below.text, field.grid if below.ink is not None else None, field.ground
-                )
-            for column, cell in enumerate(self._pen_ink.cells(row, ascii_only=ascii_only)):
-                if cell.ink is not None:
-                    cells[column] = Cell(cell.text, cell.ink, cells[column].ground)
-        for column, cell in enumerate(self._trail_ink.cells(row, ascii_only=ascii_only)):
-            if cell.ink is not None:
-                ink = self._faint(cell.ink, cells[column].ground)
-                cells[column] = Cell(cell.text, ink, cells[column].ground)
-        return cells
-
-    def _faint(self, color: Color, ground: Color | None) -> Color:
-        """Return the paler colour of a frame's trail."""
-        if ground is not None:
-            return theme.blend(color, ground, 0.1)
-        return theme.blend(theme.readable(color, self._palette), self._palette.panel, 0.3)
-
-    def _colors(self, row: int, column: int) -> PaperColors:
-        first, end = self._inside[row]
-        if self._field_colors is not None and first <= column < end:
-            return self._field_colors
-        return self._paper
-
     def _on_field(self, place: Point) -> bool:
-        row = math.floor(place[1])
-        if self._field_colors is None or not 0 <= row < self.rows:
-            return False
-        first, end = self._inside[row]
-        return first <= math.floor(place[0]) < end
+        column, row = math.floor(place[0]), math.floor(place[1])
+        is_seen = 0 <= row < self.rows and 0 <= column < self.columns
+        return is_seen and bool(self._inside[row, column])
 
     def place(self, x: float, y: float) -> Point:
         """Return the column and row of a point of the plane."""
@@ -453,28 +356,29 @@ class Canvas:
 
     # The scale
 
-    def _left_of(self, row: int, step: float) -> Line:
-        view = self._view
-        text = ""
-        for y in _multiples(view.bottom, view.bottom + self._high, step):
-            if math.floor(self.place(0.0, y)[1]) == row:
-                text = metres(y, step)
-        style = style_of(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
-        return [Segment(f"{text[: self.gutter - 1]:>{self.gutter - 1}} ", style)]
+    def _labels_at_left(self, step: float) -> list[Segment]:
+        view, width = self._view, self.gutter - 1
+        texts = [""] * self.rows
+        for y in _multiples(view.bottom, view.bottom + view.per_row * self.rows, step):
+            row = math.floor(self.place(0.0, y)[1])
+            if 0 <= row < self.rows:
+                texts[row] = metres(y, step)
+        style = theme.ink(theme.blend(self._palette.panel, self._palette.dim, 0.9))
+        return [Segment(f"{text[:width]:>{width}} ", style) for text in texts]
 
     def _below(self, step: float) -> Line:
         view = self._view
         signs = [" "] * (self.columns + self.gutter)
         signs[self.gutter - 4] = "m"
         free = self.gutter - 1
-        for x in _multiples(view.left, view.left + self._wide, step):
+        for x in _multiples(view.left, view.left + 0.5 * view.per_row * self.columns, step):
             text = metres(x, step)
             column = self.gutter + math.floor(self.place(x, 0.0)[0])
             start = column - (len(text) - 1) // 2 - (text[0] == "-")
             if free <= start and start + len(text) <= len(signs):
                 signs[start : start + len(text)] = text
                 free = start + len(text) + 1
-        style = style_of(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
+        style = theme.ink(theme.blend(self._palette.panel, self._palette.dim, 0.9))
         return [Segment("".join(signs), style)]
 
 
@@ -541,8 +445,3 @@ def _dashes(start: Point, end: Point, dot: float) -> Iterator[tuple[float, float
     for number in range(count):
         x, y = start[0] + number * along, start[1] + number * up
         yield x + 0.4 * along, y + 0.4 * up, x + 0.8 * along, y + 0.8 * up
-
-
-def _carried(stroke: Stroke, field: TurtleField) -> Stroke:
-    x0, y0, x1, y1, color, width = stroke
-    return (*field.place(x0, y0), *field.place(x1, y1), color, width)

@@ -5,6 +5,9 @@ from dataclasses import dataclass
 
 from rich.cells import cell_len
 
+from tftool.base.fixed_width import fitted
+from tftool.drawing import theme
+
 FARTHEST_ROWS = 7
 """How many rows away from its frame a label may stand; then a line leads to it."""
 
@@ -36,6 +39,24 @@ class PlacedLabel:
     column: int
     row: int
     is_far: bool
+
+
+def label_text(name: str, age: float, columns: int, least: int, *, ascii_only: bool) -> str:
+    """Return the text beside a frame: its name, cut, and how long a silent one is silent.
+
+    Args:
+        name: What to call it.
+        age: Seconds without news.
+        columns: Cells across of the picture.
+        least: Cells that a name gets in a narrow one.
+        ascii_only: Write in ASCII alone.
+    """
+    more = "~" if ascii_only else "…"
+    text = fitted(name, max(least, columns // 3), more=more)
+    if theme.is_stale(age):
+        text = f"{text} {age:.1f} s ago"
+    text = fitted(text, columns, more=more)
+    return text.encode("ascii", "replace").decode("ascii") if ascii_only else text
 
 
 class Placer:

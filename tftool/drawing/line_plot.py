@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -15,7 +14,7 @@ from tftool.base.fixed_width import fitted
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.drawing import theme
-from tftool.drawing.cells import Ink
+from tftool.drawing.cells import Dots, packed
 from tftool.frames.pair_samples import Trajectory, trajectory_of
 from tftool.frames.pair_series import (
     PlotPanel,
@@ -139,9 +138,9 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
     wide, high = per_cell * columns, 2.0 * per_cell * rows
     middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)
     left, bottom = middle_x - 0.5 * wide, middle_y - 0.5 * high
-    ink = Ink(columns, rows, 0.0, 0.0, 1.0)
+    dots = Dots(columns, rows)
     for place, (_, x, y) in enumerate(curves):
-        draw_curve(ink, (x - left) / wide, (y - bottom) / high, colors[place % len(colors)])
+        draw_curve(dots, (x - left) / wide, (y - bottom) / high, colors[place % len(colors)])
     text = Text(no_wrap=True, overflow="crop")
     for place, (label, x, y) in enumerate(curves):
         holds = np.flatnonzero(np.isfinite(x))
@@ -153,9 +152,9 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
             f"{fitted(f'{visible(label)} {ends}', look.width)}\n",
             _style(colors[place % len(colors)]),
         )
-    for row in range(rows):
-        edges = {0: axis_number(bottom + high), rows - 1: axis_number(bottom)}
-        _append_row(text, edges.get(row, ""), ink, row, "", look)
+    labels = {0: axis_number(bottom + high), rows - 1: axis_number(bottom)}
+    for row, cells in enumerate(dots.rows(ascii_only=look.ascii_only)):
+        text.append_text(_row(labels.get(row, ""), cells, look))
     edge = (
         f"{axis_number(left):<{columns // 2}}{axis_number(left + wide):>{columns - columns // 2}}"
     )
@@ -206,12 +205,12 @@ def _drawn(
     for tick, label in zip(ticks, tick_labels(ticks), strict=True):
         labels[round((high - tick) / (high - low) * (rows - 1))] = label
     first, last = span
-    ink = Ink(columns, rows, 0.0, 0.0, 1.0)
+    dots = Dots(columns, rows)
     for place in seen:
         one = panel.curves[place]
         times, values = thinned(one.times, one.values, 16 * columns)
         draw_curve(
-            ink,
+            dots,
             (times - first) / (last - first),
             (values - low) / (high - low),
             look.colors[place % len(look.colors)],
@@ -224,32 +223,23 @@ def _drawn(
             max(0, min(begin, columns - 1)), max(0, min(max(end, begin + 1), columns))
         ):
             shade[column] = ":" if look.ascii_only else "░"
-    for row in range(rows):
-        text = Text(no_wrap=True)
-        _append_row(text, labels[row], ink, row, "".join(shade), look)
-        yield text
+    for label, cells in zip(labels, dots.rows(ascii_only=look.ascii_only), strict=True):
+        below = zip(cells, shade, strict=True)
+        yield _row(label, [cell if cell[1] else (sign, "dim") for cell, sign in below], look)
 
 
-def _append_row(text: Text, label: str, ink: Ink, row: int, shade: str, look: PlotLook) -> None:
-    text.append(f"{label:>{LABELS}}{look.bar}")
-    for column, cell in enumerate(ink.cells(row, ascii_only=look.ascii_only)):
-        if cell.ink is not None:
-            text.append(cell.text, _style(cell.ink))
-        elif shade:
-            text.append(shade[column], "dim")
-        else:
-            text.append(" ")
+def _row(label: str, cells: Iterable[tuple[str, str]], look: PlotLook) -> Text:
+    text = Text.assemble(f"{label:>{LABELS}}{look.bar}", *cells, no_wrap=True)
     text.rstrip()
-    text.append("\n")
+    return text.append("\n")
 
 
-def draw_curve(ink: Ink, across: Floats, up: Floats, color: Color) -> None:
+def draw_curve(dots: Dots, across: Floats, up: Floats, color: Color) -> None:
     """Draw a curve of the unit square; a single point between gaps."""
-    points = list(zip(across.tolist(), up.tolist(), strict=True))
-    for here, there in pairwise(points):
-        ink.draw((*here, *there, color, 0))
-    for x, y in points if len(points) == 1 else ():
-        ink.draw((x, y, x, y, color, 0))
+    rows, columns = dots.masks.shape
+    points = np.stack([across * (2 * columns), (1.0 - up) * (4 * rows)], 1)
+    ends = points if len(points) == 1 else points[:-1]
+    dots.draw(np.stack([ends, points[-len(ends) :]], 1), packed(color))
 
 
 def _axis(low: float, high: float, width: int) -> str:
@@ -371,27 +361,21 @@ def _curve(
         labels = [axis_number(high), *[""] * (rows - 2), axis_number(low)]
     else:
         labels = [title[:4], *[""] * (rows - 2), said.replace(" ", "")][:rows]
-    ink = Ink(columns, rows, 0.0, 0.0, 1.0)
+    dots = Dots(columns, rows)
     draw_curve(
-        ink, (curve.times - first) / (last - first), (curve.values - low) / (high - low), color
+        dots, (curve.times - first) / (last - first), (curve.values - low) / (high - low), color
     )
     marked = None
     if span.cursor is not None:
         share = (span.cursor - span.first) / max(1, span.last - span.first)
         marked = min(columns - 1, math.floor(share * columns)) if 0.0 <= share <= 1.0 else None
     bar, cursor = ("|", "|") if ascii_only else ("│", "┃")
-    for row in range(rows):
-        label = f"{labels[row][:PAIR_LABELS]:>{PAIR_LABELS}}"
-        line = Text(label, dim if lines else strong, no_wrap=True)
-        line.append(bar, dim)
-        for column, cell in enumerate(ink.cells(row, ascii_only=ascii_only)):
-            if column == marked:
-                line.append(cursor, theme.ink(palette.warning, bold=True))
-            elif cell.ink is not None:
-                line.append(cell.text, theme.ink(cell.ink))
-            else:
-                line.append(" ")
-        lines.append(line)
+    for label, cells in zip(labels, dots.rows(ascii_only=ascii_only), strict=True):
+        if marked is not None:
+            cells[marked] = cursor, f"bold {theme.hexadecimal(palette.warning)}"
+        shown = f"{label[:PAIR_LABELS]:>{PAIR_LABELS}}"
+        style = dim if lines else strong
+        lines.append(Text.assemble((shown, style), (bar, dim), *cells, no_wrap=True))
     return lines
 
 

@@ -8,6 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple, TypeAlias
 
+import numpy as np
+import numpy.typing as npt
+
 from tftool.base.color import BACKGROUND, Color
 from tftool.drawing.cells import Stroke
 from tftool.geometry.motion.unicycle import FIELD
@@ -76,6 +79,14 @@ class TurtleField:
         """Convert a point of the field to the plane."""
         cosine, sine = math.cos(self.theta), math.sin(self.theta)
         return self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
+
+    def placed(self, lines: npt.NDArray[np.floating]) -> npt.NDArray[np.floating]:
+        """Convert lines of the field, shape (n, 4), to the plane."""
+        cosine, sine = math.cos(self.theta), math.sin(self.theta)
+        x, y = lines.T.reshape(2, 2, -1).swapaxes(0, 1)
+        with np.errstate(invalid="ignore", over="ignore"):
+            placed = self.x + cosine * x - sine * y, self.y + sine * x + cosine * y
+        return np.stack(placed, 1).reshape(4, -1).T
 
     def corners(self) -> tuple[Point, ...]:
         """Corners: lower left, lower right, upper right, upper left."""

@@ -6,18 +6,16 @@ are dots: solids hide those of the ground, and axes are drawn through solids.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
-from rich.segment import Segment
 
 from tftool.base.color import Color
-from tftool.base.fixed_width import fitted, plain
+from tftool.base.fixed_width import plain
 from tftool.drawing import theme
-from tftool.drawing.cells import Line, cells_of, sign_of, style_of
-from tftool.drawing.labels import Label, Placer
+from tftool.drawing.cells import NONE, CellSheet, Dots, Line, dots_of, packed
+from tftool.drawing.labels import Label, Placer, label_text
 from tftool.drawing.space import SpaceFrame, SpacePicture, Viewpoint, axis_length
 
 Floats: TypeAlias = npt.NDArray[np.float32]
@@ -32,13 +30,7 @@ MOST_POINTS: Final = 1_000_000
 """Points of triangles that are looked at together, as far as memory goes."""
 
 _LIGHT: Final = np.array([-0.35, 0.6, 0.72], np.float32)
-_NONE: Final = -1
 _RAMPS: Final = {True: " .:-=+*#%@", False: "  ░░▒▒▓▓██"}
-_BITS: Final = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]])
-_SIGNS: Final = {
-    ascii_only: np.array([sign_of(mask, ascii_only=ascii_only) for mask in range(256)], "<U4")
-    for ascii_only in (False, True)
-}
 
 
 class DepthBuffer(NamedTuple):
@@ -299,34 +291,6 @@ def _ground(picture: SpacePicture, view: Viewpoint) -> npt.NDArray[np.float64]:
     return np.array(lines).reshape(-1, 2, 3)
 
 
-def _dots(layer: Layer, width: int, height: int) -> tuple[Indices, Indices, Floats]:
-    """Return the dots of some lines within the picture: column, row, and depth."""
-    ends = layer.ends[np.isfinite(layer.ends).all((1, 2))]
-    middle = np.array([0.5 * width, 0.5 * height])
-    start = ends[:, 0] * [1, -1, 1] + [*middle, 0.0]
-    way = ends[:, 1] * [1, -1, 1] + [*middle, 0.0] - start
-    # Cut each line to the picture (Liang and Barsky).
-    with np.errstate(divide="ignore", invalid="ignore"):
-        to_low = (0.0 - start[:, :2]) / way[:, :2]
-        to_high = ([width, height] - start[:, :2]) / way[:, :2]
-    flat = way[:, :2] == 0.0
-    inside = (start[:, :2] >= 0.0) & (start[:, :2] <= [width, height])
-    enter = np.where(flat, np.where(inside, -np.inf, np.inf), np.minimum(to_low, to_high))
-    leave = np.where(flat, np.where(inside, np.inf, -np.inf), np.maximum(to_low, to_high))
-    first = np.clip(enter.max(1, initial=0.0), 0.0, None)
-    last = np.clip(leave.min(1, initial=1.0), None, 1.0)
-    kept = first <= last
-    start, way, first, last = start[kept], way[kept], first[kept], last[kept]
-    counts = np.ceil((last - first) * np.abs(way[:, :2]).max(1, initial=0.0)).astype(int) + 1
-    one = np.repeat(np.arange(len(counts)), counts)
-    place = np.arange(len(one)) - np.repeat(np.cumsum(counts) - counts, counts)
-    share = first[one] + (last - first)[one] * place / np.maximum(counts - 1, 1)[one]
-    dots = start[one] + share[:, None] * way[one]
-    across = np.minimum(dots[:, 0].astype(int), width - 1)
-    down = np.minimum(dots[:, 1].astype(int), height - 1)
-    return across, down, dots[:, 2]
-
-
 class SpaceCanvas:
     """Draws pictures of frames in space as lines of a terminal.
 
@@ -351,6 +315,7 @@ class SpaceCanvas:
         self._palette, self._tones, self._ascii = palette, tones, ascii_only
         self._has_halves = tones == "full" and not ascii_only
         self._placer = Placer(columns, rows)
+        self._sheet: CellSheet | None = None
         self._places: list[tuple[float, float, str]] = []
 
     def lines(self, picture: SpacePicture, view: Viewpoint) -> list[Line]:
@@ -359,22 +324,20 @@ class SpaceCanvas:
         if not columns or not rows:
             return [[] for _ in range(rows)]
         tinted = self._tones == "full"
-        sheet = drawn(picture, view, columns, rows, self._palette, tinted=tinted)
-        self._places = [(x / 2.0, y / 4.0, one.name) for one, _, x, y in sheet.names]
-        texts, inks, grounds = self._shaded(sheet)
-        masks, colors = self._dotted(sheet)
-        marked = masks > 0
-        texts[marked] = _SIGNS[self._ascii][masks[marked]]
-        if self._has_halves:
-            # Under a line a solid has one colour: that of its upper half, or the lower one.
-            halves = np.where(inks >= 0, inks, grounds)
-            grounds[marked] = halves[marked]
-        inks[marked] = colors[marked]
-        bold = np.zeros(texts.shape, bool)
-        self._name(sheet, picture.chosen, texts, inks, grounds, bold, marked)
+        drawing = drawn(picture, view, columns, rows, self._palette, tinted=tinted)
+        self._places = [(x / 2.0, y / 4.0, one.name) for one, _, x, y in drawing.names]
+        sheet = self._shaded(drawing)
+        # Under a line a solid has one colour: that of its upper half, or the lower one.
+        halves = sheet.inks if self._has_halves else sheet.grounds
+        dots = self._dotted(drawing)
+        sheet.grounds = np.where(dots.masks > 0, halves, sheet.grounds)
+        marked = sheet.lay(dots, ascii_only=self._ascii)
+        self._name(drawing, picture.chosen, sheet, marked)
         if self._tones == "none":
-            inks[:], grounds[:] = _NONE, _NONE
-        return [_line(*row) for row in zip(texts, inks, grounds, bold, strict=True)]
+            sheet.inks[:], sheet.grounds[:] = NONE, NONE
+        lines = sheet.lines(self._sheet)
+        self._sheet = sheet
+        return lines
 
     def frame_at(self, column: int, row: int) -> str | None:
         """Return the frame nearest to a cell, at most three cells away."""
@@ -385,139 +348,89 @@ class SpaceCanvas:
         away, name = min(near, default=(9.0, ""))
         return name if away <= 1.5 else None
 
-    def _shaded(self, sheet: DrawnSpace) -> tuple[npt.NDArray[np.str_], Indices, Indices]:
-        """Return characters, foreground and background colours of the solids' cells."""
+    def _shaded(self, drawing: DrawnSpace) -> CellSheet:
+        """Return the cells of the solids."""
         columns, rows = self.columns, self.rows
-        found = sheet.depth.owners >= 0
-        texts = np.full((rows, columns), " ", "<U4")
-        inks = np.full((rows, columns), _NONE, np.int64)
-        grounds = inks.copy()
+        found = drawing.depth.owners >= 0
+        sheet = CellSheet(columns, rows)
         if not self._has_halves:
             total = found.reshape(rows, 4, columns, 2).sum((1, 3))
             some = total > 0
-            color = sheet.image.reshape(rows, 4, columns, 2, 3).sum((1, 3))
+            color = drawing.image.reshape(rows, 4, columns, 2, 3).sum((1, 3))
             bright = color.max(2) / 255.0 / 8.0
             ramp = np.array(list(_RAMPS[self._ascii]), "<U4")
             steps = len(ramp) - 1
-            texts[some] = ramp[np.clip(np.ceil(bright[some] * steps), 2, steps).astype(int)]
+            shades = np.clip(np.ceil(bright[some] * steps), 2, steps).astype(int)
+            sheet.texts[some] = ramp[shades]
             mean = color[some] / total[some][:, None]
             # The sign has the shade; the ink only has the hue.
-            inks[some] = _packed(mean * (230.0 / np.maximum(mean.max(1, keepdims=True), 1.0)))
-            return texts, inks, grounds
+            hue = mean * (230.0 / np.maximum(mean.max(1, keepdims=True), 1.0))
+            sheet.inks[some] = _few_shades(hue)
+            return sheet
         count = found.reshape(rows, 2, 2, columns, 2).sum((2, 4))
-        color = sheet.image.reshape(rows, 2, 2, columns, 2, 3).sum((2, 4))
+        color = drawing.image.reshape(rows, 2, 2, columns, 2, 3).sum((2, 4))
         ground = np.array(self._palette.panel, np.float32)
-        packed = _packed((color + (4 - count)[..., None] * ground) / 4.0)
-        packed[count < 2] = _NONE
-        upper, lower = packed[:, 0], packed[:, 1]
-        only_lower, any_upper = (upper < 0) & (lower >= 0), upper >= 0
-        texts[only_lower], inks[only_lower] = "▄", lower[only_lower]
-        texts[any_upper], inks[any_upper] = "▀", upper[any_upper]
-        both = any_upper & (lower >= 0)
-        grounds[both] = lower[both]
-        return texts, inks, grounds
+        halves = _few_shades((color + (4 - count)[..., None] * ground) / 4.0)
+        halves[count < 2] = NONE
+        upper, lower = halves[:, 0], halves[:, 1]
+        sheet.texts[lower >= 0], sheet.texts[upper >= 0] = "▄", "▀"
+        sheet.inks = np.where(upper >= 0, upper, lower)
+        both = (upper >= 0) & (lower >= 0)
+        sheet.grounds[both] = lower[both]
+        return sheet
 
-    def _dotted(self, sheet: DrawnSpace) -> tuple[Indices, Indices]:
-        """Return each cell's dots and their colour; the last line wins."""
-        width, height = 2 * self.columns, 4 * self.rows
-        masks = np.zeros((self.rows, self.columns), np.int64)
-        colors = np.full_like(masks, _NONE)
-        for layer in sheet.layers:
-            across, down, depth = _dots(layer, width, height)
+    def _dotted(self, drawing: DrawnSpace) -> Dots:
+        """Return the lines as dots; the last line of a cell wins."""
+        columns, rows = self.columns, self.rows
+        solid = drawing.depth.owners >= 0
+        # The ground never takes the cell of a solid.
+        free = np.logical_not(solid.reshape(rows, 4, columns, 2).any((1, 3)))
+        dots = Dots(columns, rows)
+        for layer in drawing.layers:
+            ends = layer.ends * [1, -1, 1] + [columns, 2 * rows, 0]
+            across, down, points, _ = dots_of(ends, 2 * columns, 4 * rows)
             if layer.is_hidden:
-                seen = depth >= sheet.depth.depths[down, across]
+                seen = points[:, 2] >= drawing.depth.depths[down, across]
                 across, down = across[seen], down[seen]
-            mine = np.zeros_like(masks)
-            np.bitwise_or.at(mine, (down // 4, across // 2), _BITS[down % 4, across % 2])
-            marked = mine > 0
-            if layer.is_hidden:
-                # The ground never takes the cell of a solid.
-                solid = (sheet.depth.owners >= 0).reshape(self.rows, 4, self.columns, 2)
-                marked &= ~solid.any((1, 3))
-            masks[marked] = mine[marked]
-            red, green, blue = layer.color
-            colors[marked] = (red << 16) + (green << 8) + blue
-        return masks, colors
+            mine = Dots(columns, rows)
+            mine.mark(across, down, packed(layer.color))
+            dots.cover(mine, free if layer.is_hidden else None)
+        return dots
 
     def _name(
-        self,
-        sheet: DrawnSpace,
-        chosen: str,
-        texts: npt.NDArray[np.str_],
-        inks: Indices,
-        grounds: Indices,
-        bold: npt.NDArray[np.bool_],
-        marked: npt.NDArray[np.bool_],
+        self, drawing: DrawnSpace, chosen: str, sheet: CellSheet, marked: npt.NDArray[np.bool_]
     ) -> None:
         """Write frame names where they cover no other name."""
-        more = "~" if self._ascii else "…"
         named: dict[str, SpaceFrame] = {}
         labels = []
-        for one, name, x, y in sheet.names:
+        for one, name, x, y in drawing.names:
             column, row = int(x // 2), int(y // 4)
             if 0 <= column < self.columns and 0 <= row < self.rows:
-                text = fitted(name, max(14, self.columns // 3), more=more)
-                if theme.is_stale(one.age):
-                    text = f"{text} {one.age:.1f} s ago"
-                if self._ascii:
-                    text = text.encode("ascii", "replace").decode("ascii")
-                labels.append(
-                    Label(one.name, fitted(text, self.columns, more=more), column, row, 1)
-                )
+                text = label_text(name, one.age, self.columns, 14, ascii_only=self._ascii)
+                labels.append(Label(one.name, text, column, row, 1))
                 named[one.name] = one
         # Names beside a robot are easier to read than names on it.
-        soft = marked | (inks != _NONE) | (grounds != _NONE)
-        rows, columns = (place.tolist() for place in np.nonzero(soft))
-        hint = f"grid {sheet.grid:g} m"
-        places = {(self.rows - 1, column) for column in range(len(hint) + 1)}
-        for placed in self._placer.placed(
-            labels, set(places), set(zip(rows, columns, strict=True))
-        ):
+        soft = marked | (sheet.inks != NONE)
+        cells = set(zip(*(place.tolist() for place in np.nonzero(soft)), strict=True))
+        hint = f"grid {drawing.grid:g} m"[: self.columns]
+        taken = {(self.rows - 1, column) for column in range(len(hint) + 1)}
+        palette = self._palette
+        for placed in self._placer.placed(labels, taken, cells):
             one = named[placed.label.name]
             if placed.is_far and one.name != chosen:
                 continue
-            ink = theme.of_age(
-                theme.readable(theme.of_name(one.name), self._palette), one.age, self._palette
-            )
-            for offset, sign in cells_of(placed.label.text):
-                place = placed.row, placed.column + offset
-                texts[place], inks[place], grounds[place] = sign, _number(ink), _NONE
-                bold[place] = one.name == chosen
-        for column, sign in enumerate(hint[: self.columns]):
-            texts[-1, column], inks[-1, column] = sign, _number(self._palette.dim)
-            grounds[-1, column] = _NONE
+            color = theme.readable(theme.of_name(one.name), palette)
+            ink = packed(theme.of_age(color, one.age, palette))
+            text, is_chosen = placed.label.text, one.name == chosen
+            sheet.write(placed.column, placed.row, text, ink, bold=is_chosen, clears=True)
+        sheet.write(0, self.rows - 1, hint, packed(palette.dim), clears=True)
 
 
-def _number(color: Color) -> int:
-    return (color.r << 16) + (color.g << 8) + color.b
-
-
-def _packed(colors: npt.NDArray[np.floating]) -> Indices:
-    """Pack colours into integers with few shades, so that styles can be cached."""
+def _few_shades(colors: npt.NDArray[np.floating]) -> Indices:
+    """Pack colours with few shades, so that styles can be cached."""
     red, green, blue = np.moveaxis(np.clip(colors, 0, 255).astype(np.int64) & 0xF8, -1, 0)
-    packed: Indices = (red << 16) + (green << 8) + blue
-    return packed
-
-
-def _line(
-    texts: npt.NDArray[np.str_], inks: Indices, grounds: Indices, bold: npt.NDArray[np.bool_]
-) -> Line:
-    """Join a row's cells of equal style."""
-    # The ink of a blank is not seen: no new segment for it.
-    key = (np.where(texts == " ", _NONE, inks) << 26) + (grounds << 1) + bold
-    starts = [0, *(np.flatnonzero(np.diff(key)) + 1).tolist(), len(key)]
-    signs, ink, ground = texts.tolist(), inks.tolist(), grounds.tolist()
-    return [
-        Segment(
-            "".join(signs[first:end]),
-            style_of(_color(ink[first]), _color(ground[first]), bool(bold[first])),
-        )
-        for first, end in pairwise(starts)
-    ]
-
-
-def _color(number: int) -> Color | None:
-    return None if number < 0 else Color(number >> 16, number >> 8 & 255, number & 255)
+    shades: Indices = (red << 16) + (green << 8) + blue
+    return shades
 
 
 def corners_of(picture: SpacePicture) -> npt.NDArray[np.float64]:

@@ -6,6 +6,9 @@ A body is drawn with quadrant blocks: four pixels and two colours to a cell.
 import math
 from collections import Counter
 from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
 
 from tftool.base.color import Color
 from tftool.drawing import theme
@@ -45,14 +48,7 @@ _PARTS = (
     (-0.58, 0.0, 0.14, 0.05, _LEG),
 )
 _REACH = 0.94
-
-
-def _part(u: float, v: float) -> int | None:
-    for centre_u, centre_v, half_u, half_v, part in _PARTS:
-        across, along = (v - centre_v) / half_v, (u - centre_u) / half_u
-        if across * across + along * along <= 1.0:
-            return part
-    return None
+_NOTHING = -1
 
 
 def body(
@@ -77,36 +73,37 @@ def body(
         _PLATE: theme.blend(color, theme.INK, 0.45),
     }
     cosine, sine = math.cos(theta), math.sin(theta)
-    rows, columns = _REACH * per_metre, 2.0 * _REACH * per_metre
-    for row in range(math.floor(y - rows), math.ceil(y + rows)):
-        for column in range(math.floor(x - columns), math.ceil(x + columns)):
-            parts = []
-            for corner in range(4):
-                right = (column + 0.25 + 0.5 * (corner & 1) - x) / (2.0 * per_metre)
-                up = -(row + 0.25 + 0.5 * (corner >> 1) - y) / per_metre
-                parts.append(_part(cosine * right + sine * up, cosine * up - sine * right))
-            cell = _quadrants(parts, shades)
-            if cell is not None:
-                yield column, row, cell
+    reach = _REACH * per_metre
+    top, left = math.floor(y - reach), math.floor(x - 2.0 * reach)
+    down, across = math.ceil(y + reach) - top, math.ceil(x + 2.0 * reach) - left
+    right = (left + 0.25 + 0.5 * np.arange(2 * across) - x) / (2.0 * per_metre)
+    up = -(top + 0.25 + 0.5 * np.arange(2 * down)[:, None] - y) / per_metre
+    u, v = cosine * right + sine * up, cosine * up - sine * right
+    parts = np.full(u.shape, _NOTHING)
+    for centre_u, centre_v, half_u, half_v, part in reversed(_PARTS):
+        parts[((v - centre_v) / half_v) ** 2 + ((u - centre_u) / half_u) ** 2 <= 1.0] = part
+    # The four quadrants of each cell, in a row.
+    cells = parts.reshape(down, 2, across, 2).swapaxes(1, 2).reshape(down, across, 4)
+    for row, column in np.argwhere((cells != _NOTHING).any(2)).tolist():
+        sign, ink, ground = _quadrants(tuple(cells[row, column].tolist()))
+        yield left + column, top + row, Cell(sign, shades.get(ink), shades.get(ground))
 
 
-def _quadrants(parts: list[int | None], shades: dict[int, Color]) -> Cell | None:
-    """Choose a block character for four quadrants in two colours."""
-    seen = Counter(part for part in parts if part is not None).most_common()
-    if not seen:
-        return None
+@lru_cache
+def _quadrants(parts: tuple[int, ...]) -> tuple[str, int, int]:
+    """Choose a block character for four quadrants, and the parts that colour it and its ground."""
+    seen = Counter(part for part in parts if part != _NOTHING).most_common()
     first = seen[0][0]
+    is_edge = _NOTHING in parts
+    if len(seen) == 1 and not is_edge:
+        # As ground and not as a full block: where lines stand apart, blocks leave gaps.
+        return " ", _NOTHING, first
     mask = sum(
         1 << corner
         for corner, part in enumerate(parts)
-        if part == first or (part is not None and None in parts)
+        if part == first or (part != _NOTHING and is_edge)
     )
-    if len(seen) == 1 and None not in parts:
-        # As ground and not as a full block: where lines stand apart, blocks leave gaps.
-        return Cell(" ", None, shades[first])
-    if None not in parts:
-        return Cell(_QUADRANTS[mask], shades[first], shades[seen[1][0]])
-    return Cell(_QUADRANTS[mask], shades[first])
+    return _QUADRANTS[mask], first, _NOTHING if is_edge else seen[1][0]
 
 
 def badge(

@@ -147,12 +147,6 @@ class PaperColors(NamedTuple):
 _BRIGHT: Final = (Color(255, 85, 85), Color(80, 230, 120), Color(110, 170, 255))
 _DEEP: Final = (Color(205, 20, 30), Color(0, 135, 50), Color(20, 90, 230))
 
-LINK, X_AXIS, Y_AXIS, Z_AXIS, PAIR = (Color(-1, -1, -1 - number) for number in range(5))
-"""Stand for colours that depend on the ground below; no real colour is negative."""
-
-ROLES: Final = {LINK: 2, X_AXIS: 3, Y_AXIS: 4, Z_AXIS: 5, PAIR: 6}
-"""Which of `PaperColors` each of them stands for."""
-
 
 def paper(palette: Palette) -> PaperColors:
     """Return the colours on a screen's own background."""
