@@ -103,14 +103,6 @@ class ActionClient(Requester):
         """Whether a server is available (in the loop's thread)."""
         return self.full in self.seat.world.actions()
 
-    def server_is_ready(self) -> bool:
-        """Whether a server of the action is available."""
-        return self.look_for_server()
-
-    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is available; return whether one is."""
-        return self.seat.wait_until(self.is_served, timeout_sec)
-
     def send_goal_async(
         self,
         goal: Any,

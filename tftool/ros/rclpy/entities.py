@@ -113,12 +113,16 @@ class Requester(WorkQueue):
         """Whether a server is available (in the loop's thread)."""
         raise NotImplementedError
 
-    def look_for_server(self) -> bool:
+    def server_is_ready(self) -> bool:
         """Return whether a server is available now."""
         ready = bool(self.seat.program.ask(self.is_served))
         if not ready:
             self.seat.program.looked_in_vain()
         return ready
+
+    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
+        """Block until a server is available; return whether one is."""
+        return self.seat.wait_until(self.is_served, timeout_sec)
 
     def promise(self, request: Callable[[], Coroutine[Any, Any, Any]]) -> Future:
         """Return a future of a response; a request that returns None stays unanswered.
@@ -160,31 +164,21 @@ class Requester(WorkQueue):
             task.cancel()
 
 
-class GuardCondition(NodeEntity):
+class GuardCondition(WorkQueue):
     """Calls back when triggered."""
 
     def __init__(self, seat: NodeSeat, callback: Callable[[], Any], group: Any) -> None:
         super().__init__(seat, group)
         self.callback = callback
-        self._triggered = False
 
     def trigger(self) -> None:
-        """Schedule the callback."""
+        """Schedule the callback, once until it is called."""
 
         def set_off() -> None:
-            self._triggered = True
-            self.seat.wake()
+            if not self.ready():
+                self.put(self.callback)
 
         self.seat.program.ask(set_off)
-
-    def ready(self) -> bool:
-        """Whether it was triggered."""
-        return self._triggered
-
-    def take(self) -> Work:
-        """Return the callback."""
-        self._triggered = False
-        return self.callback
 
 
 class CallbackGroup:

@@ -55,13 +55,8 @@ class Client(_Introspected, Requester):
         """Whether a server is available (in the loop's thread)."""
         return self.seat.world.has_service(self.full)
 
-    def service_is_ready(self) -> bool:
-        """Whether a server is available."""
-        return self.look_for_server()
-
-    def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is available; return whether one is."""
-        return self.seat.wait_until(self.is_served, timeout_sec)
+    service_is_ready = Requester.server_is_ready
+    wait_for_service = Requester.wait_for_server
 
     def call_async(self, request: Any) -> Future:
         """Send a request; the response arrives while an executor spins.
