@@ -55,8 +55,10 @@ class Executor:
         self._context = context or context_of(self._program)
         self._seats: list[NodeSeat] = []
         self._batch: deque[NodeEntity] = deque()
-        self._tasks: deque[Task] = deque()
-        self._finished: deque[Any] = deque()
+        self._tasks: deque[tuple[Task, Any]] = deque()
+        """Tasks to go on with, each with the group that is busy until it ends, or None."""
+        self._has_released = False
+        """Whether a group was released since this executor last looked for work."""
         self._wakers: list[asyncio.Future[None]] = []
         self._reached: Stamp = 0
         self._over = False
@@ -185,7 +187,7 @@ class Executor:
     def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
         """Execute one callback; return False if the time was up, or on another wake-up."""
         if self._tasks:
-            self._advance(self._tasks.popleft(), None)
+            self._advance(*self._tasks.popleft())
             return True
         found = self._program.ask(lambda: self._next(deadline, future))
         self._raise_failure()
@@ -214,7 +216,7 @@ class Executor:
     def _release(self, group: Any) -> None:
         if group is not None:
             group.ending_execution(None)
-            self._finished.append(group)
+            self._has_released = True
 
     def _advance(self, task: Task, group: Any) -> None:
         waits_for = task()
@@ -229,10 +231,7 @@ class Executor:
             self._schedule(task, group)
 
     def _schedule(self, task: Task, group: Any = None) -> None:
-        if group is None:
-            self._tasks.append(task)
-        else:
-            self._tasks.append(_Continued(task, group, self))
+        self._tasks.append((task, group))
         self._wake_from_anywhere()
 
     def _wake_from_anywhere(self) -> None:
@@ -247,8 +246,8 @@ class Executor:
     ) -> tuple[NodeEntity, Work] | None:
         """Return the next work, if any; None if it was woken for another reason."""
         clock = self._program.clock
-        if self._finished:
-            self._finished.clear()
+        if self._has_released:
+            self._has_released = False
             self.wake()
         while True:
             # Registered before it looks: what another thread sets while it looks wakes it.
@@ -334,21 +333,6 @@ class Executor:
             if timer.done():
                 self._reached = max(self._reached, owner.clock.now())
             timer.cancel()
-
-
-class _Continued(Task):
-    """A callback's coroutine in progress; its group is busy until it ends."""
-
-    def __init__(self, task: Task, group: Any, executor: Executor) -> None:
-        super().__init__(lambda: None, executor=executor)
-        self._task = task
-        self._group = group
-        self._owner = executor
-
-    def __call__(self) -> Any:
-        self._owner._advance(self._task, self._group)
-        self.set_result(None)
-        return None
 
 
 class SingleThreadedExecutor(Executor):
