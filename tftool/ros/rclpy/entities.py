@@ -339,6 +339,13 @@ class RateTimer(Timer):
     """Ends a `spin_once` at every period of a rate, as a rate's timer does in ROS."""
 
     only_ends_spin_once = True
+    on_end: Callable[[], object] = staticmethod(lambda: None)
+    """Called when it is destroyed."""
+
+    def withdraw(self) -> None:
+        """End the rate."""
+        super().withdraw()
+        self.on_end()
 
 
 async def outcome(value: Any) -> Any:

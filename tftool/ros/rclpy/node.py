@@ -313,10 +313,7 @@ class Node(NodeGraph, NodeParameters):
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Destroy a rate; return whether it belonged to this node."""
-        if rate not in self._tftool.rates:
-            return False
-        rate.destroy()
-        return True
+        return self._tftool.forget(rate.timer)
 
     def _serve_own(
         self,

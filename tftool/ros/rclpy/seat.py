@@ -35,7 +35,6 @@ class NodeSeat:
         executor: The executor that serves it, None while none does.
         was_served: Whether an executor has ever served it.
         rosout: Publisher of its log messages, None without one.
-        rates: Rates that pace its loops.
         entities: Entities that can become ready, in the order of creation.
         authority: Authority of its transforms.
     """
@@ -59,7 +58,6 @@ class NodeSeat:
         self.executor: Any = None
         self.was_served = False
         self.rosout: Any = None
-        self.rates: set[Any] = set()
         self.entities: list[Any] = []
         self._destroyed = False
         self._node: ProgramNode = program.ask(self._join)
@@ -149,8 +147,6 @@ class NodeSeat:
     def leave(self) -> None:
         """Close everything, called in the program's thread."""
         if not self._destroyed:
-            for rate in tuple(self.rates):
-                rate.destroy()
             self.program.unserved.append((self.name, self.unserved()))
             self.program.ask(self.withdraw)
             if self in self.program.nodes:

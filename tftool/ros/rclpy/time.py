@@ -424,16 +424,15 @@ class Rate:
     """Sleeps so that a loop runs at a rate."""
 
     def __init__(self, seat: Any, timer: Any) -> None:
+        self.timer = timer
         self._period: int = timer.timer_period_ns
-        self._timer = timer
         self._program = seat.program
         self._due = self._program.clock.now() + self._period
         self._context = seat.context
         self._state = StateMonitor()
         self._stop = self._context.on_change(self._state.wake)
         self._over = False
-        self._siblings = seat.rates
-        self._siblings.add(self)
+        timer.on_end = self._end
 
     def sleep(self) -> None:
         """Block until the next period.
@@ -461,9 +460,9 @@ class Rate:
 
     def destroy(self) -> None:
         """Destroy it, and wake sleeping threads."""
-        if not self._over:
-            self._over = True
-            self._siblings.discard(self)
-            self._timer.destroy()
-            self._stop()
-            self._state.wake()
+        self.timer.destroy()
+
+    def _end(self) -> None:
+        self._over = True
+        self._stop()
+        self._state.wake()
