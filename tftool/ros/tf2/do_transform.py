@@ -15,9 +15,6 @@ from tftool.ros.tf2.interface import ConvertRegistration, TransformRegistration
 
 Do = TypeVar("Do", bound=Callable[[Any, Any], Any])
 
-_FLOATS = {7: "f4", 8: "f8"}
-"""How numpy writes a PointField's FLOAT32 and FLOAT64."""
-
 
 def to_msg_msg(msg: Any) -> Any:
     """Return the message itself."""
@@ -158,6 +155,8 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     """
     import numpy as np
 
+    from tftool.ros.tf2.point_clouds import rows_of
+
     fields = {field.name: field for field in cloud.fields}
     if not {"x", "y", "z"} <= set(fields):
         raise AssertionError("Point cloud needs the fields x, y, and z for the transformation")
@@ -165,22 +164,12 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     if hasattr(transform, "header"):
         result.header.frame_id = transform.header.frame_id
     data = bytearray(cloud.data.tobytes())
-    order = ">" if cloud.is_bigendian else "<"
     # Where the coordinates lie in the data, row by row: written there, they are in the cloud.
-    x, y, z = (
-        np.ndarray(
-            (cloud.height, cloud.width),
-            order + _FLOATS[fields[axis].datatype],
-            data,
-            fields[axis].offset,
-            (cloud.row_step, cloud.point_step),
-        )
-        for axis in "xyz"
-    )
-    points = np.stack((x.ravel(), y.ravel(), z.ravel()), axis=1)
+    rows = rows_of(cloud, [fields[axis] for axis in "xyz"], data)
+    points = np.stack([rows[axis].ravel() for axis in "xyz"], axis=1)
     moved = carry.points(_transform_of(transform), points)
-    for axis, values in zip((x, y, z), moved.T, strict=True):
-        axis[:] = values.reshape(axis.shape)
+    for axis, values in zip("xyz", moved.T, strict=True):
+        rows[axis] = values.reshape(rows.shape)
     result.data = array.array("B", data)
     return result
 

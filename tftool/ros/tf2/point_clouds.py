@@ -58,6 +58,13 @@ def dtype_from_fields(
     return np.dtype(layout)  # type: ignore[call-overload, no-any-return]
 
 
+def rows_of(cloud: Any, fields: Iterable[Any], data: bytes | bytearray) -> npt.NDArray[Any]:
+    """Return a view of some fields in a cloud's data, of shape (height, width)."""
+    form = dtype_from_fields(fields, cloud.point_step, cloud.is_bigendian)
+    steps = (cloud.row_step, cloud.point_step)
+    return np.ndarray((cloud.height, cloud.width), form, data, 0, steps)
+
+
 def read_points(
     cloud: Any,
     field_names: Sequence[str] | None = None,
@@ -80,17 +87,13 @@ def read_points(
     kind: Any = INTERFACES.message("sensor_msgs/PointCloud2")
     if not isinstance(cloud, kind):
         raise AssertionError("Cloud is not a sensor_msgs.msg.PointCloud2")
-    form = dtype_from_fields(cloud.fields, cloud.point_step, cloud.is_bigendian)
     data = cloud.data.tobytes() if hasattr(cloud.data, "tobytes") else bytes(cloud.data)
     needed = (cloud.height - 1) * cloud.row_step + cloud.width * cloud.point_step
     if cloud.width and cloud.height and len(data) < needed:
         raise AssertionError(f"the cloud's data has {len(data)} bytes, but {needed} are needed")
-    shape = (cloud.height, cloud.width)
-    steps = (cloud.row_step, cloud.point_step)
-    rows = np.ndarray(shape, form, data if data else bytes(1), 0, steps)
-    points: npt.NDArray[Any] = rows.ravel()
+    points: npt.NDArray[Any] = rows_of(cloud, cloud.fields, data or bytes(1)).ravel()
     if field_names is not None:
-        missing = [name for name in field_names if name not in (form.names or ())]
+        missing = [name for name in field_names if name not in (points.dtype.names or ())]
         if missing:
             raise AssertionError(f"the cloud has no field {', '.join(missing)}")
         points = points[list(field_names)]
