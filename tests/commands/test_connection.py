@@ -2,29 +2,27 @@
 
 import subprocess
 import sys
+from functools import partial
 
 import pytest
 
 from tests.certificates import certificates, needs_openssl
 from tests.command_line import Simulated
-from tftool.commands.shared.connection import Connection, Mode, Providers
-from tftool.commands.shared.declaration import Declaration
+from tftool.commands.shared.connection import Connection, Mode, Providers, read
+from tftool.commands.shared.declaration import Kind
 
 
 @pytest.fixture
 def told():
-    """A command that gives its connection, run with some options."""
+    """The connection that some options give."""
 
-    def command(connection):
-        return connection
-
-    return Declaration(command).with_options()
+    return partial(read, "command", Kind())
 
 
 def test_without_options_whatever_fits_is_done(told, monkeypatch):
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
 
-    assert told() == Connection("command")
+    assert told() == Connection("command", Kind())
     assert not told().needs_link
 
 

@@ -16,7 +16,14 @@ from typer.main import get_command
 from tftool.app.index import COMMANDS, load, show_help
 from tftool.base.errors import UsageError
 from tftool.base.exit_status import ExitStatus
+from tftool.commands.shared.declaration import (
+    POSE_OPTIONS,
+    SESSION_OPTIONS,
+    Invocation,
+    typer_function,
+)
 from tftool.commands.shared.notices import complain
+from tftool.recordings.poses.pose_options import collect, names_file, pose_options
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Providers
@@ -50,13 +57,10 @@ def run_command(words: Sequence[str], providers: "Providers | None" = None) -> i
     # typer carries its own click since 0.26: its base classes are reached through what it
     # exports, so that either kind is caught.
     wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
-    command = made(name, providers)
-
-    def run_other(words: Sequence[str]) -> int:
-        return run_command(words, providers)
-
+    command = made(name)
+    invocation = Invocation(providers, lambda words: run_command(words, providers))
     try:
-        with command.make_context(f"tftool {name}", rest, obj=run_other) as context:
+        with command.make_context(f"tftool {name}", rest, obj=invocation) as context:
             if not gc.isenabled():
                 # A file of 100 KB can make 60,000 frames: with Python's own thresholds the
                 # collector takes a fifth of the time and finds nothing.
@@ -116,20 +120,20 @@ def _nearest(written: str, near: Iterable[str]) -> list[str]:
     )
 
 
-def made(name: str, providers: "Providers | None" = None) -> Any:
+def made(name: str) -> Any:
     """Build one command with all its options."""
-    declaration = load(name)
-    command = declaration.with_options(providers)
+    command = load(name)
     # Help in plain text: rich would cost more than everything else at start-up.
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
-    settings = {"help_option_names": ["-h", "--help"], **declaration.settings}
-    app.command(name, cls=Command, help=_laid_out(command), context_settings=settings)(command)
+    settings = {"help_option_names": ["-h", "--help"], **command.kind.settings}
+    text = _laid_out(command.__doc__ or "")
+    app.command(name, cls=Command, help=text, context_settings=settings)(typer_function(command))
     return get_command(app)
 
 
-def _laid_out(command: Callable[..., Any]) -> str:
+def _laid_out(docstring: str) -> str:
     """Format a command's docstring as its help; examples keep their line breaks."""
-    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
+    paragraphs = cleandoc(docstring).split("\n\n")
     # The mark by which click leaves a paragraph as it is.
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
@@ -161,9 +165,6 @@ class Command(TyperCommand):
         """Collect the options of each pose file: the file before the option, its name and its
         value.
         """
-        from tftool.commands.shared.declaration import POSE_OPTIONS
-        from tftool.recordings.poses.pose_options import names_file
-
         options = {one: param for param in self.params for one in param.opts if one[0] == "-"}
         file: str | None = None
         words = iter(args)
@@ -184,8 +185,6 @@ class Command(TyperCommand):
         given = ctx.meta.get(_POSES)
         if not given:
             return super().invoke(ctx)
-        from tftool.recordings.poses.pose_options import collect, pose_options
-
         with pose_options(collect(given)):
             return super().invoke(ctx)
 
@@ -240,9 +239,6 @@ def _title(param: Any) -> str:
 def _is_of_session(param: Any) -> bool:
     if param.name in ("help", _SESSION):
         return False
-    # The list of commands does without it: it describes none of them.
-    from tftool.commands.shared.declaration import SESSION_OPTIONS
-
     return param.name in SESSION_OPTIONS
 
 

@@ -6,18 +6,19 @@ import typer
 
 from tftool.app.main import main
 from tftool.base.exit_status import ExitStatus
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 
 
-@declare(shares=False)
-def help(
-    name: Annotated[
-        str | None, typer.Argument(metavar="[COMMAND]", help="What to explain.")
-    ] = None,
-) -> ExitStatus:
+class HelpOptions(Command, shares=False):
     """Show the list of commands, or the help of one (man).
 
     tftool help
     tftool help echo
     """
-    return ExitStatus(main(["--help"] if name is None else [name, "--help"]))
+
+    name: Annotated[str | None, typer.Argument(metavar="[COMMAND]", help="What to explain.")] = None
+
+
+def run(options: HelpOptions) -> ExitStatus:
+    """Run `tftool help`."""
+    return ExitStatus(main(["--help"] if options.name is None else [options.name, "--help"]))

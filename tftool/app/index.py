@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.declaration import Declaration
+    from tftool.commands.shared.declaration import Command
 
 # In the order of the help, with the line it has for each: reading that from the commands
 # themselves would import them all. Each is declared in a module of its own name.
@@ -67,15 +67,15 @@ GROUPS = {
 COMMANDS = {name: summary for group in GROUPS.values() for name, summary in group.items()}
 
 
-def load(name: str) -> "Declaration":
+def load(name: str) -> "type[Command]":
     """Import the declaration of a command.
 
     Help and completion list every command, but import only the commands they describe in detail.
     """
     # Only `help` asks for other commands.
     home = "tftool.app.help" if name == "help" else f"tftool.commands.{name}"
-    declaration: Declaration = getattr(import_module(home), name)
-    return declaration
+    command: type[Command] = getattr(import_module(home), f"{name.capitalize()}Options")
+    return command
 
 
 OPTIONS = {

@@ -14,6 +14,7 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import Buffer
+from tftool.commands.calibrate import CalibrateOptions
 from tftool.commands.calibrate.calibration_report import page
 from tftool.commands.calibrate.mount_files import MOUNT_FILES, joint_to_change, write_mount
 from tftool.commands.shared.contradictions import refuse
@@ -39,59 +40,58 @@ from tftool.recordings.target import refuse_existing
 from tftool.robots.robot_model import Robot, load_urdf
 
 
-def run(
-    places: list[str],
-    *,
-    moving: list[str] | None,
-    planar: bool,
-    time_only: bool,
-    scale: bool,
-    check: bool,
-    urdf: Path | None,
-    mounted: str | None,
-    joint: str | None,
-    seed: int,
-    no_cache: bool,
-    output: Path | None,
-    report: Path | None,
-    force: bool,
-    for_programs: bool,
-) -> ExitStatus:
-    """Run `tftool calibrate`; the parameters are its options."""
+def run(options: CalibrateOptions) -> ExitStatus:
+    """Run `tftool calibrate`."""
     refuse(
-        (len(places) > 2, "Two motions are compared: name one FROM with both, or one for each."),
-        (len(moving or []) > 2, "--moving is given twice at most, once for each motion."),
         (
-            time_only and (planar or scale or check or output is not None or report is not None),
+            len(options.places) > 2,
+            "Two motions are compared: name one FROM with both, or one for each.",
+        ),
+        (len(options.moving or []) > 2, "--moving is given twice at most, once for each motion."),
+        (
+            options.time_only
+            and (
+                options.planar
+                or options.scale
+                or options.check
+                or options.output is not None
+                or options.report is not None
+            ),
             "--time-only measures the clock offset alone: leave out the options of the mount.",
         ),
-        (joint is not None and output is None, "--joint goes with -o FILE."),
+        (options.joint is not None and options.output is None, "--joint goes with -o FILE."),
     )
-    _refuse_outputs(output, report, urdf, force=force)
-    opened = [open_frames(place, until=math.inf, no_cache=no_cache) for place in places]
+    _refuse_outputs(options.output, options.report, options.urdf, force=options.force)
+    opened = [
+        open_frames(place, until=math.inf, no_cache=options.no_cache) for place in options.places
+    ]
     try:
-        chains = _chains(opened, moving or [])
+        chains = _chains(opened, options.moving or [])
         paths = [_path(*chain) for chain in chains]
-        if time_only:
-            return _print_clocks(paths, for_programs=for_programs)
-        if output is not None and paths[0].child_frame_id == paths[1].child_frame_id:
+        if options.time_only:
+            return _print_clocks(paths, for_programs=options.for_programs)
+        if options.output is not None and paths[0].child_frame_id == paths[1].child_frame_id:
             raise UsageError(
                 f"Both motions are of '{paths[0].child_frame_id}': name the frames, with "
                 "--frames PARENT:CHILD behind each pose file."
             )
-        robot = None if urdf is None else load_urdf(urdf)
-        published = _Published.of(robot, opened[0], paths, mounted)
-        if check:
+        robot = None if options.urdf is None else load_urdf(options.urdf)
+        published = _Published.of(robot, opened[0], paths, options.mounted)
+        if options.check:
             published.refuse_without_mount()
-        chosen = None if output is None else joint_to_change(output, published, joint)
+        chosen = (
+            None
+            if options.output is None
+            else joint_to_change(options.output, published, options.joint)
+        )
         bar = Bar("Calibrating")
         try:
             found = calibrate(
                 *paths,
-                planar=planar,
-                scale=scale,
+                planar=options.planar,
+                scale=options.scale,
                 published=published.mount,
-                seed=seed,
+                seed=options.seed,
                 progress=bar,
             )
         finally:
@@ -99,14 +99,16 @@ def run(
     finally:
         for frames in opened:
             frames.close()
-    is_outside = _print(found, published if check else None, for_programs=for_programs)
-    if report is not None:
-        write_file(report, page(found, *paths))
-        notice(visible(f"Wrote {report}."))
+    is_outside = _print(
+        found, published if options.check else None, for_programs=options.for_programs
+    )
+    if options.report is not None:
+        write_file(options.report, page(found, *paths))
+        notice(visible(f"Wrote {options.report}."))
     if not found:
         return ExitStatus.FAILED
-    if output is not None:
-        for sentence in write_mount(output, found, published, chosen, urdf):
+    if options.output is not None:
+        for sentence in write_mount(options.output, found, published, chosen, options.urdf):
             notice(visible(sentence))
     return ExitStatus.FAILED if is_outside else ExitStatus.DONE
 

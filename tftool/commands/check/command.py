@@ -18,6 +18,7 @@ from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
 from tftool.base.report import Report
 from tftool.base.stamps import Stamp, as_seconds, seconds
+from tftool.commands.check import CheckOptions
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.printer import write, write_file
 from tftool.drawing import report_view as judgements
@@ -194,45 +195,36 @@ def _strictly(report: Report) -> Report:
     return replace(report, failure="\n".join(("warnings fail (--strict):", *report.warnings)))
 
 
-def run(
-    scenarios: list[str] | None,
-    programs: list[str] | None,
-    launched: str | None,
-    packages: list[str] | None,
-    force: bool,
-    junit: Path | None,
-    recordings: Path | None,
-    strict: bool,
-    verbose: bool,
-    for_programs: bool,
-) -> ExitStatus:
-    """Run `tftool check`; the parameters are its options."""
-    if not scenarios and not packages:
+def run(options: CheckOptions) -> ExitStatus:
+    """Run `tftool check`."""
+    if not options.scenarios and not options.packages:
         raise UsageError("which scenario? Give its name or file, or a package as --as-ros PACKAGE")
-    kept = None if recordings is None else _Kept(recordings)
+    kept = None if options.recordings is None else _Kept(options.recordings)
     judging: AbstractContextManager[Callable[..., Verdict]]
-    if programs or launched is not None:
+    if options.programs or options.launched is not None:
         # Users' programs need all of `ros`; the scenario's own nodes need none of it.
         from tftool.commands.check.programs import judge_with
 
-        judging = judge_with(programs or (), launched, force=force, verbose=verbose)
+        judging = judge_with(
+            options.programs or (), options.launched, force=options.force, verbose=options.verbose
+        )
     else:
         judging = nullcontext(run_scenario)
     with judging as judge:
         judged = [
-            _judge(word, judge, kept, own_nodes=launched is None)
-            for words in scenarios or ()
+            _judge(word, judge, kept, own_nodes=options.launched is None)
+            for words in options.scenarios or ()
             for word in _unfolded(words)
         ]
-    if packages:
+    if options.packages:
         # They need all of `ros`.
         from tftool.commands.check.packages import judge_packages
 
-        judged += [(report, True) for report in judge_packages(packages)]
-    if strict:
+        judged += [(report, True) for report in judge_packages(options.packages)]
+    if options.strict:
         judged = [(_strictly(report), readable) for report, readable in judged]
     reports = [report for report, _ in judged]
-    if for_programs:
+    if options.for_programs:
         sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
     else:
         if Console().is_terminal and sys.stderr.isatty():
@@ -242,12 +234,14 @@ def run(
                 for report, readable in judged
             ]
         write(
-            judgements.render_all(reports) if verbose else judgements.render(reports),
-            is_wide=not verbose,
+            judgements.render_all(reports) if options.verbose else judgements.render(reports),
+            is_wide=not options.verbose,
         )
-        sys.stdout.write(f"{judgements.summary(reports, 'scenario' if scenarios else 'package')}\n")
-    if junit is not None:
-        write_file(junit, judgements.as_junit(reports))
+        sys.stdout.write(
+            f"{judgements.summary(reports, 'scenario' if options.scenarios else 'package')}\n"
+        )
+    if options.junit is not None:
+        write_file(options.junit, judgements.as_junit(reports))
     if not all(readable for _, readable in judged):
         return ExitStatus.UNREADABLE
     return ExitStatus.DONE if all(report.ok for report in reports) else ExitStatus.FAILED

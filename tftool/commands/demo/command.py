@@ -16,6 +16,7 @@ from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, Stamp
+from tftool.commands.demo import DemoOptions
 from tftool.commands.shared.connection import HOME, Connection
 from tftool.commands.shared.hosting import JoinDecision, join_or_host
 from tftool.commands.shared.notices import notice
@@ -181,61 +182,60 @@ def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None
     return found
 
 
-def run(
-    connection: Connection,
-    scenario: str | None,
-    source_frame: str | None,
-    rate: float,
-    lasting: int | None,
-    settings: list[str] | None,
-    recording: Path | None,
-    still: bool,
-    listing: bool,
-    ascii_only: bool,
-    light: bool,
-    for_programs: bool,
-) -> ExitStatus:
-    """Run `tftool demo`; the parameters are its options."""
-    if listing:
-        _list(for_programs=for_programs)
+def run(connection: Connection, options: DemoOptions) -> ExitStatus:
+    """Run `tftool demo`."""
+    if options.listing:
+        _list(for_programs=options.for_programs)
         return ExitStatus.DONE
-    if recording is not None and recording.exists():
+    if options.recording is not None and options.recording.exists():
         # Said before the screen comes up.
-        raise UsageError(f"'{recording}' exists: give --record a new name.")
-    arguments = _arguments(settings or (), source_frame)
-    if scenario is not None and named(scenario).kind.is_recording:
-        if arguments or rate != 1.0 or lasting is not None or for_programs:
+        raise UsageError(f"'{options.recording}' exists: give --record a new name.")
+    arguments = _arguments(options.settings or (), options.source_frame)
+    if options.scenario is not None and named(options.scenario).kind.is_recording:
+        if arguments or options.rate != 1.0 or options.lasting is not None or options.for_programs:
             raise UsageError(
                 "The demo only displays a recording: leave out --set, --source-frame, --rate, "
                 "--for and --json. 'tftool play' plays it."
             )
-        _show_recording(connection, scenario, ascii_only=ascii_only, light=light)
+        _show_recording(
+            connection, options.scenario, ascii_only=options.ascii_only, light=options.light
+        )
         return ExitStatus.DONE
-    chosen = scenario_named(scenario or HOME, arguments)
+    chosen = scenario_named(options.scenario or HOME, arguments)
     lacking = screen_lacks()
-    if for_programs or lacking:
+    if options.for_programs or lacking:
         if connection.needs_link:
             raise UsageError(
                 "Without a terminal the demo plays on simulated time, which cannot be "
                 "shared. 'tftool monitor' and 'tftool view' share a session without a "
                 "terminal."
             )
-        refuse_long_simulation(lasting)
-        if not for_programs and sys.stdout.isatty():
+        refuse_long_simulation(options.lasting)
+        if not options.for_programs and sys.stdout.isatty():
             # Who looks on expects a screen.
             notice(f"The demo's screen needs a terminal, and {lacking}: playing without it.")
-        defaults = scenario_named(scenario or HOME).arguments if arguments else chosen.arguments
-        if recording is None:
-            played = play_through(chosen, defaults, lasting)
+        defaults = (
+            scenario_named(options.scenario or HOME).arguments if arguments else chosen.arguments
+        )
+        if options.recording is None:
+            played = play_through(chosen, defaults, options.lasting)
         else:
-            watch = partial(recorded, path=recording)
-            played = play_through(chosen, defaults, lasting, watch=watch)
-        typer.echo(as_json(played) if for_programs else written(played))
+            watch = partial(recorded, path=options.recording)
+            played = play_through(chosen, defaults, options.lasting, watch=watch)
+        typer.echo(as_json(played) if options.for_programs else written(played))
         return ExitStatus.DONE if played.verdict.ok else ExitStatus.FAILED
 
-    show = _Showing(connection, rate, lasting, recording, still, ascii_only, light)
+    show = _Showing(
+        connection,
+        options.rate,
+        options.lasting,
+        options.recording,
+        options.still,
+        options.ascii_only,
+        options.light,
+    )
     # Without a wish of the user's, what runs here already is shown.
-    wanted = scenario or (HOME if arguments or rate != 1.0 else None)
+    wanted = options.scenario or (HOME if arguments or options.rate != 1.0 else None)
     other = show.scenario(chosen, wanted)
     while other is not None:
         other = show.scenario(scenario_named(other), other)

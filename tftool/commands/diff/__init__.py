@@ -1,11 +1,11 @@
 """`tftool diff`: what differs between two sets of frames."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     OUTPUT,
     Force,
@@ -17,101 +17,11 @@ from tftool.commands.shared.options import (
     output_file,
 )
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
-
 TRAJECTORIES = "Trajectories"
 """Heading of the help under which the options of --ape and --rpe are listed."""
 
 
-@declare(descriptions=True, urdf=True)
-def diff(
-    connection: "Connection",
-    first: Annotated[
-        str,
-        typer.Argument(
-            metavar="A",
-            help="A recording, a robot description, a scenario, a launch file or script of static "
-            "transforms, or the word 'session' for the one that runs.",
-        ),
-    ],
-    second: Annotated[str, typer.Argument(metavar="B", help="What it is compared with.")],
-    millimetres: Annotated[
-        float,
-        typer.Option(
-            "--mm", metavar="MM", callback=not_negative, help="How far a frame may lie elsewhere."
-        ),
-    ] = 1.0,
-    degrees: Annotated[
-        float,
-        typer.Option(
-            "--deg", metavar="DEGREES", callback=not_negative, help="How far it may be turned."
-        ),
-    ] = 0.1,
-    rate_percent: Annotated[
-        float | None,
-        typer.Option(
-            metavar="PERCENT",
-            callback=not_negative,
-            help="How much a rate may differ; rates do not count if not said.",
-        ),
-    ] = None,
-    align: Annotated[
-        Literal["start"] | None,
-        option("Compare what moves from each one's own start, not by stamps.", metavar="start"),
-    ] = None,
-    everything: Annotated[
-        bool, option("List links that do not differ, too.", "--all", panel=OUTPUT)
-    ] = False,
-    ape: Annotated[
-        bool,
-        option("Measure the absolute pose error of trajectory B.", "--ape", panel=TRAJECTORIES),
-    ] = False,
-    rpe: Annotated[
-        bool,
-        option("Measure its relative pose error.", "--rpe", panel=TRAJECTORIES),
-    ] = False,
-    pairs: Pairs = None,
-    clock_offset: Annotated[
-        bool,
-        option(
-            "Measure the offset between the clocks of two motions of one body, t_A = t_B + offset.",
-            "--clock-offset",
-            panel=TRAJECTORIES,
-        ),
-    ] = False,
-    fit: Annotated[
-        Literal["none", "first", "se3", "sim3"],
-        option(
-            "Align B with A: by its first pose, rigidly (se3), or with a scale (sim3).",
-            panel=TRAJECTORIES,
-        ),
-    ] = "none",
-    match: Annotated[
-        Literal["nearest", "interpolate"],
-        option(
-            "Take A's nearest pose within 10 ms, or interpolate A at B's stamps.",
-            panel=TRAJECTORIES,
-        ),
-    ] = "nearest",
-    per: Annotated[
-        str,
-        option(
-            "Length over which --rpe is taken: frames (1), metres (10m) or degrees (5deg).",
-            metavar="LENGTH",
-            panel=TRAJECTORIES,
-        ),
-    ] = "1",
-    lasting: RunFor = None,
-    for_programs: Json = False,
-    markdown: Annotated[
-        bool, option("Print it for an issue on the web.", "--markdown", panel=OUTPUT)
-    ] = False,
-    output: Annotated[
-        Path | None, output_file("Draw the errors of --ape and --rpe: .svg, .pdf or .png.")
-    ] = None,
-    force: Force = False,
-) -> None:
+class DiffOptions(Command, descriptions=True, urdf=True):
     """Say what differs between two sets of frames, link by link.
 
     Reports added and missing links, other parents, and links that are static in one and move in the
@@ -128,3 +38,88 @@ def diff(
     tftool diff truth.tum estimate.tum --ape --rpe --fit se3
     tftool diff vicon.csv camera.csv --clock-offset
     """
+
+    first: Annotated[
+        str,
+        typer.Argument(
+            metavar="A",
+            help="A recording, a robot description, a scenario, a launch file or script of static "
+            "transforms, or the word 'session' for the one that runs.",
+        ),
+    ]
+    second: Annotated[str, typer.Argument(metavar="B", help="What it is compared with.")]
+    millimetres: Annotated[
+        float,
+        typer.Option(
+            "--mm", metavar="MM", callback=not_negative, help="How far a frame may lie elsewhere."
+        ),
+    ] = 1.0
+    degrees: Annotated[
+        float,
+        typer.Option(
+            "--deg", metavar="DEGREES", callback=not_negative, help="How far it may be turned."
+        ),
+    ] = 0.1
+    rate_percent: Annotated[
+        float | None,
+        typer.Option(
+            metavar="PERCENT",
+            callback=not_negative,
+            help="How much a rate may differ; rates do not count if not said.",
+        ),
+    ] = None
+    align: Annotated[
+        Literal["start"] | None,
+        option("Compare what moves from each one's own start, not by stamps.", metavar="start"),
+    ] = None
+    everything: Annotated[
+        bool, option("List links that do not differ, too.", "--all", panel=OUTPUT)
+    ] = False
+    ape: Annotated[
+        bool,
+        option("Measure the absolute pose error of trajectory B.", "--ape", panel=TRAJECTORIES),
+    ] = False
+    rpe: Annotated[
+        bool,
+        option("Measure its relative pose error.", "--rpe", panel=TRAJECTORIES),
+    ] = False
+    pairs: Pairs = None
+    clock_offset: Annotated[
+        bool,
+        option(
+            "Measure the offset between the clocks of two motions of one body, t_A = t_B + offset.",
+            "--clock-offset",
+            panel=TRAJECTORIES,
+        ),
+    ] = False
+    fit: Annotated[
+        Literal["none", "first", "se3", "sim3"],
+        option(
+            "Align B with A: by its first pose, rigidly (se3), or with a scale (sim3).",
+            panel=TRAJECTORIES,
+        ),
+    ] = "none"
+    match: Annotated[
+        Literal["nearest", "interpolate"],
+        option(
+            "Take A's nearest pose within 10 ms, or interpolate A at B's stamps.",
+            panel=TRAJECTORIES,
+        ),
+    ] = "nearest"
+    per: Annotated[
+        str,
+        option(
+            "Length over which --rpe is taken: frames (1), metres (10m) or degrees (5deg).",
+            metavar="LENGTH",
+            panel=TRAJECTORIES,
+        ),
+    ] = "1"
+    lasting: RunFor = None
+    for_programs: Json = False
+    markdown: Annotated[
+        bool, option("Print it for an issue on the web.", "--markdown", panel=OUTPUT)
+    ] = False
+    output: Annotated[
+        Path | None, output_file("Draw the errors of --ape and --rpe: .svg, .pdf or .png.")
+    ] = None
+    force: Force = False

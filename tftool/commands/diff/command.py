@@ -4,12 +4,12 @@ import json
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 from tftool.base.errors import LinkError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration
+from tftool.commands.diff import DiffOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.notices import notice
@@ -34,70 +34,66 @@ SESSION = "session"
 """The word that names the session that runs."""
 
 
-def run(
-    connection: Connection,
-    first: str,
-    second: str,
-    *,
-    millimetres: float,
-    degrees: float,
-    rate_percent: float | None,
-    align: Literal["start"] | None,
-    everything: bool,
-    ape: bool,
-    rpe: bool,
-    pairs: list[str] | None,
-    clock_offset: bool,
-    fit: Fit,
-    match: Match,
-    per: str,
-    lasting: Duration | None,
-    for_programs: bool,
-    markdown: bool,
-    output: Path | None,
-    force: bool,
-) -> ExitStatus:
-    """Run `tftool diff`; the parameters are its options."""
+def run(connection: Connection, options: DiffOptions) -> ExitStatus:
+    """Run `tftool diff`."""
     refuse(
         (
-            for_programs and markdown,
+            options.for_programs and options.markdown,
             "--json and --markdown are two ways to print it: leave one out.",
         ),
         (
-            first == second == SESSION,
+            options.first == options.second == SESSION,
             "The session that runs is one: name what it is compared with.",
         ),
     )
-    if clock_offset:
+    if options.clock_offset:
         refuse(
-            (ape or rpe, "--clock-offset goes without --ape and --rpe."),
-            (markdown or output is not None, "--clock-offset goes without --markdown and -o."),
+            (options.ape or options.rpe, "--clock-offset goes without --ape and --rpe."),
+            (
+                options.markdown or options.output is not None,
+                "--clock-offset goes without --markdown and -o.",
+            ),
         )
-        sides = _side(connection, first, lasting), _side(connection, second, lasting)
-        return _measure_clocks(*sides, pairs or [], for_programs=for_programs)
-    errors = ErrorOptions.of(ape, rpe, pairs, fit, match, per, output, force)
+        sides = (
+            _side(connection, options.first, options.lasting),
+            _side(connection, options.second, options.lasting),
+        )
+        return _measure_clocks(*sides, options.pairs or [], for_programs=options.for_programs)
+    errors = ErrorOptions.of(
+        options.ape,
+        options.rpe,
+        options.pairs,
+        options.fit,
+        options.match,
+        options.per,
+        options.output,
+        options.force,
+    )
     if errors is not None:
         refuse(
-            (markdown, "--markdown does not go with --ape and --rpe: --json does."),
-            (align is not None, "--align does not go with --ape and --rpe."),
+            (options.markdown, "--markdown does not go with --ape and --rpe: --json does."),
+            (options.align is not None, "--align does not go with --ape and --rpe."),
         )
-        sides = _side(connection, first, lasting), _side(connection, second, lasting)
-        errors.measure(*sides, for_programs=for_programs)
+        sides = (
+            _side(connection, options.first, options.lasting),
+            _side(connection, options.second, options.lasting),
+        )
+        errors.measure(*sides, for_programs=options.for_programs)
         return ExitStatus.DONE
     found = compare(
-        _side(connection, first, lasting),
-        _side(connection, second, lasting),
-        Allowance(millimetres, degrees, rate_percent),
-        align_starts=align == "start",
+        _side(connection, options.first, options.lasting),
+        _side(connection, options.second, options.lasting),
+        Allowance(options.millimetres, options.degrees, options.rate_percent),
+        align_starts=options.align == "start",
     )
     for note in found.notes:
         notice(visible(note))
-    if for_programs:
+    if options.for_programs:
         sys.stdout.write(json.dumps(view.as_object(found), indent=2, allow_nan=False) + "\n")
-    elif markdown:
+    elif options.markdown:
         sys.stdout.write(view.as_markdown(found))
     else:
-        sys.stdout.write(view.lines(found, line_width(), everything=everything))
+        sys.stdout.write(view.lines(found, line_width(), everything=options.everything))
     return ExitStatus.FAILED if found else ExitStatus.DONE
 
 

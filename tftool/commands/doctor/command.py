@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
-from tftool.commands.doctor import FailOn
+from tftool.commands.doctor import DoctorOptions, FailOn
 from tftool.commands.doctor.baseline import Baseline
 from tftool.commands.fleet import fleet, fleet_tasks
 from tftool.commands.fleet.fleet import expanded
@@ -30,7 +30,6 @@ from tftool.doctor.model import Model, Settings
 from tftool.drawing import finding_view as view
 from tftool.drawing import step_view
 from tftool.drawing.sarif import as_sarif
-from tftool.frames.moment import At
 from tftool.recordings.remote_files import fetched
 
 if TYPE_CHECKING:
@@ -120,72 +119,62 @@ class RowOptions:
     resume: bool
 
 
-def run(
-    connection: Connection,
-    places: list[str] | None,
-    *,
-    select: list[str] | None,
-    ignore: list[str] | None,
-    fail_on: FailOn,
-    baseline: Path | None,
-    limits: list[str] | None,
-    cache_time: Duration | None,
-    fixed_frame: str,
-    tf_topic: list[str] | None,
-    begin: At | None,
-    end: At | None,
-    lasting: Duration | None,
-    mounts: bool,
-    statistics: bool,
-    steps: bool,
-    pair: str,
-    verbose: bool,
-    for_programs: bool,
-    markdown: bool,
-    junit: Path | None,
-    sarif: Path | None,
-    output: Path | None,
-    processes: int,
-    resume: bool,
-    scheduler: str,
-    explain: str,
-    listed: bool,
-) -> ExitStatus:
-    """Run `tftool doctor`; the parameters are its options."""
-    if listed or explain:
-        return _show_checks("" if listed else explain, markdown=markdown)
-    chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
-    selection = CheckSelection(chosen, left_out, limits or [], cache_time, fixed_frame)
-    report = DoctorReport(for_programs, markdown, verbose, statistics, junit, sarif, steps)
-    rows = RowOptions(output, processes, scheduler, resume)
+def run(connection: Connection, options: DoctorOptions) -> ExitStatus:
+    """Run `tftool doctor`."""
+    if options.listed or options.explain:
+        return _show_checks("" if options.listed else options.explain, markdown=options.markdown)
+    chosen, left_out = tuple(_words(options.select or ())), tuple(_words(options.ignore or ()))
+    selection = CheckSelection(
+        chosen, left_out, options.limits or [], options.cache_time, options.fixed_frame
+    )
+    report = DoctorReport(
+        options.for_programs,
+        options.markdown,
+        options.verbose,
+        options.statistics,
+        options.junit,
+        options.sarif,
+        options.steps,
+    )
+    rows = RowOptions(options.output, options.processes, options.scheduler, options.resume)
     _refuse_contradictions(report, rows)
-    settings = selection.settings(tuple(tf_topic or ()))
+    settings = selection.settings(tuple(options.tf_topic or ()))
     urdf = connection.robot.urdf
-    scope = Scope(None if urdf is None else described_by(urdf), settings.tf_topics, begin, end)
-    fails = None if fail_on is FailOn.never else Severity(fail_on.value)
-    if pair and not steps:
-        raise UsageError(f"--pair {pair} is about steps: add --steps.")
-    if steps:
-        (ends,), _ = pairs_and_place([], [pair]) if pair else ([("", "")], None)
-        return _show_steps(connection, places or [], ends, (lasting, scope), for_programs)
-    if baseline is not None and output is not None:
+    scope = Scope(
+        None if urdf is None else described_by(urdf), settings.tf_topics, options.begin, options.end
+    )
+    fails = None if options.fail_on is FailOn.never else Severity(options.fail_on.value)
+    if options.pair and not options.steps:
+        raise UsageError(f"--pair {options.pair} is about steps: add --steps.")
+    if options.steps:
+        (ends,), _ = pairs_and_place([], [options.pair]) if options.pair else ([("", "")], None)
+        return _show_steps(
+            connection, options.places or [], ends, (options.lasting, scope), options.for_programs
+        )
+    if options.baseline is not None and options.output is not None:
         raise UsageError("--baseline applies to reports, and -o writes rows: leave one out.")
-    accepted = None if baseline is None else Baseline.read(baseline)
-    if mounts and output is not None:
+    accepted = None if options.baseline is None else Baseline.read(options.baseline)
+    if options.mounts and options.output is not None:
         raise UsageError("--mounts goes with a report: leave -o out.")
-    if output is not None:
-        return _sweep(places or [], output, rows, selection, settings, scope, fails)
+    if options.output is not None:
+        return _sweep(options.places or [], options.output, rows, selection, settings, scope, fails)
     judged = _diagnosed(
-        connection, places or [], lasting, settings, selection, scope, mounts=mounts
+        connection,
+        options.places or [],
+        options.lasting,
+        settings,
+        selection,
+        scope,
+        mounts=options.mounts,
     )
     if accepted is not None:
         judged = [(name, found if isinstance(found, str) else accepted.marked(name, found))
                   for name, found in judged]  # fmt: skip
     _print(judged, report)
-    if junit is not None:
-        write_file(junit, view.as_junit(judged, fails))
-    if sarif is not None:
-        write_file(sarif, as_sarif(judged))
+    if options.junit is not None:
+        write_file(options.junit, view.as_junit(judged, fails))
+    if options.sarif is not None:
+        write_file(options.sarif, as_sarif(judged))
     return _status(judged, fails)
 
 

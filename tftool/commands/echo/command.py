@@ -6,6 +6,7 @@ from pathlib import Path
 from tftool.base.errors import TransformException, UsageError
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
+from tftool.commands.echo import EchoOptions
 from tftool.commands.echo.echo_printer import Printer
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
@@ -20,47 +21,35 @@ from tftool.opener import named
 from tftool.recordings.find import Kind
 
 
-def run(
-    connection: Connection,
-    target: str,
-    source: str,
-    place: str | None,
-    *,
-    rate: float | None,
-    once: bool,
-    count: int | None,
-    at: At | None,
-    stamps_of: str | None,
-    offset: Duration | None,
-    fixed_frame: str | None,
-    distance: bool,
-    precision: int,
-    timeout: Duration | None,
-    for_programs: bool,
-    cache_time: Duration | None,
-) -> ExitStatus:
-    """Run `tftool echo`; the parameters are its options."""
-    frames = target, source
-    place, rate = _place_or_rate(place, rate)
-    _refuse_contradictions(once, count, at, offset, fixed_frame)
+def run(connection: Connection, options: EchoOptions) -> ExitStatus:
+    """Run `tftool echo`."""
+    frames = options.target, options.source
+    place, rate = _place_or_rate(options.place, options.rate)
+    _refuse_contradictions(
+        options.once, options.count, options.at, options.offset, options.fixed_frame
+    )
     refuse_file_as_frame(*frames, place)
-    _check_names(*frames, *([] if fixed_frame is None else [fixed_frame]))
+    _check_names(*frames, *([] if options.fixed_frame is None else [options.fixed_frame]))
     kind = None if place is None else named(place).kind
     is_file = kind not in (None, Kind.SCENARIO)
-    if stamps_of is not None and not (is_file and at is None and offset is None):
+    if options.stamps_of is not None and not (
+        is_file and options.at is None and options.offset is None
+    ):
         raise UsageError("--at-stamps-of goes with a recording, and without --at and --offset.")
-    printer = Printer(precision, distance, for_programs)
-    pair = FramePair(*frames, offset=offset or 0, fixed_frame=fixed_frame)
-    is_one_moment = stamps_of is None and (once or at is not None or offset is not None)
+    printer = Printer(options.precision, options.distance, options.for_programs)
+    pair = FramePair(*frames, offset=options.offset or 0, fixed_frame=options.fixed_frame)
+    is_one_moment = options.stamps_of is None and (
+        options.once or options.at is not None or options.offset is not None
+    )
     if kind is not None and kind.is_recording and not is_one_moment:
         from tftool.commands.echo.echo_span import print_span
 
         connection.refuse_to_share(place)
         notice(f"{in_words(*frames)}:")
-        opened = open_from(connection, place, cache_time=cache_time)
-        print_span(opened, frames, printer, rate=rate, topic=stamps_of, most=count)
-    elif is_file or at is not None:
-        _print_moment(connection, place, pair, printer, at, cache_time)
+        opened = open_from(connection, place, cache_time=options.cache_time)
+        print_span(opened, frames, printer, rate=rate, topic=options.stamps_of, most=options.count)
+    elif is_file or options.at is not None:
+        _print_moment(connection, place, pair, printer, options.at, options.cache_time)
     else:
         from tftool.commands.echo.echo_loop import print_live
 
@@ -70,9 +59,9 @@ def run(
             pair,
             printer,
             period=seconds(1.0 / (rate or 1.0)),
-            count=1 if once else count,
-            patience=timeout,
-            cache_time=cache_time,
+            count=1 if options.once else options.count,
+            patience=options.timeout,
+            cache_time=options.cache_time,
         )
     return ExitStatus.DONE
 

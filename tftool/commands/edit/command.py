@@ -10,6 +10,7 @@ from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
+from tftool.commands.edit import EditOptions
 from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.reading_bar import Bar
@@ -170,59 +171,45 @@ def _statics(name: str) -> "tuple[TransformStamped, ...]":
     return tuple(samples.values())
 
 
-def run(
-    names: list[str],
-    output: Path,
-    drop: list[str] | None,
-    poses: list[str] | None,
-    reparent: list[str] | None,
-    statics_first: bool,
-    statics_from: str | None,
-    rename: list[str] | None,
-    prefix: str | None,
-    strip_slash: bool,
-    everywhere: bool,
-    start: At | None,
-    end: At | None,
-    by_record_time: bool,
-    shift: int,
-    restamp: str | None,
-    split_every: int,
-    ros2: bool,
-    force: bool,
-    dry_run: bool,
-    for_programs: bool,
-) -> ExitStatus:
-    """Run `tftool edit`; the parameters are its options."""
-    if restamp not in (None, "log"):
+def run(options: EditOptions) -> ExitStatus:
+    """Run `tftool edit`."""
+    if options.restamp not in (None, "log"):
         raise UsageError("--restamp takes 'log': the time a message was received.")
-    low, high = _moments(names, start, end, by_record_time=by_record_time)
+    low, high = _moments(
+        options.names, options.start, options.end, by_record_time=options.by_record_time
+    )
     edits: Edits = Edits(
-        drop=tuple(_link("--drop", text) for text in drop or ()),
-        rename=dict(_renamed(text) for text in rename or ()),
-        prefix=_prefix(prefix) if prefix is not None else "",
-        strip_slash=strip_slash,
-        poses=dict(_pose(text) for text in poses or ()),
-        reparent=dict(_reparented(text) for text in reparent or ()),
-        statics_first=statics_first,
-        statics_from=_statics(statics_from) if statics_from is not None else (),
+        drop=tuple(_link("--drop", text) for text in options.drop or ()),
+        rename=dict(_renamed(text) for text in options.rename or ()),
+        prefix=_prefix(options.prefix) if options.prefix is not None else "",
+        strip_slash=options.strip_slash,
+        poses=dict(_pose(text) for text in options.poses or ()),
+        reparent=dict(_reparented(text) for text in options.reparent or ()),
+        statics_first=options.statics_first,
+        statics_from=_statics(options.statics_from) if options.statics_from is not None else (),
         start=low,
         end=high,
-        by_record_time=by_record_time,
-        shift=shift,
-        restamp=restamp == "log",
-        everywhere=everywhere,
-        split_every=split_every,
+        by_record_time=options.by_record_time,
+        shift=options.shift,
+        restamp=options.restamp == "log",
+        everywhere=options.everywhere,
+        split_every=options.split_every,
     )
-    if everywhere and not (edits.names or edits.stamps):
+    if options.everywhere and not (edits.names or edits.stamps):
         raise UsageError("--everywhere goes with --rename, --prefix, --strip-slash or --shift.")
-    bar = Bar(f"Editing {visible(names[0])}")
+    bar = Bar(f"Editing {visible(options.names[0])}")
     try:
         with interruptible():
             report = rewrite(
-                names, output, edits, force=force, dry_run=dry_run, ros2=ros2, progress=bar
+                options.names,
+                options.output,
+                edits,
+                force=options.force,
+                dry_run=options.dry_run,
+                ros2=options.ros2,
+                progress=bar,
             )
     finally:
         bar.stop()
-    _tell(report, output, dry_run=dry_run, for_programs=for_programs)
+    _tell(report, options.output, dry_run=options.dry_run, for_programs=options.for_programs)
     return ExitStatus.DONE

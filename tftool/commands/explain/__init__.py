@@ -1,11 +1,11 @@
 """`tftool explain`: why one lookup succeeds or fails, link by link."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from tftool.base.stamps import Duration
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     AtOption,
     CacheTime,
@@ -21,43 +21,8 @@ from tftool.commands.shared.options import (
 )
 from tftool.frames.moment import At
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
-
-@declare(looks_only=True, recordings=True, descriptions=True)
-def explain(
-    connection: "Connection",
-    target: Target,
-    source: Source,
-    place: From = None,
-    at: AtOption = None,
-    message: Annotated[
-        str,
-        option(
-            "Ask for the stamp of a message of this topic, when it arrived: the first one, "
-            "or the nearest to --at or to the moment behind its @.",
-            metavar="TOPIC[@MOMENT]",
-        ),
-    ] = "",
-    asked_at: Annotated[
-        At | None,
-        moment_option(
-            "When it is asked, as log time; if not said, when the message of that stamp "
-            "arrived, else at the moment itself.",
-            panel=None,
-        ),
-    ] = None,
-    cache_time: CacheTime = None,
-    timeout: Annotated[
-        Duration,
-        typer.Option(
-            metavar="SECONDS", parser=duration(not_negative), help="How long the listener waits."
-        ),
-    ] = 0,
-    lasting: RunFor = None,
-    for_programs: Json = False,
-) -> None:
+class ExplainOptions(Command, looks_only=True, recordings=True, descriptions=True):
     """Say why a lookup refuses: which link, by how much, and what would let it through.
 
     The lookup uses the samples that a listener had received at that moment. The exit status is 0 if
@@ -67,3 +32,33 @@ def explain(
     tftool explain map base_link run.mcap --at 12.5 --cache-time 5
     tftool explain base_link tool0 robot.urdf --joint elbow=0.5
     """
+
+    target: Target
+    source: Source
+    place: From = None
+    at: AtOption = None
+    message: Annotated[
+        str,
+        option(
+            "Ask for the stamp of a message of this topic, when it arrived: the first one, "
+            "or the nearest to --at or to the moment behind its @.",
+            metavar="TOPIC[@MOMENT]",
+        ),
+    ] = ""
+    asked_at: Annotated[
+        At | None,
+        moment_option(
+            "When it is asked, as log time; if not said, when the message of that stamp "
+            "arrived, else at the moment itself.",
+            panel=None,
+        ),
+    ] = None
+    cache_time: CacheTime = None
+    timeout: Annotated[
+        Duration,
+        typer.Option(
+            metavar="SECONDS", parser=duration(not_negative), help="How long the listener waits."
+        ),
+    ] = 0
+    lasting: RunFor = None
+    for_programs: Json = False

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import LATEST, Duration, seconds
+from tftool.base.stamps import LATEST, seconds
+from tftool.commands.explain import ExplainOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.evidence_sources import evidence_from
 from tftool.commands.shared.notices import notice
@@ -21,7 +22,6 @@ from tftool.doctor.joint_chain import chained
 from tftool.doctor.model import Model, Settings
 from tftool.doctor.trace import Question, message_of
 from tftool.drawing import explanation_view, joint_chain_view
-from tftool.frames.moment import At
 from tftool.frames.notes import beyond_limits
 from tftool.opener import named
 from tftool.recordings.find import Kind
@@ -30,53 +30,45 @@ if TYPE_CHECKING:
     from rich.text import Text
 
 
-def run(
-    connection: Connection,
-    target: str,
-    source: str,
-    place: str | None,
-    *,
-    at: At | None,
-    message: str,
-    asked_at: At | None,
-    cache_time: Duration | None,
-    timeout: Duration,
-    lasting: Duration | None,
-    for_programs: bool,
-) -> ExitStatus:
-    """Run `tftool explain`; the parameters are its options."""
-    refuse_file_as_frame(target, source, place)
-    if place is not None and named(place).kind is Kind.DESCRIPTION:
-        if message or asked_at is not None:
+def run(connection: Connection, options: ExplainOptions) -> ExitStatus:
+    """Run `tftool explain`."""
+    source, at = options.source, options.at
+    refuse_file_as_frame(options.target, source, options.place)
+    if options.place is not None and named(options.place).kind is Kind.DESCRIPTION:
+        if options.message or options.asked_at is not None:
             raise UsageError(
                 "A robot description has neither times nor messages: leave out --message "
                 "and --asked-at."
             )
-        return _explain_joints(connection, place, (target, source), for_programs=for_programs)
+        return _explain_joints(
+            connection, options.place, (options.target, source), for_programs=options.for_programs
+        )
     connection.robot.refuse("Only a robot description has joints and arguments")
-    topic, _, behind = message.partition("@")
+    topic, _, behind = options.message.partition("@")
     if behind and at is not None:
-        raise UsageError(f"--message {message} already names a moment: leave out --at.")
+        raise UsageError(f"--message {options.message} already names a moment: leave out --at.")
     if behind:
         at = moment(behind)
-    settings = Settings(cache_time=cache_time or seconds(10))
+    settings = Settings(cache_time=options.cache_time or seconds(10))
 
     def look(evidence: Evidence) -> "list[Text]":
-        asked = Question(target, source, LATEST, None, settings, timeout, topic)
+        asked = Question(options.target, source, LATEST, None, settings, options.timeout, topic)
         return explanation_view.so_far(traced(Model(evidence, settings), asked))
 
-    evidence = evidence_from(connection, place, lasting, look=None if topic else look)
+    evidence = evidence_from(
+        connection, options.place, options.lasting, look=None if topic else look
+    )
     model = Model(evidence, settings)
     stamp = LATEST if at is None else at.stamp(model.epoch)
     if topic:
         heard, stamp = message_of(model, topic, stamp or None)
         source = source or heard.frame
-    asked = None if asked_at is None else asked_at.stamp(model.start)
-    question = Question(target, source, stamp, asked, settings, timeout, topic)
+    asked = None if options.asked_at is None else options.asked_at.stamp(model.start)
+    question = Question(options.target, source, stamp, asked, settings, options.timeout, topic)
     found = traced(model, question)
     if model.evidence.kind == LIVE:
         found = over_time(model, question, found)
-    _print(explanation_view, found, for_programs=for_programs)
+    _print(explanation_view, found, for_programs=options.for_programs)
     return ExitStatus.DONE if found.available else ExitStatus.NO_TRANSFORM
 
 

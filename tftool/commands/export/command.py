@@ -3,13 +3,12 @@
 import json
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
-from tftool.base.stamps import LATEST, Duration
+from tftool.base.stamps import LATEST
+from tftool.commands.export import ExportOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.interrupts import interruptible
@@ -29,41 +28,24 @@ from tftool.frames.pair_samples import sample
 from tftool.recordings.target import refuse_existing
 
 
-def run(
-    connection: Connection,
-    words: list[str] | None,
-    *,
-    output: Path | None,
-    form: Format | None,
-    pairs: list[str] | None,
-    first: At | None,
-    last: At | None,
-    every: Duration | None,
-    rate: float | None,
-    stamps_of: str | None,
-    at: At | None,
-    lasting: Duration | None,
-    rpy: bool,
-    precision: int,
-    root: str | None,
-    with_moving: bool,
-    foxglove: bool,
-    force: bool,
-    as_json: bool,
-) -> ExitStatus:
-    """Run `tftool export`; the parameters are its options."""
-    when = MomentOptions(first, last, every, rate, stamps_of)
-    style = Style(precision, rpy, foxglove, with_moving, root)
-    if output is None:
+def run(connection: Connection, options: ExportOptions) -> ExitStatus:
+    """Run `tftool export`."""
+    when = MomentOptions(
+        options.first, options.last, options.every, options.rate, options.stamps_of
+    )
+    style = Style(
+        options.precision, options.rpy, options.foxglove, options.with_moving, options.root
+    )
+    if options.output is None:
         raise UsageError("Say where to write it: -o FILE.")
-    asked, place = pairs_and_place(words or [], pairs or [])
-    form = form or format_of(output)
-    _refuse_misfits(form, asked, when, at, style)
-    refuse_existing(output, force=force)
-    frames = open_from(connection, place, lasting, until=WHOLE)
-    refuse_input(frames, output)
-    bar = Bar(f"Writing {visible(output.name)}")
-    time = LATEST if at is None else at.stamp(frames.span[0])
+    asked, place = pairs_and_place(options.words or [], options.pairs or [])
+    form = options.form or format_of(options.output)
+    _refuse_misfits(form, asked, when, options.at, style)
+    refuse_existing(options.output, force=options.force)
+    frames = open_from(connection, place, options.lasting, until=WHOLE)
+    refuse_input(frames, options.output)
+    bar = Bar(f"Writing {visible(options.output.name)}")
+    time = LATEST if options.at is None else options.at.stamp(frames.span[0])
     style = replace(style, time=time)
     try:
         with interruptible():
@@ -71,12 +53,16 @@ def run(
                 moments = when.moments(frames)
                 name_frames(frames.buffer.frames(), (frame for pair in asked for frame in pair))
                 found = [sample(frames.buffer, *pair, moments) for pair in asked]
-                done = write_trajectories(found, output, form, style, force=force, progress=bar)
+                done = write_trajectories(
+                    found, options.output, form, style, force=options.force, progress=bar
+                )
             else:
-                done = write_links(frames.buffer, output, form, style, force=force, progress=bar)
+                done = write_links(
+                    frames.buffer, options.output, form, style, force=options.force, progress=bar
+                )
     finally:
         bar.stop()
-    if as_json:
+    if options.as_json:
         sys.stdout.write(json.dumps(_as_object(done), indent=2) + "\n")
     else:
         _tell(done)

@@ -4,6 +4,7 @@ from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, as_seconds, seconds
+from tftool.commands.follow import FollowOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import notice, tell_record
@@ -37,67 +38,53 @@ async def _last(session: Session, follower: str, run_for: Duration | None) -> No
     await session.lasting(run_for)
 
 
-def run(
-    connection: Connection,
-    leader: str,
-    follower: str,
-    place: str | None,
-    period: int,
-    delay: int,
-    fixed_frame: str,
-    kp_distance: float,
-    ki_distance: float,
-    kd_distance: float,
-    kp_bearing: float,
-    ki_bearing: float,
-    kd_bearing: float,
-    integral_limit: float | None,
-    dead_band: float,
-    max_speed: float | None,
-    stale_after: int | None,
-    run_for: int | None,
-    cache_time: int | None,
-) -> ExitStatus:
-    """Run `tftool follow`; the parameters are its options."""
+def run(connection: Connection, options: FollowOptions) -> ExitStatus:
+    """Run `tftool follow`."""
     connection.refuse_read_only("drive")
     session = open_session(
         connection,
-        place,
+        options.place,
         head_start=0,
-        cache_time=cache_time,
+        cache_time=options.cache_time,
         without=lambda node: node.kind == "follower",
         needs_turtles=True,
     )
     world = session.world
     if session.is_hosted and simulator_of(world) is None:
-        raise UsageError(f"{session.name} has no turtles: nothing there can spawn {follower!r}.")
-    if delay and delay >= world.buffer.cache_time:
+        raise UsageError(
+            f"{session.name} has no turtles: nothing there can spawn {options.follower!r}."
+        )
+    if options.delay and options.delay >= world.buffer.cache_time:
         notice(
             f"The buffer remembers {as_seconds(world.buffer.cache_time):g} s, so where "
-            f"{visible(leader)} was {as_seconds(delay):g} s ago is forgotten: --cache-time "
-            f"{as_seconds(delay + period):g} remembers it."
+            f"{visible(options.leader)} was {as_seconds(options.delay):g} s ago is forgotten: "
+            f"--cache-time {as_seconds(options.delay + options.period):g} remembers it."
         )
     world.log.listen(_tell, "console")
     Follower(
         world,
         NAME,
-        leader=leader,
-        follower=follower,
-        period=period,
-        delay=delay,
-        fixed_frame=fixed_frame,
-        distance_gains=Gains(kp_distance, ki_distance, kd_distance, integral_limit),
-        bearing_gains=Gains(kp_bearing, ki_bearing, kd_bearing, integral_limit),
-        dead_band=dead_band,
-        speed_limit=max_speed,
-        stale_after=stale_after,
+        leader=options.leader,
+        follower=options.follower,
+        period=options.period,
+        delay=options.delay,
+        fixed_frame=options.fixed_frame,
+        distance_gains=Gains(
+            options.kp_distance, options.ki_distance, options.kd_distance, options.integral_limit
+        ),
+        bearing_gains=Gains(
+            options.kp_bearing, options.ki_bearing, options.kd_bearing, options.integral_limit
+        ),
+        dead_band=options.dead_band,
+        speed_limit=options.max_speed,
+        stale_after=options.stale_after,
     )
     broadcasters = [node.turtle for node in world.nodes if isinstance(node, Broadcaster)]
-    if session.is_hosted and follower not in broadcasters:
-        Broadcaster(world, f"broadcaster_{follower}", turtle=follower)
+    if session.is_hosted and options.follower not in broadcasters:
+        Broadcaster(world, f"broadcaster_{options.follower}", turtle=options.follower)
     notice(
-        f"{visible(follower)} follows {visible(leader)}, with a lookup every "
-        f"{as_seconds(period):g} s."
+        f"{visible(options.follower)} follows {visible(options.leader)}, with a lookup every "
+        f"{as_seconds(options.period):g} s."
     )
-    session.run(_last(session, follower, run_for))
+    session.run(_last(session, options.follower, options.run_for))
     return ExitStatus.DONE

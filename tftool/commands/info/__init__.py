@@ -4,28 +4,11 @@ from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Jobs, Json, Resume, Rows, Scheduler
 
 
-@declare(recordings=True, descriptions=True, urdf=True)
-def info(
-    connection: Connection,
-    places: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="FROM...",
-            help="A recording (file, folder, glob), a robot description, or a launch file or "
-            "script of static transforms.",
-        ),
-    ],
-    for_programs: Json = False,
-    output: Rows = None,
-    processes: Jobs = 1,
-    resume: Resume = False,
-    scheduler: Scheduler = "",
-) -> None:
+class InfoOptions(Command, recordings=True, descriptions=True, urdf=True):
     """Show what a recording or robot description holds (ros2 bag info).
 
     Topics with their types, counts and publishers; frames and trees; every edge with its rate, its
@@ -40,3 +23,17 @@ def info(
     tftool info robot.urdf
     tftool info 'runs/**/*.mcap' -j 8 -o runs.csv
     """
+
+    places: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="FROM...",
+            help="A recording (file, folder, glob), a robot description, or a launch file or "
+            "script of static transforms.",
+        ),
+    ]
+    for_programs: Json = False
+    output: Rows = None
+    processes: Jobs = 1
+    resume: Resume = False
+    scheduler: Scheduler = ""

@@ -7,7 +7,7 @@ from pathlib import Path
 from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
+from tftool.commands.info import InfoOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.open_from import open_from
@@ -23,33 +23,30 @@ from tftool.robots.robot_model import load_urdf
 from tftool.robots.static_publishers import read_statics
 
 
-def run(
-    connection: Connection,
-    places: list[str],
-    *,
-    for_programs: bool,
-    output: Path | None,
-    processes: int,
-    resume: bool,
-    scheduler: str,
-) -> ExitStatus:
-    """Run `tftool info`; the parameters are its options."""
-    if output is None and (resume or scheduler):
+def run(connection: Connection, options: InfoOptions) -> ExitStatus:
+    """Run `tftool info`."""
+    if options.output is None and (options.resume or options.scheduler):
         raise UsageError("--resume and --scheduler make rows: add -o FILE.")
-    if output is None and len(places) == 1 and not _is_launch_file(places[0]):
-        with fetched(places[0]) as path:
-            return _show(connection, path, places[0], for_programs=for_programs)
-    if output is None and all(_is_text(place) for place in places):
-        return _list_texts(connection, places, for_programs=for_programs)
+    if (
+        options.output is None
+        and len(options.places) == 1
+        and not _is_launch_file(options.places[0])
+    ):
+        with fetched(options.places[0]) as path:
+            return _show(connection, path, options.places[0], for_programs=options.for_programs)
+    if options.output is None and all(_is_text(place) for place in options.places):
+        return _list_texts(connection, options.places, for_programs=options.for_programs)
     from tftool.commands.fleet import fleet, fleet_tasks
     from tftool.commands.fleet.workers import workers_of
 
-    workers, task = workers_of(processes, scheduler), fleet_tasks.Inventory()
-    if output is not None:
-        counts = fleet.swept_into(places, output, workers, task, resume=resume)
+    workers, task = workers_of(options.processes, options.scheduler), fleet_tasks.Inventory()
+    if options.output is not None:
+        counts = fleet.swept_into(
+            options.places, options.output, workers, task, resume=options.resume
+        )
     else:
-        counts, rows = fleet.sweep(fleet.expanded(places), None, workers, task)
-        if for_programs:
+        counts, rows = fleet.sweep(fleet.expanded(options.places), None, workers, task)
+        if options.for_programs:
             sys.stdout.write(json.dumps(rows, indent=2) + "\n")
         else:
             sys.stdout.write(recording_view.as_lines(rows, line_width()))

@@ -5,6 +5,7 @@ import sys
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
 from tftool.base.escaping import visible, visible_lines
 from tftool.base.exit_status import ExitStatus
+from tftool.commands.launch import LaunchOptions
 from tftool.commands.shared.connection import Connection, Mode
 from tftool.commands.shared.hosting import open_empty_session, open_session, tell_where_to_look
 from tftool.commands.shared.notices import notice
@@ -17,35 +18,27 @@ from tftool.ros.launch.arguments import arguments_of, find_launch_file, show_arg
 from tftool.ros.launch.engine import Launch
 
 
-def run(
-    connection: Connection,
-    words: list[str],
-    show_args: bool,
-    force: bool,
-    run_for: int | None,
-    simulated: bool,
-    verbose: bool,
-) -> ExitStatus:
-    """Run `tftool launch`; the parameters are its options."""
-    if simulated and run_for is None and not show_args:
+def run(connection: Connection, options: LaunchOptions) -> ExitStatus:
+    """Run `tftool launch`."""
+    if options.simulated and options.run_for is None and not options.show_args:
         raise UsageError("on simulated time a launch needs --for SECONDS")
-    if simulated:
-        refuse_long_simulation(run_for)
-    workspace = workspace_here(verbose=verbose)
-    with ros_free(force=force):
+    if options.simulated:
+        refuse_long_simulation(options.run_for)
+    workspace = workspace_here(verbose=options.verbose)
+    with ros_free(force=options.force):
         packages.use(workspace)
-        path, rest = find_launch_file(workspace, words)
+        path, rest = find_launch_file(workspace, options.words)
         if unfound := running.tell_unfound(workspace, path):
             notice(visible(unfound))
         arguments = arguments_of(rest)
-        if show_args:
+        if options.show_args:
             sys.stdout.write(visible_lines(show_arguments(path, workspace)) + "\n")
             return ExitStatus.DONE
-        if connection.mode is Mode.JOIN and not simulated:
+        if connection.mode is Mode.JOIN and not options.simulated:
             session = open_session(connection, head_start=0)
         else:
             # It brings all there is to it, and shares a session that runs all the same.
-            session = open_empty_session(connection, simulated=simulated)
+            session = open_empty_session(connection, simulated=options.simulated)
         connection.tell_read_only()
         world = session.world
 
@@ -61,9 +54,9 @@ def run(
         tell_where_to_look(connection, session)
         tell_log(world, started.label_of)
         try:
-            work = running.until(world, started.ended, run_for)
+            work = running.until(world, started.ended, options.run_for)
             session.run(work, on_interrupt=started.interrupt)
-            for sentence in running.advice(world) if simulated else ():
+            for sentence in running.advice(world) if options.simulated else ():
                 notice(visible(sentence))
         except NodeFailed as failure:
             # What the launch itself could not do is no failed node.

@@ -5,15 +5,10 @@ from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 
 
-@declare(shares=False)
-def mcp(
-    root: Annotated[
-        Path, typer.Argument(metavar="ROOT", help="Folder below which files may be asked about.")
-    ],
-) -> None:
+class McpOptions(Command, shares=False):
     """Answer questions of an agent about recordings (MCP).
 
     Communicates over stdin and stdout. Tools: info, tree, echo, explain, doctor, plot, each for a
@@ -23,3 +18,7 @@ def mcp(
 
     tftool mcp ~/bags
     """
+
+    root: Annotated[
+        Path, typer.Argument(metavar="ROOT", help="Folder below which files may be asked about.")
+    ]

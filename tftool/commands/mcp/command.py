@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.exit_status import ExitStatus
+from tftool.commands.mcp import McpOptions
 from tftool.opener import named
 from tftool.recordings.find import Kind
 from tftool.scenario.doctor_expectations import ENDING
@@ -36,10 +37,10 @@ target_frame. Moments: seconds since the recording began, or a stamp in seconds.
 with how many are missing: `part` names one key of an answer, `skip` leaves out its first items."""
 
 
-def run(root: Path) -> ExitStatus:
-    """Run `tftool mcp`; the parameters are its options."""
-    if not root.is_dir():
-        raise InputError(f"'{root}' is no folder: name the folder of the recordings.")
+def run(options: McpOptions) -> ExitStatus:
+    """Run `tftool mcp`."""
+    if not options.root.is_dir():
+        raise InputError(f"'{options.root}' is no folder: name the folder of the recordings.")
     try:
         # An extra: 40 MB that only this command needs.
         from mcp.server import MCPServer
@@ -63,7 +64,7 @@ def run(root: Path) -> ExitStatus:
 
     server = MCPServer("tftool", instructions=INSTRUCTIONS, version=_version(), log_level="ERROR")
     with tempfile.TemporaryDirectory(prefix="tf") as sessions:
-        questions = Questions(root.resolve(), sessions)
+        questions = Questions(options.root.resolve(), sessions)
         for name in ("info", "tree", "echo", "explain", "doctor", "plot"):
             look = ToolAnnotations(read_only_hint=True, open_world_hint=False)
             server.add_tool(

@@ -2,7 +2,8 @@
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, seconds
+from tftool.base.stamps import seconds
+from tftool.commands.monitor import MonitorOptions
 from tftool.commands.monitor.recording_monitor import report_recording
 from tftool.commands.monitor.traffic_monitor import ReportStyle, TrafficReport, watch_session
 from tftool.commands.shared.connection import Connection
@@ -12,20 +13,11 @@ from tftool.commands.shared.redraw import can_redraw
 from tftool.opener import named
 
 
-def run(
-    connection: Connection,
-    words: list[str] | None,
-    *,
-    run_for: Duration | None,
-    every: Duration | None,
-    as_tf2: bool,
-    for_programs: bool,
-    cache_time: Duration | None,
-) -> ExitStatus:
-    """Run `tftool monitor`; the parameters are its options."""
-    if as_tf2 and for_programs:
+def run(connection: Connection, options: MonitorOptions) -> ExitStatus:
+    """Run `tftool monitor`."""
+    if options.as_tf2 and options.for_programs:
         raise UsageError("--tf2 and --json are two output formats: choose one.")
-    frames, place = _sorted_out(words or [])
+    frames, place = _sorted_out(options.words or [])
     try:
         is_recording = place is not None and named(place).kind.is_recording
     except InputError as error:
@@ -33,20 +25,26 @@ def run(
             sentence = f"{error} For the chain between two frames, name both."
             raise InputError(sentence) from error
         raise
-    if for_programs:
+    if options.for_programs:
         style = ReportStyle.JSON
-    elif as_tf2:
+    elif options.as_tf2:
         style = ReportStyle.TF2
     else:
         style = ReportStyle.TABLE if can_redraw() else ReportStyle.LINES
     report = TrafficReport(frames, style)
     if is_recording:
         recording = open_from(connection, place)
-        report_recording(recording, report, period=every, lasting=run_for, cache_time=cache_time)
+        report_recording(
+            recording,
+            report,
+            period=options.every,
+            lasting=options.run_for,
+            cache_time=options.cache_time,
+        )
         return ExitStatus.DONE
-    session = open_session(connection, place, cache_time=cache_time)
-    period = every or seconds(1 if style is ReportStyle.TABLE else 10)
-    session.run(watch_session(session.world, report, period=period, lasting=run_for))
+    session = open_session(connection, place, cache_time=options.cache_time)
+    period = options.every or seconds(1 if style is ReportStyle.TABLE else 10)
+    session.run(watch_session(session.world, report, period=period, lasting=options.run_for))
     return ExitStatus.DONE
 
 

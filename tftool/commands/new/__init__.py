@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Json, option
 
 EXAMPLES = {
@@ -18,29 +18,7 @@ EXAMPLES = {
 """The steps of the tutorial: the nodes that each has when it is finished."""
 
 
-@declare(shares=False)
-def new(
-    name: Annotated[
-        str,
-        typer.Argument(
-            metavar="PACKAGE", help="What to make: a package's name, or a path that ends in it."
-        ),
-    ],
-    example: Annotated[
-        str,
-        option(f"Which step of the tutorial: {', '.join(EXAMPLES)}.", "--example", metavar="STEP"),
-    ] = "follower",
-    exercise: Annotated[
-        bool, option("Leave the key lines of the step's nodes to you: TODO.", "--exercise")
-    ] = False,
-    node_name: Annotated[
-        str, option("Make a package with this empty node instead.", metavar="NAME")
-    ] = "",
-    scenario: Annotated[
-        bool, option("Make a scenario of that name, and nothing else.", "--scenario")
-    ] = False,
-    as_json: Json = False,
-) -> None:
+class NewOptions(Command, shares=False):
     """Make a package of nodes to begin with (ros2 pkg create).
 
     It contains a finished step of the tutorial: ROS 2 nodes, a launch file, a test and a scenario
@@ -52,3 +30,24 @@ def new(
     tftool new pkg_tf --node-name turtle_tf_broadcaster
     tftool new my_world.yaml --scenario
     """
+
+    name: Annotated[
+        str,
+        typer.Argument(
+            metavar="PACKAGE", help="What to make: a package's name, or a path that ends in it."
+        ),
+    ]
+    example: Annotated[
+        str,
+        option(f"Which step of the tutorial: {', '.join(EXAMPLES)}.", "--example", metavar="STEP"),
+    ] = "follower"
+    exercise: Annotated[
+        bool, option("Leave the key lines of the step's nodes to you: TODO.", "--exercise")
+    ] = False
+    node_name: Annotated[
+        str, option("Make a package with this empty node instead.", metavar="NAME")
+    ] = ""
+    scenario: Annotated[
+        bool, option("Make a scenario of that name, and nothing else.", "--scenario")
+    ] = False
+    as_json: Json = False

@@ -12,8 +12,7 @@ from pathlib import Path
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
-from tftool.commands.new import EXAMPLES
+from tftool.commands.new import EXAMPLES, NewOptions
 from tftool.commands.new.blanks import with_blanks
 from tftool.commands.shared.contradictions import refuse
 from tftool.messages.classes import INTERFACES
@@ -167,35 +166,36 @@ def _tell(
         sys.stdout.write(f"  {line}\n      {purpose}\n")
 
 
-def run(
-    name: str,
-    example: str,
-    exercise: bool,
-    node_name: str,
-    scenario: bool,
-    as_json: bool,
-) -> ExitStatus:
-    """Run `tftool new`; the parameters are its options."""
+def run(options: NewOptions) -> ExitStatus:
+    """Run `tftool new`."""
     refuse(
-        (scenario and (exercise or node_name), "--scenario makes no package: leave it out."),
-        (exercise and node_name, "--exercise is about a step: leave out --node-name."),
+        (
+            options.scenario and (options.exercise or options.node_name),
+            "--scenario makes no package: leave it out.",
+        ),
+        (
+            options.exercise and options.node_name,
+            "--exercise is about a step: leave out --node-name.",
+        ),
     )
-    if scenario:
-        _make_scenario(Path(name), as_json=as_json)
+    if options.scenario:
+        _make_scenario(Path(options.name), as_json=options.as_json)
         return ExitStatus.DONE
-    path = Path(name)
+    path = Path(options.name)
     _check_name(path.name)
-    if example not in EXAMPLES:
-        raise UsageError(f"there is no example '{example}'; there are {', '.join(EXAMPLES)}.")
+    if options.example not in EXAMPLES:
+        raise UsageError(
+            f"there is no example '{options.example}'; there are {', '.join(EXAMPLES)}."
+        )
     _refuse_existing(path)
-    if node_name:
-        _check_node(node_name)
-        files = _files_of_node(path.name, node_name)
+    if options.node_name:
+        _check_node(options.node_name)
+        files = _files_of_node(path.name, options.node_name)
         _write(path, files)
-        run_it = f"tftool run {path / path.name / node_name}.py", "run the node"
-        _tell(path, "", files, run_it, as_json=as_json)
+        run_it = f"tftool run {path / path.name / options.node_name}.py", "run the node"
+        _tell(path, "", files, run_it, as_json=options.as_json)
         return ExitStatus.DONE
-    files = _files(path.name, example, exercise=exercise)
+    files = _files(path.name, options.example, exercise=options.exercise)
     _write(path, files)
-    _say_what_next(path, example, files, exercise=exercise, as_json=as_json)
+    _say_what_next(path, options.example, files, exercise=options.exercise, as_json=options.as_json)
     return ExitStatus.DONE

@@ -1,59 +1,18 @@
 """`tftool play`: a recording as a live session."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import RunFor, moment_option, option, within
 from tftool.frames.moment import At
 from tftool.world.link.link_options import REACHES
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
-
 ROBOTS = " or ".join(flag for reach in REACHES if reach.is_robots for flag in reach.FLAGS)
 
 
-@declare(recordings=True)
-def play(
-    connection: "Connection",
-    file: Annotated[
-        str, typer.Argument(metavar="RECORDING", help="What to play: a file, a folder, a glob.")
-    ],
-    rate: Annotated[
-        float,
-        typer.Option(
-            "--rate",
-            "-r",
-            metavar="TIMES",
-            callback=within(0.01, 100),
-            help="How many times real time.",
-        ),
-    ] = 1.0,
-    begin: Annotated[
-        At | None, moment_option("Where to begin: seconds since the start, or a stamp.", "--from")
-    ] = None,
-    until: Annotated[At | None, moment_option("Where to end, likewise.", "--to")] = None,
-    loop: Annotated[bool, option("Start over at the end.", "--loop")] = False,
-    paused: Annotated[bool, option("Begin standing still.", "--paused")] = False,
-    restamp: Annotated[
-        Literal["now"] | None,
-        option(
-            "Give transforms stamps of the present, and publish no /clock.",
-            "--restamp",
-            metavar="now",
-        ),
-    ] = None,
-    everything: Annotated[
-        bool,
-        option("Send every other topic too whose type is known, with its own stamps.", "--all"),
-    ] = False,
-    force: Annotated[
-        bool, option(f"Over {ROBOTS}: play beside publishers of /tf that are there.", "--force")
-    ] = False,
-    run_for: RunFor = None,
-) -> None:
+class PlayOptions(Command, recordings=True):
     """Play a recording as a live session (ros2 bag play).
 
     Its transforms are broadcast as they were received, statics first, under the names of their
@@ -68,3 +27,39 @@ def play(
     tftool play run.mcap --from 12.5 --to 20 --rate 0.5 --loop
     tftool play run.bag --restamp now --all
     """
+
+    file: Annotated[
+        str, typer.Argument(metavar="RECORDING", help="What to play: a file, a folder, a glob.")
+    ]
+    rate: Annotated[
+        float,
+        typer.Option(
+            "--rate",
+            "-r",
+            metavar="TIMES",
+            callback=within(0.01, 100),
+            help="How many times real time.",
+        ),
+    ] = 1.0
+    begin: Annotated[
+        At | None, moment_option("Where to begin: seconds since the start, or a stamp.", "--from")
+    ] = None
+    until: Annotated[At | None, moment_option("Where to end, likewise.", "--to")] = None
+    loop: Annotated[bool, option("Start over at the end.", "--loop")] = False
+    paused: Annotated[bool, option("Begin standing still.", "--paused")] = False
+    restamp: Annotated[
+        Literal["now"] | None,
+        option(
+            "Give transforms stamps of the present, and publish no /clock.",
+            "--restamp",
+            metavar="now",
+        ),
+    ] = None
+    everything: Annotated[
+        bool,
+        option("Send every other topic too whose type is known, with its own stamps.", "--all"),
+    ] = False
+    force: Annotated[
+        bool, option(f"Over {ROBOTS}: play beside publishers of /tf that are there.", "--force")
+    ] = False
+    run_for: RunFor = None

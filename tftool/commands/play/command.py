@@ -4,12 +4,12 @@ import asyncio
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, Stamp, as_seconds
+from tftool.commands.play import PlayOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import join_or_host
 from tftool.commands.shared.keypresses import keyboard
@@ -163,45 +163,33 @@ def _marks(recording: Recording, start: Stamp) -> list[PlaybackMark]:
     return marks[:MOST_MARKS]
 
 
-def run(
-    connection: Connection,
-    file: str,
-    rate: float,
-    begin: At | None,
-    until: At | None,
-    loop: bool,
-    paused: bool,
-    restamp: Literal["now"] | None,
-    everything: bool,
-    force: bool,
-    run_for: int | None,
-) -> ExitStatus:
-    """Run `tftool play`; the parameters are its options."""
+def run(connection: Connection, options: PlayOptions) -> ExitStatus:
+    """Run `tftool play`."""
     connection.refuse_read_only("play")
-    found = named(file)
+    found = named(options.file)
     if not found.kind.is_recording:
-        word = visible(file)
+        word = visible(options.file)
         raise UsageError(f"'{word}' is a {found.kind.value}: a recording is needed here.")
     # The options of sharing are for the session that plays it.
-    recording = open_from(connection, file, shares=True).recording
+    recording = open_from(connection, options.file, shares=True).recording
     assert isinstance(recording, Recording)
     timeline = Timeline(recording.source, recording.transforms)
-    span = _span(recording, timeline, begin, until)
+    span = _span(recording, timeline, options.begin, options.until)
     playing = _Playing(
         recording,
         timeline,
         span,
-        rate,
-        is_paused=paused,
-        is_looping=loop,
-        is_restamped=restamp is not None,
-        sends_all=everything,
-        duration=run_for,
+        options.rate,
+        is_paused=options.paused,
+        is_looping=options.loop,
+        is_restamped=options.restamp is not None,
+        sends_all=options.everything,
+        duration=options.run_for,
         marks=_marks(recording, span[0]),
     )
     # Last of all: while it has not been decided who hosts, other processes wait.
-    link = join_or_host(connection, file).link
-    if link is not None and connection.reach.is_robots and not force:
+    link = join_or_host(connection, options.file).link
+    if link is not None and connection.reach.is_robots and not options.force:
         _refuse_to_mix(link)
     pace = connection.providers.wall_clock()
     run_loop(pace, playing.play(pace, link))

@@ -1,12 +1,12 @@
 """`tftool plot`: a pair of frames over time, in the terminal or as a picture."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from tftool.base.stamps import Duration, seconds
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     OUTPUT,
     Ascii,
@@ -25,49 +25,8 @@ from tftool.commands.shared.options import (
     seconds_option,
 )
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
-
-@declare(looks_only=True, recordings=True)
-def plot(
-    connection: "Connection",
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[TARGET SOURCE] [FROM]",
-            help="A pair of frames and whose they are; with --pair one word at most, FROM.",
-            show_default=False,
-        ),
-    ] = None,
-    pairs: Pairs = None,
-    output: Annotated[Path | None, output_file("Write a picture: .svg, .pdf or .png.")] = None,
-    only: Annotated[
-        list[str] | None,
-        option(
-            "Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
-            "speed, turn-rate, or single ones.",
-            metavar="WHAT,...",
-        ),
-    ] = None,
-    from_above: Annotated[
-        bool, option("Draw the path from above, in place of time.", "--xy")
-    ] = False,
-    first: FromOption = None,
-    last: ToOption = None,
-    every: Every = None,
-    rate: Rate = None,
-    stamps_of: StampsOf = None,
-    window: Annotated[
-        Duration, seconds_option("How far back a live plot reaches; 20 if not said.")
-    ] = seconds(20),
-    lasting: RunFor = None,
-    ascii_only: Ascii = False,
-    light: Light = False,
-    dark: Annotated[bool, option("With -o: on a dark ground.", "--dark", panel=OUTPUT)] = False,
-    force: Force = False,
-    as_json: Json = False,
-) -> None:
+class PlotOptions(Command, looks_only=True, recordings=True):
     """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.
 
     Shows position, roll pitch yaw, distance, speed and turn rate; spans of refused lookups are
@@ -80,3 +39,39 @@ def plot(
     tftool plot map base_link run.mcap --xy -o path.svg
     tftool plot run.mcap --pair map:base_link --pair map:laser -o both.pdf --dark
     """
+
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[TARGET SOURCE] [FROM]",
+            help="A pair of frames and whose they are; with --pair one word at most, FROM.",
+            show_default=False,
+        ),
+    ] = None
+    pairs: Pairs = None
+    output: Annotated[Path | None, output_file("Write a picture: .svg, .pdf or .png.")] = None
+    only: Annotated[
+        list[str] | None,
+        option(
+            "Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
+            "speed, turn-rate, or single ones.",
+            metavar="WHAT,...",
+        ),
+    ] = None
+    from_above: Annotated[bool, option("Draw the path from above, in place of time.", "--xy")] = (
+        False
+    )
+    first: FromOption = None
+    last: ToOption = None
+    every: Every = None
+    rate: Rate = None
+    stamps_of: StampsOf = None
+    window: Annotated[
+        Duration, seconds_option("How far back a live plot reaches; 20 if not said.")
+    ] = seconds(20)
+    lasting: RunFor = None
+    ascii_only: Ascii = False
+    light: Light = False
+    dark: Annotated[bool, option("With -o: on a dark ground.", "--dark", panel=OUTPUT)] = False
+    force: Force = False
+    as_json: Json = False

@@ -11,8 +11,8 @@ from rich.console import Console
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
-from tftool.base.stamps import Duration, Stamp
+from tftool.base.stamps import Stamp
+from tftool.commands.plot import PlotOptions
 from tftool.commands.plot.plot_style import PlotStyle
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
@@ -22,44 +22,35 @@ from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.pairs import MomentOptions, pairs_and_place
 from tftool.drawing import figure
 from tftool.frames.export.trajectory_files import whole_file
-from tftool.frames.moment import At
 from tftool.frames.pair_samples import Trajectory, sample
 from tftool.frames.pair_series import PlotCurve, panels, shades
 from tftool.recordings.target import refuse_existing
 
 
-def run(
-    connection: Connection,
-    words: list[str] | None,
-    *,
-    pairs: list[str] | None,
-    output: Path | None,
-    only: list[str] | None,
-    from_above: bool,
-    first: At | None,
-    last: At | None,
-    every: Duration | None,
-    rate: float | None,
-    stamps_of: str | None,
-    window: Duration,
-    lasting: Duration | None,
-    ascii_only: bool,
-    light: bool,
-    dark: bool,
-    force: bool,
-    as_json: bool,
-) -> ExitStatus:
-    """Run `tftool plot`; the parameters are its options."""
-    asked, place = pairs_and_place(words or [], pairs or [])
+def run(connection: Connection, options: PlotOptions) -> ExitStatus:
+    """Run `tftool plot`."""
+    asked, place = pairs_and_place(options.words or [], options.pairs or [])
     if not asked:
         raise UsageError("Name what to plot: tftool plot TARGET SOURCE [FROM].")
-    style = PlotStyle.of(only or [], from_above, ascii_only, light, dark)
-    when = MomentOptions(first, last, every, rate, stamps_of)
-    is_live = output is None and place is None and sys.stdout.isatty() and not as_json
+    style = PlotStyle.of(
+        options.only or [], options.from_above, options.ascii_only, options.light, options.dark
+    )
+    when = MomentOptions(
+        options.first, options.last, options.every, options.rate, options.stamps_of
+    )
+    is_live = (
+        options.output is None and place is None and sys.stdout.isatty() and not options.as_json
+    )
     refuse(
-        (output is None and (dark or force), "--dark and --force go with -o FILE."),
-        (as_json and output is not None, "--json prints the values, and -o draws: leave one out."),
-        (as_json and from_above, "--json prints values over time: leave out --xy."),
+        (
+            options.output is None and (options.dark or options.force),
+            "--dark and --force go with -o FILE.",
+        ),
+        (
+            options.as_json and options.output is not None,
+            "--json prints the values, and -o draws: leave one out.",
+        ),
+        (options.as_json and options.from_above, "--json prints values over time: leave out --xy."),
         (
             is_live and when != MomentOptions(),
             "A live plot shows the last --window of time: leave out the other moments, or name a "
@@ -69,17 +60,17 @@ def run(
     if is_live:
         from tftool.commands.plot.plot_live import plot_live
 
-        plot_live(connection, asked, style, window, lasting)
+        plot_live(connection, asked, style, options.window, options.lasting)
         return ExitStatus.DONE
-    form = None if output is None else _form_of(output, force)
-    frames = open_from(connection, place, lasting, until=WHOLE)
+    form = None if options.output is None else _form_of(options.output, options.force)
+    frames = open_from(connection, place, options.lasting, until=WHOLE)
     moments = when.moments(frames)
     name_frames(frames.buffer.frames(), (frame for pair in asked for frame in pair))
     found = [sample(frames.buffer, *pair, moments) for pair in asked]
     start = frames.start or min(int(one.path.stamps[0]) for one in found)
-    if output is not None and form is not None:
-        _write(found, output, form, start, style, force=force)
-    elif as_json:
+    if options.output is not None and form is not None:
+        _write(found, options.output, form, start, style, force=options.force)
+    elif options.as_json:
         sys.stdout.write(json.dumps(_as_object(found, start, style), allow_nan=False) + "\n")
     else:
         _print(found, start, style)

@@ -15,6 +15,7 @@ from tftool.base.exit_status import ExitStatus
 from tftool.base.near_names import near_names
 from tftool.base.short_numbers import count, short_size
 from tftool.base.stamps import seconds
+from tftool.commands.record import RecordOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.interrupts import interruptible
@@ -115,35 +116,25 @@ def _check_finding(name: str) -> None:
         raise UsageError(f"--on: the doctor has no finding '{name}'; {hint}")
 
 
-def run(
-    connection: Connection,
-    output: Path,
-    topics: list[str] | None,
-    everything: bool,
-    place: str | None,
-    run_for: int | None,
-    ring: int | None,
-    finding: str | None,
-    max_size: str | None,
-    max_duration: int | None,
-    force: bool,
-    for_programs: bool,
-) -> ExitStatus:
-    """Run `tftool record`; the parameters are its options."""
-    if finding is not None:
-        _check_finding(finding)
+def run(connection: Connection, options: RecordOptions) -> ExitStatus:
+    """Run `tftool record`."""
+    ring = options.ring
+    if options.finding is not None:
+        _check_finding(options.finding)
         ring = ring or RING
-    if ring is not None and (max_size or max_duration):
+    if ring is not None and (options.max_size or options.max_duration):
         raise UsageError(
             "--ring writes one file at the end: leave out --max-size and --max-duration."
         )
-    _refuse_places(topics or ())
-    limits = RecordLimits(_size(max_size), max_duration or 0, ring or 0)
+    _refuse_places(options.topics or ())
+    limits = RecordLimits(_size(options.max_size), options.max_duration or 0, ring or 0)
     running: RecordingRun | None = None
     with interruptible(), _ended_by_hangup():
-        rolling = RollingRecording(output, limits, compression=best_compression(), force=force)
+        rolling = RollingRecording(
+            options.output, limits, compression=best_compression(), force=options.force
+        )
         try:
-            session = open_session(connection, place, because=NO_SESSION)
+            session = open_session(connection, options.place, because=NO_SESSION)
         except BaseException:
             rolling.discard()
             raise
@@ -153,11 +144,11 @@ def run(
             nonlocal running
             link = None if session.is_hosted else session.link
             recorder = Recorder(
-                world, rolling, link=link, names=topics or (), everything=everything
+                world, rolling, link=link, names=options.topics or (), everything=options.everything
             )
-            running = RecordingRun(recorder, rolling, pace_of(world.clock), finding)
+            running = RecordingRun(recorder, rolling, pace_of(world.clock), options.finding)
             try:
-                await running.run(run_for)
+                await running.run(options.run_for)
             finally:
                 recorder.close()
                 running.clear()
@@ -173,8 +164,8 @@ def run(
             rolling.close()
     assert running is not None
     tell(rolling, running.recorder)
-    if for_programs:
-        sys.stdout.write(f"{_as_json(output, running)}\n")
+    if options.for_programs:
+        sys.stdout.write(f"{_as_json(options.output, running)}\n")
     else:
         if running.found is not None:
             sys.stdout.write(f"{visible(running.found.message)}\n")

@@ -1,11 +1,11 @@
 """`tftool robot`: a robot description as a live robot whose joints keys move."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     Ascii,
     Force,
@@ -17,49 +17,8 @@ from tftool.commands.shared.options import (
     within,
 )
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
-
-@declare(descriptions=True)
-def robot(
-    connection: "Connection",
-    place: Annotated[
-        str, typer.Argument(metavar="FILE", help="A robot description: URDF or xacro.")
-    ],
-    link: Annotated[
-        str | None,
-        option("Link whose pose is shown; the farthest if not said.", "--link", metavar="LINK"),
-    ] = None,
-    follow: Annotated[
-        bool, option("Move no joint; follow the /joint_states of others.", "--follow")
-    ] = False,
-    no_screen: Annotated[
-        bool, option("Publish until stopped, without sliders.", "--no-screen")
-    ] = False,
-    rate: Annotated[
-        float,
-        typer.Option(
-            "--rate",
-            "-r",
-            metavar="HZ",
-            callback=within(0.1, 1000),
-            help="How often frames are broadcast, and joint states published.",
-        ),
-    ] = 20.0,
-    frame_prefix: Annotated[
-        str, option("What to put before every link: left/.", metavar="PREFIX")
-    ] = "",
-    meshes: Meshes = None,
-    output: Annotated[
-        Path | None,
-        output_file("Draw the robot into a file, .svg or .png, and publish nothing."),
-    ] = None,
-    force: Force = False,
-    run_for: RunFor = None,
-    ascii_only: Ascii = False,
-    light: Light = False,
-) -> None:
+class RobotOptions(Command, descriptions=True):
     """Bring a robot description alive (robot_state_publisher).
 
     Fixed joints are published on /tf_static, the others on /tf, the description on
@@ -72,3 +31,39 @@ def robot(
     tftool robot arm.urdf --follow --no-screen
     tftool robot arm.urdf --joint elbow=30deg -o arm.svg
     """
+
+    place: Annotated[
+        str, typer.Argument(metavar="FILE", help="A robot description: URDF or xacro.")
+    ]
+    link: Annotated[
+        str | None,
+        option("Link whose pose is shown; the farthest if not said.", "--link", metavar="LINK"),
+    ] = None
+    follow: Annotated[
+        bool, option("Move no joint; follow the /joint_states of others.", "--follow")
+    ] = False
+    no_screen: Annotated[bool, option("Publish until stopped, without sliders.", "--no-screen")] = (
+        False
+    )
+    rate: Annotated[
+        float,
+        typer.Option(
+            "--rate",
+            "-r",
+            metavar="HZ",
+            callback=within(0.1, 1000),
+            help="How often frames are broadcast, and joint states published.",
+        ),
+    ] = 20.0
+    frame_prefix: Annotated[
+        str, option("What to put before every link: left/.", metavar="PREFIX")
+    ] = ""
+    meshes: Meshes = None
+    output: Annotated[
+        Path | None,
+        output_file("Draw the robot into a file, .svg or .png, and publish nothing."),
+    ] = None
+    force: Force = False
+    run_for: RunFor = None
+    ascii_only: Ascii = False
+    light: Light = False

@@ -12,6 +12,7 @@ from tftool.base.exit_status import ExitStatus
 from tftool.base.near_names import did_you_mean
 from tftool.base.short_numbers import count
 from tftool.base.stamps import Duration
+from tftool.commands.robot import RobotOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session
 from tftool.commands.shared.notices import notice
@@ -134,66 +135,68 @@ def _tell_missing(sentences: Sequence[str]) -> None:
         notice(f"... and {len(sentences) - MOST_TOLD} more.")
 
 
-def run(
-    connection: Connection,
-    place: str,
-    link: str | None,
-    follow: bool,
-    no_screen: bool,
-    rate: float,
-    frame_prefix: str,
-    meshes: list[Path] | None,
-    output: Path | None,
-    force: bool,
-    run_for: int | None,
-    ascii_only: bool,
-    light: bool,
-) -> ExitStatus:
-    """Run `tftool robot`; the parameters are its options."""
+def run(connection: Connection, options: RobotOptions) -> ExitStatus:
+    """Run `tftool robot`."""
     connection.refuse_read_only("publish")
-    found = named(place)
+    found = named(options.place)
     if found.kind is not Kind.DESCRIPTION:
         raise UsageError(
-            f"'{visible(place)}' is {kind_in_words(found)}: a robot description is needed here."
+            f"'{visible(options.place)}' is {kind_in_words(found)}: a robot description is needed "
+            "here."
         )
-    if follow and connection.robot.joints:
+    if options.follow and connection.robot.joints:
         raise UsageError("--follow takes joints from others: leave out --joint.")
-    if output is None and not no_screen and (lacking := screen_lacks()):
+    if options.output is None and not options.no_screen and (lacking := screen_lacks()):
         raise UsageError(f"The sliders need a terminal, and {lacking}: add --no-screen.")
     described = load_described(found, connection.robot)
-    if link is not None and link not in described.links:
-        raise UsageError(_no_link(described, link))
+    if options.link is not None and options.link not in described.links:
+        raise UsageError(_no_link(described, options.link))
     described.positions(connection.robot.joints)
     for note in (*described.notes, *beyond_limits(described, connection.robot.joints)):
         notice(visible(note))
 
-    folders = MeshFolders(found.paths[0], meshes or [])
-    if output is not None:
+    folders = MeshFolders(found.paths[0], options.meshes or [])
+    if options.output is not None:
         shapes = solids_of(described.links.values(), folders, most=IN_A_FILE)
-        return _draw(described, connection.robot.joints, shapes, output, light=light, force=force)
+        return _draw(
+            described,
+            connection.robot.joints,
+            shapes,
+            options.output,
+            light=options.light,
+            force=options.force,
+        )
 
     session = open_empty_session(connection)
     world = session.world
     RobotStatePublisher(
         world,
         robot=described,
-        frame_prefix=frame_prefix,
-        publish_frequency=0.0 if not follow else rate,
+        frame_prefix=options.frame_prefix,
+        publish_frequency=0.0 if not options.follow else options.rate,
     )
     mover = (
         None
-        if follow
+        if options.follow
         else JointStatePublisher(
-            world, robot=described, positions=connection.robot.joints, rate=rate
+            world, robot=described, positions=connection.robot.joints, rate=options.rate
         )
     )
-    if no_screen:
-        _tell(described, follow)
-        session.run(session.lasting(run_for))
+    if options.no_screen:
+        _tell(described, options.follow)
+        session.run(session.lasting(options.run_for))
         return ExitStatus.DONE
 
-    setting = Setting(title="tftool robot", ascii_only=ascii_only, light=light)
-    shapes = solids_of(described.links.values(), folders, frame_prefix)
+    setting = Setting(title="tftool robot", ascii_only=options.ascii_only, light=options.light)
+    shapes = solids_of(described.links.values(), folders, options.frame_prefix)
     _tell_missing(shapes[1])
-    _show(session, described, mover, (link, frame_prefix), setting, run_for, shapes)
+    _show(
+        session,
+        described,
+        mover,
+        (options.link, options.frame_prefix),
+        setting,
+        options.run_for,
+        shapes,
+    )
     return ExitStatus.DONE

@@ -1,32 +1,18 @@
 """`tftool ros2`: the verbs of ROS 2's command line for our sessions."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Json, RunFor, option
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
-
-@declare(
+class Ros2Options(
+    Command,
     # What follows these words are ROS 2's own options.
     settings={"allow_interspersed_args": False},
-)
-def ros2(
-    connection: "Connection",
-    words: Annotated[
-        list[str],
-        typer.Argument(metavar="COMMAND VERB …", help="The words behind ros2 with ROS."),
-    ],
-    place: Annotated[
-        str | None, option("World to host: a scenario's name or file.", "--in", metavar="SCENARIO")
-    ] = None,
-    run_for: RunFor = None,
-    as_json: Json = False,
-) -> None:
+):
     """Ask a session in the words of ROS 2's command line, without ROS.
 
     topic list, echo, find, hz, bw, delay, info, type, pub; service list, type, info, find, call;
@@ -39,3 +25,13 @@ def ros2(
     tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2}"
     tftool ros2 topic pub turtle1/cmd_vel geometry_msgs/msg/Twist "linear: {x: 2}"
     """
+
+    words: Annotated[
+        list[str],
+        typer.Argument(metavar="COMMAND VERB …", help="The words behind ros2 with ROS."),
+    ]
+    place: Annotated[
+        str | None, option("World to host: a scenario's name or file.", "--in", metavar="SCENARIO")
+    ] = None
+    run_for: RunFor = None
+    as_json: Json = False

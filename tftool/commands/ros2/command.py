@@ -9,6 +9,7 @@ import typer
 import yaml
 
 from tftool.base.errors import NodeFailed, TftoolError, UsageError
+from tftool.commands.ros2 import Ros2Options
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session, open_session
 from tftool.commands.shared.notices import tell_record
@@ -66,14 +67,9 @@ class _JsonLines:
         self._lines = []
 
 
-def run(
-    connection: Connection,
-    words: list[str],
-    place: str | None,
-    run_for: int | None,
-    as_json: bool,
-) -> int:
-    """Run `tftool ros2`; the parameters are its options."""
+def run(connection: Connection, options: Ros2Options) -> int:
+    """Run `tftool ros2`."""
+    words = options.words
     for length in (2, 1):
         asked = " ".join(words[:length])
         if asked in _ELSEWHERE:
@@ -82,14 +78,14 @@ def run(
         return _run_launch_tests(connection, words[1:])
     workspace = Workspace(Path.cwd())
     lines = _JsonLines(words)
-    if as_json and words[:2] == ["topic", "echo"]:
+    if options.as_json and words[:2] == ["topic", "echo"]:
         words = [*words, "--full-length"]
-    body = ros2_command.body(words, workspace, lines if as_json else typer.echo)
+    body = ros2_command.body(words, workspace, lines if options.as_json else typer.echo)
     if words[0] in ("interface", "pkg"):
         body()
         lines.finish()
         return 0
-    session = open_session(connection, place, because=NO_SESSION)
+    session = open_session(connection, options.place, because=NO_SESSION)
     world = session.world
     world.log.listen(
         lambda record: tell_record(record) if record.level in ("WARN", "ERROR") else None, "console"
@@ -98,7 +94,7 @@ def run(
 
     async def work() -> None:
         Program(world, world.free_name("ros2"), user_code.whole(body), argv=words, on_exit=ending)
-        await running.until(world, ending.over, run_for)
+        await running.until(world, ending.over, options.run_for)
 
     try:
         session.run(work())

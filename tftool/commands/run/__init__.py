@@ -1,42 +1,18 @@
 """`tftool run`: a user's own node, without ROS."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import RosFree, RunFor, Simulated, SkippedFolders, option
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
-
-@declare(
+class RunOptions(
+    Command,
     # What follows a node's file is the node's own.
     settings={"allow_interspersed_args": False},
-)
-def run(
-    connection: "Connection",
-    context: typer.Context,
-    target: Annotated[
-        str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")
-    ],
-    rest: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
-            help="A package's executable; the node's own arguments; ROS 2's after --ros-args.",
-        ),
-    ] = None,
-    place: Annotated[
-        str | None,
-        option("World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"),
-    ] = None,
-    force: RosFree = False,
-    run_for: RunFor = None,
-    simulated: Simulated = False,
-    verbose: SkippedFolders = False,
-) -> None:
+):
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
 
     The file's imports of rclpy, tf2_ros, geometry_msgs and so on are provided by tftool. A package
@@ -47,3 +23,22 @@ def run(
     tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1
     tftool run --in robot --simulated --for 20 my_listener.py
     """
+
+    target: Annotated[
+        str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")
+    ]
+    rest: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
+            help="A package's executable; the node's own arguments; ROS 2's after --ros-args.",
+        ),
+    ] = None
+    place: Annotated[
+        str | None,
+        option("World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"),
+    ] = None
+    force: RosFree = False
+    run_for: RunFor = None
+    simulated: Simulated = False
+    verbose: SkippedFolders = False

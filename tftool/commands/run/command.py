@@ -9,7 +9,9 @@ from typer.models import Context
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
+from tftool.commands.run import RunOptions
 from tftool.commands.shared.connection import Connection
+from tftool.commands.shared.declaration import Invocation
 from tftool.commands.shared.hosting import (
     open_empty_session,
     open_own_session,
@@ -20,6 +22,7 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import NO_SESSION
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.programs import tell_log, workspace_here
+from tftool.commands.teleop import TeleopOptions
 from tftool.commands.teleop.command import run as drive
 from tftool.ros import running
 from tftool.ros.host import executables
@@ -98,7 +101,7 @@ def _own_words(words: Sequence[str]) -> list[str]:
 
 
 def _run_other(
-    connection: Connection, context: Context, target: str, words: list[str], *, refused: bool
+    connection: Connection, target: str, words: list[str], *, refused: bool
 ) -> int | None:
     """Run the command of tftool that a program of ROS stands for; None if it is a node.
 
@@ -111,9 +114,7 @@ def _run_other(
                 "'turtlesim turtle_teleop_key' reads keys until q is pressed, in the session "
                 "that runs or beside a turtle of its own; --in, --for and --simulated go with nodes"
             )
-        return drive(
-            connection, running.driven_turtle(words[1:]), None, ascii_only=False, light=False
-        )
+        return drive(connection, TeleopOptions(turtle=running.driven_turtle(words[1:])))
     command = executables.COMMANDS.get((target, "".join(words[:1])))
     if command is None:
         return None
@@ -122,10 +123,10 @@ def _run_other(
             f"'{target} {words[0]}' is 'tftool {shlex.join(command)}' here; --in, --for and "
             "--simulated go with nodes"
         )
-    return _run_command(connection, context, [*command, *_own_words(words[1:])])
+    return _run_command(connection, [*command, *_own_words(words[1:])])
 
 
-def _run_command(connection: Connection, context: Context, words: list[str]) -> int:
+def _run_command(connection: Connection, words: list[str]) -> int:
     """Run another tftool command in the same session, and name it.
 
     Raises:
@@ -136,54 +137,53 @@ def _run_command(connection: Connection, context: Context, words: list[str]) -> 
     if connection.domain:
         words += ["--domain", str(connection.domain)]
     notice(f"Without ROS this is 'tftool {visible(shlex.join(words))}'.")
-    # The command line gives what runs another command.
-    status: int = context.obj(words)
-    return status
+    invocation: Invocation = _context(connection).obj
+    return invocation.run(words)
 
 
-def run(
-    connection: Connection,
-    context: Context,
-    target: str,
-    rest: list[str] | None,
-    place: str | None,
-    force: bool,
-    run_for: int | None,
-    simulated: bool,
-    verbose: bool,
-) -> int:
-    """Run `tftool run`; the parameters are its options."""
-    if simulated and run_for is None:
+def _context(connection: Connection) -> Context:
+    assert connection.context is not None
+    return connection.context
+
+
+def run(connection: Connection, options: RunOptions) -> int:
+    """Run `tftool run`."""
+    if options.simulated and options.run_for is None:
         raise UsageError("on simulated time a run needs --for SECONDS")
-    if simulated:
-        refuse_long_simulation(run_for)
-    words = list(rest or [])
-    own = {name for option in context.command.params for name in option.opts if name[0] == "-"}
-    _refuse_misplaced(target, words)
+    if options.simulated:
+        refuse_long_simulation(options.run_for)
+    words = list(options.rest or [])
+    own = {
+        name
+        for option in _context(connection).command.params
+        for name in option.opts
+        if name[0] == "-"
+    }
+    _refuse_misplaced(options.target, words)
     for word in misplaced(words, own):
         notice(word)
-    workspace = workspace_here(verbose=verbose)
-    is_of_nodes = place is not None or simulated or run_for is not None
-    if target not in workspace.packages:
-        status = _run_other(connection, context, target, words, refused=is_of_nodes)
+    workspace = workspace_here(verbose=options.verbose)
+    is_of_nodes = options.place is not None or options.simulated or options.run_for is not None
+    if options.target not in workspace.packages:
+        status = _run_other(connection, options.target, words, refused=is_of_nodes)
         if status is not None:
             return status
     # These bring all there is to see; turtles have no place beside them.
-    simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
-    alone = simulator or (target in ROBOTS and place is None)
-    with ros_free(force=force) as finder:
+    simulator = (options.target, *words[:1]) == ("turtlesim", "turtlesim_node")
+    alone = simulator or (options.target in ROBOTS and options.place is None)
+    with ros_free(force=options.force) as finder:
         packages.use(workspace)
-        running.check_program(workspace, target, words)
-        file = running.executable_file(workspace, target, words)
+        running.check_program(workspace, options.target, words)
+        file = running.executable_file(workspace, options.target, words)
         if unfound := running.tell_unfound(workspace, file):
             notice(visible(unfound))
-        session = _opened(connection, place, alone=alone, simulated=simulated)
+        session = _opened(connection, options.place, alone=alone, simulated=options.simulated)
         connection.tell_read_only()
         tell_where_to_look(connection, session)
         world = session.world
         tell_log(world)
         turtles = running.TurtlesOnDemand(world)
-        on_demand = place is None and not alone and not connection.looks
+        on_demand = options.place is None and not alone and not connection.looks
         if on_demand:
             finder.on_import |= dict.fromkeys(running.TURTLE_PACKAGES, turtles.host_from_program)
             if session.is_hosted:
@@ -192,12 +192,12 @@ def run(
 
         async def work() -> None:
             ending.append(running.Ending(world))
-            if on_demand and target in running.TURTLE_PACKAGES:
+            if on_demand and options.target in running.TURTLE_PACKAGES:
                 turtles.host()
-            running.start_program(world, workspace, target, words, on_exit=ending[0])
-            await running.until(world, ending[0].over, run_for)
+            running.start_program(world, workspace, options.target, words, on_exit=ending[0])
+            await running.until(world, ending[0].over, options.run_for)
 
         session.run(work())
-        for sentence in running.advice(world) if simulated else ():
+        for sentence in running.advice(world) if options.simulated else ():
             notice(visible(sentence))
         return ending[0].judge()

@@ -12,6 +12,7 @@ from tftool.base.errors import LinkError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, as_seconds
+from tftool.commands.session import SessionOptions
 from tftool.commands.shared.connection import Connection, Mode
 from tftool.commands.shared.notices import notice
 from tftool.drawing import session_view as view
@@ -101,18 +102,12 @@ def _written(found: dict[str, Any], *, verbose: bool) -> str:
     return captured.get()
 
 
-def run(
-    connection: Connection,
-    place: str | None,
-    listen_for: int,
-    verbose: bool,
-    for_programs: bool,
-) -> ExitStatus:
-    """Run `tftool session`; the parameters are its options."""
-    if place is not None:
+def run(connection: Connection, options: SessionOptions) -> ExitStatus:
+    """Run `tftool session`."""
+    if options.place is not None:
         raise UsageError(
-            f"'{visible(place)}' is no session that runs: leave it out, or give the address of a "
-            "Foxglove server, such as ws://robot:8765."
+            f"'{visible(options.place)}' is no session that runs: leave it out, or give the "
+            "address of a Foxglove server, such as ws://robot:8765."
         )
     if connection.mode is Mode.HOST:
         raise UsageError("'session' only lists processes: leave out --host.")
@@ -125,7 +120,7 @@ def run(
         notice(
             f"No process is here in domain {connection.domain}: start 'tftool demo', for example."
         )
-    found = _as_object(link, _rates(connection, link, listen_for))
-    text = json.dumps(found) if for_programs else _written(found, verbose=verbose)
+    found = _as_object(link, _rates(connection, link, options.listen_for))
+    text = json.dumps(found) if options.for_programs else _written(found, verbose=options.verbose)
     sys.stdout.write(text + "\n")
     return ExitStatus.DONE

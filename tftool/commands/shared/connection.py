@@ -13,12 +13,15 @@ from typing import TYPE_CHECKING, Any, Self, TypedDict
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
+from tftool.commands.shared.declaration import Invocation, Kind
 from tftool.commands.shared.notices import notice
 from tftool.frames.source_options import RecordingOptions, RobotOptions
 from tftool.world.link.link_options import REACHES, Options, domain_here, reach_at, read_reach
 from tftool.world.link.reach import Reach
 
 if TYPE_CHECKING:
+    from typer import Context
+
     from tftool.base.stamps import Duration, Stamp
     from tftool.frames.frames import Frames
     from tftool.world.clock import Clock
@@ -96,8 +99,7 @@ class Connection:
 
     Attributes:
         command: The command's name.
-        looks_only: Whether the command writes to no topic of a robot.
-        hosts_turtles: Whether it hosts turtles where it looks for a robot and finds none.
+        kind: What kind of command it is.
         mode: Join, host, or whichever fits.
         domain: Number of the ROS domain.
         reach: Middleware, and reach beyond this machine's own processes.
@@ -105,11 +107,11 @@ class Connection:
         robot: Joint positions, xacro arguments, a description for a recording.
         recording: How a recording is read.
         providers: Sources of its clocks and links.
+        context: typer's context of the command line.
     """
 
     command: str = "tftool"
-    looks_only: bool = False
-    hosts_turtles: bool = False
+    kind: Kind = field(default_factory=Kind)
     mode: Mode = Mode.AUTO
     domain: int = 0
     reach: Reach = field(default_factory=REACHES[0])
@@ -117,6 +119,7 @@ class Connection:
     robot: RobotOptions = field(default_factory=RobotOptions)
     recording: RecordingOptions = field(default_factory=RecordingOptions)
     providers: Providers = field(default_factory=Providers, compare=False, repr=False)
+    context: "Context | None" = field(default=None, compare=False, repr=False)
     _opened: "list[Link | Frames]" = field(default_factory=list, compare=False, repr=False)
 
     def __enter__(self) -> Self:
@@ -134,7 +137,7 @@ class Connection:
     @property
     def looks(self) -> bool:
         """Whether the command only observes, so that its own world stays invisible to others."""
-        return self.reach.awaits_others(hosts=self.hosts_turtles)
+        return self.reach.awaits_others(hosts=self.kind.hosts_turtles)
 
     @property
     def place(self) -> str:
@@ -144,7 +147,7 @@ class Connection:
     def options(self) -> Options:
         """Return the options in the link's form."""
         # Among a robot's nodes, what only looks has nothing to write.
-        read_only = self.read_only or (self.reach.is_robots and self.looks_only)
+        read_only = self.read_only or (self.reach.is_robots and self.kind.looks_only)
         return Options(self.command, self.domain, self.reach, read_only)
 
     def open_link(self) -> "Link | None":
@@ -242,10 +245,9 @@ class Connection:
 
 def read(
     command: str,
-    providers: Providers,
+    kind: Kind,
+    context: "Context | None" = None,
     *,
-    looks_only: bool = False,
-    hosts_turtles: bool = False,
     join: bool = False,
     host: bool = False,
     domain: int | None = None,
@@ -275,10 +277,10 @@ def read(
 
         far = reach_at(address)
         refuse_beside_address(address, domain, {**reach, "host": host})
+    invocation: Invocation | None = None if context is None else context.obj
     return Connection(
         command,
-        looks_only,
-        hosts_turtles,
+        kind,
         Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
         domain_here() if domain is None else domain,
         far or read_reach(reach),
@@ -289,7 +291,8 @@ def read(
             urdf,
         ),
         RecordingOptions(no_cache, with_odometry, tuple(tf_topic or ())),
-        providers,
+        (invocation and invocation.providers) or Providers(),
+        context,
     )
 
 

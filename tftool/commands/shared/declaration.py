@@ -2,17 +2,25 @@
 
 The kind decides its further options: of sessions, of recordings, of robot descriptions.
 `tftool/commands/NAME/__init__.py` declares the command, and `run` in `command.py` beside it is
-imported when it is called: help and completion need only the options.
+imported when it is called: help and completion need only the options. A small command is one file.
 """
 
-import functools
 import inspect
+import pkgutil
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, get_args
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    dataclass_transform,
+    get_args,
+)
 
 import typer
 
@@ -24,6 +32,9 @@ from tftool.world.link.reach import Reach
 
 if TYPE_CHECKING:
     from tftool.commands.shared.connection import Providers
+
+if TYPE_CHECKING:
+    pass
 
 
 def _declared(reach: type[Reach]) -> dict[str, Any]:
@@ -161,18 +172,13 @@ POSE_OPTIONS: dict[str, Any] = {
 """Options of commands whose FROM may be a pose file; `Command` puts them into effect."""
 
 
-LOOKING = "doctor, echo, explain, export, monitor, plot, record, session, tree and view"
-"""Commands that read a session by its address."""
-
-
 @dataclass(frozen=True, slots=True)
-class Declaration:
-    """A command's own options and its kind.
+class Kind:
+    """Kind of a command.
 
     Attributes:
-        declared: The function whose parameters are its options and whose docstring is its help.
-        shares: Whether it joins or hosts a session. It takes a `Connection` first then.
-        looks_only: Whether it writes to no topic of a robot.
+        shares: Whether it joins or hosts a session. Its `run` takes a `Connection` first then.
+        looks_only: Whether it writes to no topic of a robot, so that FROM may be its address.
         hosts_turtles: Whether it hosts turtles where it looks for a robot and finds none; other
             commands wait for one.
         recordings: Whether FROM may be a recording.
@@ -182,7 +188,6 @@ class Declaration:
         settings: Differences from click's reading of a command line.
     """
 
-    declared: Callable[..., Any]
     shares: bool = True
     looks_only: bool = False
     hosts_turtles: bool = False
@@ -192,21 +197,9 @@ class Declaration:
     poses: bool = False
     settings: Mapping[str, Any] = field(default_factory=dict)
 
-    @property
-    def name(self) -> str:
-        """The command's name as it is typed."""
-        return self.declared.__name__
-
-    def with_options(self, providers: "Providers | None" = None) -> Callable[..., Any]:
-        """Return the command with all of its options, ready to be called.
-
-        Args:
-            providers: Source of clocks and links; the real ones when None.
-        """
-        if not (self.shares or self.poses):
-            # Not the bound method itself, which takes no attributes.
-            return functools.wraps(self.declared)(functools.partial(self._run))
-        added = {
+    def options(self) -> dict[str, Any]:
+        """Return the options that every command of this kind has."""
+        return {
             **(POSE_OPTIONS if self.poses or self.recordings or self.urdf else {}),
             **(ROBOT_OPTIONS if self.descriptions else {}),
             **(URDF_OPTION if self.urdf else {}),
@@ -214,77 +207,108 @@ class Declaration:
             **(SESSION_OPTIONS if self.shares else {}),
         }
 
-        @functools.wraps(self.declared)
-        def connected(*args: Any, **words: Any) -> Any:
-            from tftool.commands.shared.connection import Providers, read
 
-            given = {name: words.pop(name) for name in added if name in words}
-            for name in POSE_OPTIONS:
-                given.pop(name, None)
-            if not self.shares:
-                return self._run(*args, **words)
-            address = self._take_address(words)
-            with read(
-                self.name,
-                providers or Providers(),
-                looks_only=self.looks_only,
-                hosts_turtles=self.hosts_turtles,
-                address=address,
-                **given,
-            ) as connection:
-                return self._run(connection, *args, **words)
+class Invocation(NamedTuple):
+    """Origin of a command line: the `obj` of its context.
 
-        signature = inspect.signature(self.declared)
-        own = list(signature.parameters.values())
-        first = own.pop(0) if self.shares else None
-        connected.__signature__ = signature.replace(  # type: ignore[attr-defined]
-            parameters=[*own, *(_parameter(*one) for one in added.items())]
-        )
-        connected.__annotations__ = {**self.declared.__annotations__, **added}
-        if first is not None:
-            connected.__annotations__.pop(first.name, None)
-        return connected
+    Attributes:
+        providers: Source of clocks and links; the real ones when None.
+        run: Runs another command line of tftool, and returns its status.
+    """
 
-    def _take_address(self, words: dict[str, Any]) -> str | None:
-        """Remove a session's address from the command's words, where FROM may be one.
-
-        Raises:
-            UsageError: If the command does not read sessions, or the address is out of place.
-        """
-        parameters = inspect.signature(self.declared).parameters
-        for name, value in words.items():
-            several = value if isinstance(value, list) else [value]
-            found = [one for one in several if isinstance(one, str) and reach_at(one) is not None]
-            if not found:
-                continue
-            if not self.looks_only:
-                raise UsageError(
-                    f"'{visible(found[0])}' is a robot's server, which is read-only, and 'tftool "
-                    f"{self.name}' publishes or reads files: {LOOKING} work with it."
-                )
-            is_from = parameters[name].default is not inspect.Parameter.empty
-            if len(found) > 1 or not is_from:
-                raise UsageError(
-                    f"'{visible(found[0])}' is a FROM: give only one, as the last word."
-                )
-            words[name] = [one for one in several if one not in found] if several is value else None
-            return found[0]
-        return None
-
-    def _run(self, *args: Any, **options: Any) -> Any:
-        """Run the command's code: `command.py` of its folder, else the function itself."""
-        home = self.declared.__module__
-        if not hasattr(sys.modules[home], "__path__"):
-            return self.declared(*args, **options)
-        return import_module(f"{home}.command").run(*args, **options)
+    providers: "Providers | None"
+    run: Callable[[Sequence[str]], int]
 
 
-def _parameter(name: str, annotation: Any) -> inspect.Parameter:
-    default = False if get_args(annotation)[0] is bool else None
+@dataclass_transform(kw_only_default=True)
+class Command:
+    """Base of commands: the fields of a derived class are its options, its docstring is the help.
+
+    Class keywords are attributes of `Kind`: `class EchoOptions(Command, looks_only=True)`. An
+    object has the values that were given; `run` in the command's module takes it.
+    """
+
+    kind: ClassVar[Kind]
+
+    def __init_subclass__(cls, **kind: Any) -> None:
+        cls.kind = Kind(**kind)
+
+    def __init__(self, **given: Any) -> None:
+        vars(self).update(given)
+
+
+def typer_function(command: type[Command]) -> Callable[..., Any]:
+    """Return the function that typer makes a command of: all options in, the exit status out."""
+    home = command.__module__
+    name = home.rpartition(".")[2]
+    own = inspect.get_annotations(command)
+    added = command.kind.options()
+
+    def called(context: typer.Context, **words: Any) -> Any:
+        if hasattr(sys.modules[home], "__path__"):
+            run = import_module(f"{home}.command").run
+        else:
+            run = sys.modules[home].run
+        given = {name: words.pop(name) for name in added}
+        if not command.kind.shares:
+            return run(command(**words))
+        from tftool.commands.shared.connection import read
+
+        for pose_option in POSE_OPTIONS:
+            given.pop(pose_option, None)
+        address = _take_address(name, command, words)
+        with read(name, command.kind, context, address=address, **given) as connection:
+            return run(connection, command(**words))
+
+    parameters = [
+        *(_parameter(*one, getattr(command, one[0], inspect.Parameter.empty))
+          for one in own.items()),
+        *(_parameter(*one, False if get_args(one[1])[0] is bool else None)
+          for one in added.items()),
+    ]  # fmt: skip
+    context = inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context)
+    called.__signature__ = inspect.Signature([context, *parameters])  # type: ignore[attr-defined]
+    called.__annotations__ = {"context": typer.Context, **own, **added}
+    called.__doc__ = command.__doc__
+    return called
+
+
+def _parameter(name: str, annotation: Any, default: Any) -> inspect.Parameter:
     kind = inspect.Parameter.KEYWORD_ONLY
     return inspect.Parameter(name, kind, default=default, annotation=annotation)
 
 
-def declare(**kind: Any) -> Callable[[Callable[..., Any]], Declaration]:
-    """Declare the decorated function as a command; `kind` gives attributes of `Declaration`."""
-    return lambda declared: Declaration(declared, **kind)
+def _take_address(name: str, command: type[Command], words: dict[str, Any]) -> str | None:
+    """Remove a session's address from the command's words, where FROM may be one.
+
+    Raises:
+        UsageError: If the command does not read sessions, or the address is out of place.
+    """
+    for parameter, value in words.items():
+        several = value if isinstance(value, list) else [value]
+        found = [one for one in several if isinstance(one, str) and reach_at(one) is not None]
+        if not found:
+            continue
+        if not command.kind.looks_only:
+            raise UsageError(
+                f"'{visible(found[0])}' is a robot's server, which is read-only, and 'tftool "
+                f"{name}' publishes or reads files: {_looking_commands()} work with it."
+            )
+        if len(found) > 1 or not hasattr(command, parameter):
+            raise UsageError(f"'{visible(found[0])}' is a FROM: give only one, as the last word.")
+        words[parameter] = (
+            [one for one in several if one not in found] if several is value else None
+        )
+        return found[0]
+    return None
+
+
+def _looking_commands() -> str:
+    """Return the names of the commands that read a session by its address."""
+    names = []
+    for room in pkgutil.iter_modules(import_module("tftool.commands").__path__):
+        module = import_module(f"tftool.commands.{room.name}")
+        command = getattr(module, f"{room.name.capitalize()}Options", None)
+        if command is not None and command.kind.looks_only:
+            names.append(room.name)
+    return f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,55 +1,22 @@
 """`tftool static`: publish one static transform."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import option
-
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
 Metres = Annotated[str | None, typer.Option(metavar="METRES")]
 Part = Annotated[str | None, typer.Option(metavar="NUMBER")]
 Radians = Annotated[str | None, typer.Option(metavar="RADIANS")]
 
 
-@declare(
+class StaticOptions(
+    Command,
     # A frame may be at a negative place: -1 is a number there, not an option.
     settings={"ignore_unknown_options": True},
-)
-def static(
-    connection: "Connection",
-    words: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[X Y Z YAW PITCH ROLL PARENT CHILD]", show_default=False),
-    ] = None,
-    x: Metres = None,
-    y: Metres = None,
-    z: Metres = None,
-    roll: Radians = None,
-    pitch: Radians = None,
-    yaw: Radians = None,
-    qx: Part = None,
-    qy: Part = None,
-    qz: Part = None,
-    qw: Part = None,
-    frame_id: Annotated[
-        str | None, option("Frame it is given in.", "--frame-id", metavar="PARENT")
-    ] = None,
-    child_frame_id: Annotated[
-        str | None, option("Frame it places.", "--child-frame-id", metavar="CHILD")
-    ] = None,
-    once: Annotated[
-        bool,
-        option(
-            "Publish, say what, and stop. Who is there keeps it; who comes later does "
-            "not hear of it.",
-            "--once",
-        ),
-    ] = False,
-) -> None:
+):
     """Publish where CHILD is in PARENT (static_transform_publisher).
 
     It is valid at all times. Runs until interrupted. Lengths are metres, angles radians.
@@ -58,3 +25,32 @@ def static(
     tftool static 0 0 3 0 0 3.14 A B          x y z yaw pitch roll: 3.14 is ROLL
     tftool static 0 0 3 0 0 0 1 A B           x y z qx qy qz qw
     """
+
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[X Y Z YAW PITCH ROLL PARENT CHILD]", show_default=False),
+    ] = None
+    x: Metres = None
+    y: Metres = None
+    z: Metres = None
+    roll: Radians = None
+    pitch: Radians = None
+    yaw: Radians = None
+    qx: Part = None
+    qy: Part = None
+    qz: Part = None
+    qw: Part = None
+    frame_id: Annotated[
+        str | None, option("Frame it is given in.", "--frame-id", metavar="PARENT")
+    ] = None
+    child_frame_id: Annotated[
+        str | None, option("Frame it places.", "--child-frame-id", metavar="CHILD")
+    ] = None
+    once: Annotated[
+        bool,
+        option(
+            "Publish, say what, and stop. Who is there keeps it; who comes later does "
+            "not hear of it.",
+            "--once",
+        ),
+    ] = False

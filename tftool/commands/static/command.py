@@ -1,5 +1,6 @@
 """`tftool static`: publish one static transform."""
 
+import inspect
 import os
 import sys
 
@@ -10,6 +11,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_empty_session
 from tftool.commands.shared.notices import notice
+from tftool.commands.static import StaticOptions
 from tftool.drawing.pose_words import lines
 from tftool.geometry.notation.static_arguments import StaticArguments, advice, parse
 from tftool.world.link.session_world import Session
@@ -49,34 +51,17 @@ async def _published(session: Session, said: StaticArguments, spin: bool) -> Non
         await session.lasting(None)
 
 
-def run(
-    connection: Connection,
-    words: list[str] | None,
-    x: str | None,
-    y: str | None,
-    z: str | None,
-    roll: str | None,
-    pitch: str | None,
-    yaw: str | None,
-    qx: str | None,
-    qy: str | None,
-    qz: str | None,
-    qw: str | None,
-    frame_id: str | None,
-    child_frame_id: str | None,
-    once: bool,
-) -> ExitStatus:
-    """Run `tftool static`; the parameters are its options."""
-    given = {
-        "x": x, "y": y, "z": z, "roll": roll, "pitch": pitch, "yaw": yaw,
-        "qx": qx, "qy": qy, "qz": qz, "qw": qw,
-        "frame-id": frame_id, "child-frame-id": child_frame_id,
-    }  # fmt: skip
-    options = [
-        word for name, value in given.items() if value is not None for word in (f"--{name}", value)
+def run(connection: Connection, options: StaticOptions) -> ExitStatus:
+    """Run `tftool static`."""
+    given = vars(options)
+    words = [
+        word
+        for name in inspect.get_annotations(StaticOptions)
+        if name not in ("words", "once") and given[name] is not None
+        for word in (f"--{name.replace('_', '-')}", given[name])
     ]
-    said = parse([*(words or ()), *options])
+    said = parse([*(options.words or ()), *words])
     if said is None:  # pragma: no cover - help never comes this far
         return ExitStatus.DONE
-    publish(connection, said, spin=not once)
+    publish(connection, said, spin=not options.once)
     return ExitStatus.DONE

@@ -1,31 +1,14 @@
 """`tftool teleop`: arrow keys drive a turtle."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Ascii, Light, option
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
-
-@declare(hosts_turtles=True)
-def teleop(
-    connection: "Connection",
-    turtle: Annotated[str, typer.Argument(metavar="[TURTLE]", help="Whom to drive.")] = "turtle1",
-    keys: Annotated[
-        str | None,
-        option(
-            'Press these instead of reading any, one after the other: "up up left g".',
-            "--keys",
-            metavar="KEYS",
-        ),
-    ] = None,
-    ascii_only: Ascii = False,
-    light: Light = False,
-) -> None:
+class TeleopOptions(Command, hosts_turtles=True):
     """Drive a turtle with the arrow keys (ros2 run turtlesim turtle_teleop_key).
 
     One press moves the turtle for a second. The eight letters around f turn it to the direction of
@@ -35,3 +18,15 @@ def teleop(
     tftool teleop turtle2
     tftool teleop --keys "up up left up"
     """
+
+    turtle: Annotated[str, typer.Argument(metavar="[TURTLE]", help="Whom to drive.")] = "turtle1"
+    keys: Annotated[
+        str | None,
+        option(
+            'Press these instead of reading any, one after the other: "up up left g".',
+            "--keys",
+            metavar="KEYS",
+        ),
+    ] = None
+    ascii_only: Ascii = False
+    light: Light = False

@@ -19,6 +19,7 @@ from tftool.commands.shared.on_screen import (
     screen_lacks,
     simulator_of,
 )
+from tftool.commands.teleop import TeleopOptions
 from tftool.messages.turtle_messages import Pose
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.nodes.turtle_teleop import BANNER, KEYS
@@ -131,17 +132,11 @@ def _is_at_rest(pose: Any) -> bool:
     return bool(pose.linear_velocity == 0.0 and pose.angular_velocity == 0.0)
 
 
-def run(
-    connection: Connection,
-    turtle: str,
-    keys: str | None,
-    ascii_only: bool,
-    light: bool,
-) -> ExitStatus:
-    """Run `tftool teleop`; the parameters are its options."""
+def run(connection: Connection, options: TeleopOptions) -> ExitStatus:
+    """Run `tftool teleop`."""
     connection.refuse_read_only("drive")
-    if keys is not None:
-        typer.echo(press_all(connection, turtle, keys))
+    if options.keys is not None:
+        typer.echo(press_all(connection, options.turtle, options.keys))
         return ExitStatus.DONE
     if lacking := screen_lacks():
         raise UsageError(
@@ -150,7 +145,7 @@ def run(
         )
 
     session = open_session(connection, needs_turtles=True, by_hand=True)
-    driver = driver_of(session.world, turtle)
+    driver = driver_of(session.world, options.turtle)
     # Said before the screen is taken, so that it can be read after it is given back too.
     sys.stdout.write("\n".join(BANNER) + "\n")
     sys.stdout.flush()
@@ -163,11 +158,11 @@ def run(
         live(),
         driver,
         Setting(
-            title=f"tftool teleop {turtle}",
+            title=f"tftool teleop {options.turtle}",
             drive_only=True,
             banner=BANNER,
-            ascii_only=ascii_only,
-            light=light,
+            ascii_only=options.ascii_only,
+            light=options.light,
         ),
     )
     return ExitStatus.DONE

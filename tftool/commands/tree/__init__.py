@@ -2,9 +2,9 @@
 
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     OUTPUT,
     AtOption,
@@ -16,9 +16,6 @@ from tftool.commands.shared.options import (
     option,
     output_file,
 )
-
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
 
 class TreeFormat(StrEnum):
@@ -35,38 +32,7 @@ class TreeFormat(StrEnum):
     png = "png"
 
 
-@declare(looks_only=True, recordings=True, descriptions=True, urdf=True)
-def tree(
-    connection: "Connection",
-    place: From = None,
-    form: Annotated[
-        TreeFormat | None,
-        option(
-            f"What to write: {', '.join(TreeFormat)}; if not said, what -o ends in.",
-            "--format",
-            "-f",
-            metavar="FORMAT",
-            panel=OUTPUT,
-        ),
-    ] = None,
-    output: Annotated[Path | None, output_file("Where to write it; - is stdout.")] = None,
-    force: Force = False,
-    as_json: Json = False,
-    wide: Annotated[
-        bool,
-        option(
-            "All columns and whole names on a terminal too, however long the lines.",
-            "--wide",
-            panel=OUTPUT,
-        ),
-    ] = False,
-    at: AtOption = None,
-    watch: Annotated[
-        bool, option("Show it as it changes; keys scroll, sort and filter.", "--watch", "-w")
-    ] = False,
-    run_for: RunFor = None,
-    cache_time: CacheTime = None,
-) -> None:
+class TreeOptions(Command, looks_only=True, recordings=True, descriptions=True, urdf=True):
     """Show which frame hangs from which (rqt_tf_tree, view_frames).
 
     Shows every tree, and for every link: whether it is static, its broadcaster, its rate, the
@@ -79,3 +45,32 @@ def tree(
     tftool tree robot -o robot.svg --at 12.5
     tftool tree --watch
     """
+
+    place: From = None
+    form: Annotated[
+        TreeFormat | None,
+        option(
+            f"What to write: {', '.join(TreeFormat)}; if not said, what -o ends in.",
+            "--format",
+            "-f",
+            metavar="FORMAT",
+            panel=OUTPUT,
+        ),
+    ] = None
+    output: Annotated[Path | None, output_file("Where to write it; - is stdout.")] = None
+    force: Force = False
+    as_json: Json = False
+    wide: Annotated[
+        bool,
+        option(
+            "All columns and whole names on a terminal too, however long the lines.",
+            "--wide",
+            panel=OUTPUT,
+        ),
+    ] = False
+    at: AtOption = None
+    watch: Annotated[
+        bool, option("Show it as it changes; keys scroll, sort and filter.", "--watch", "-w")
+    ] = False
+    run_for: RunFor = None
+    cache_time: CacheTime = None

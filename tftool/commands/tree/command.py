@@ -8,8 +8,6 @@ from pathlib import Path
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.short_numbers import count
-from tftool.base.stamps import Duration
 from tftool.buffer.sample import Snapshot
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.contradictions import refuse
@@ -17,12 +15,11 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.printer import write_file
 from tftool.commands.shared.rival_publishers import rivalries
-from tftool.commands.tree import TreeFormat
+from tftool.commands.tree import TreeFormat, TreeOptions
 from tftool.commands.tree.tree_text import Moving, drawn
 from tftool.doctor.frame_marks import marks as doctor_marks
 from tftool.drawing import frame_tree
 from tftool.drawing.frame_tree import Marks
-from tftool.frames.moment import At
 from tftool.recordings.target import refuse_existing
 
 TEXTS = {
@@ -38,49 +35,41 @@ WITHOUT_MARKS = (TreeFormat.dot, TreeFormat.mermaid, TreeFormat.yaml)
 """Forms without a place for the doctor's marks."""
 
 
-def run(
-    connection: Connection,
-    place: str | None,
-    *,
-    form: TreeFormat | None,
-    output: Path | None,
-    force: bool,
-    as_json: bool,
-    wide: bool,
-    at: At | None,
-    watch: bool,
-    run_for: Duration | None,
-    cache_time: Duration | None,
-) -> ExitStatus:
-    """Run `tftool tree`; the parameters are its options."""
-    if as_json:
+def run(connection: Connection, options: TreeOptions) -> ExitStatus:
+    """Run `tftool tree`."""
+    form = options.form
+    if options.as_json:
         if form not in (None, TreeFormat.json):
             raise UsageError(f"--json and --format {form.value} exclude each other.")
         form = TreeFormat.json
-    form = form or _form_of(output)
-    is_drawn_at_once = form is not TreeFormat.tree or output is not None or at is not None
+    form = form or _form_of(options.output)
+    is_drawn_at_once = (
+        form is not TreeFormat.tree or options.output is not None or options.at is not None
+    )
     refuse(
         (
-            watch and is_drawn_at_once,
+            options.watch and is_drawn_at_once,
             "--watch draws on the terminal: leave out --format, --json, -o and --at.",
         ),
-        (force and output is None, "--force goes with -o FILE."),
+        (options.force and options.output is None, "--force goes with -o FILE."),
         (
-            run_for is not None and not watch,
+            options.run_for is not None and not options.watch,
             "--for goes with --watch; without it the tree is written once.",
         ),
     )
-    if output is not None and output.is_file():
-        refuse_existing(output, force=force)
-    if watch:
+    if options.output is not None and options.output.is_file():
+        refuse_existing(options.output, force=options.force)
+    if options.watch:
         from tftool.commands.tree.tree_watch import show_changes
 
-        show_changes(connection, place, run_for, cache_time)
+        show_changes(connection, options.place, options.run_for, options.cache_time)
         return ExitStatus.DONE
-    frames = open_from(connection, place, until=at, margin=0.0, cache_time=cache_time)
+    frames = open_from(
+        connection, options.place, until=options.at, margin=0.0, cache_time=options.cache_time
+    )
     buffer, now = frames.buffer, frames.span[1]
-    if at is not None:
-        now = frames.moment(at)
+    if options.at is not None:
+        now = frames.moment(options.at)
         if frames.kind == "recording":
             from tftool.frames.cut import up_to
 
@@ -89,7 +78,7 @@ def run(
     # A description at rest sends nothing.
     is_silent = form in WITHOUT_MARKS or frames.moving is not None
     marks = {} if is_silent else doctor_marks(buffer, snapshot)
-    _write(snapshot, frames.moving, form, output, marks, wide=wide)
+    _write(snapshot, frames.moving, form, options.output, marks, wide=options.wide)
     for sentence in rivalries(buffer, buffer.frames()):
         notice(sentence)
     return ExitStatus.DONE

@@ -1,11 +1,11 @@
 """`tftool view`: the frames in 3-D, in a browser."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from tftool.commands.shared.declaration import declare
+from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import (
     CacheTime,
     Force,
@@ -17,39 +17,8 @@ from tftool.commands.shared.options import (
     within,
 )
 
-if TYPE_CHECKING:
-    from tftool.commands.shared.connection import Connection
 
-
-@declare(looks_only=True, recordings=True, descriptions=True, urdf=True)
-def view(
-    connection: "Connection",
-    place: From = None,
-    port: Annotated[
-        int,
-        typer.Option(
-            metavar="PORT",
-            min=0,
-            max=65535,
-            help="Where to serve the page; the next free one if it is taken.",
-        ),
-    ] = 8765,
-    open_browser: Annotated[bool, option("Open the page in your browser.", "--open")] = False,
-    run_for: RunFor = None,
-    rate: Annotated[
-        float,
-        typer.Option(
-            "--rate", "-r", metavar="HZ", callback=within(0.1, 120), help="Pictures a second."
-        ),
-    ] = 30.0,
-    cache_time: CacheTime = None,
-    meshes: Meshes = None,
-    output: Annotated[
-        Path | None,
-        output_file("Write the page with all of its data into one .html file, and serve nothing."),
-    ] = None,
-    force: Force = False,
-) -> None:
+class ViewOptions(Command, looks_only=True, recordings=True, descriptions=True, urdf=True):
     """Show the frames in 3-D, in a browser (rviz2 with its TF display).
 
     The page is served on this machine only, and loads nothing from others. It shows axes, names and
@@ -64,3 +33,29 @@ def view(
     tftool view arm.urdf --meshes ~/ws/src --open
     tftool view run.mcap -o run.html
     """
+
+    place: From = None
+    port: Annotated[
+        int,
+        typer.Option(
+            metavar="PORT",
+            min=0,
+            max=65535,
+            help="Where to serve the page; the next free one if it is taken.",
+        ),
+    ] = 8765
+    open_browser: Annotated[bool, option("Open the page in your browser.", "--open")] = False
+    run_for: RunFor = None
+    rate: Annotated[
+        float,
+        typer.Option(
+            "--rate", "-r", metavar="HZ", callback=within(0.1, 120), help="Pictures a second."
+        ),
+    ] = 30.0
+    cache_time: CacheTime = None
+    meshes: Meshes = None
+    output: Annotated[
+        Path | None,
+        output_file("Write the page with all of its data into one .html file, and serve nothing."),
+    ] = None
+    force: Force = False

@@ -24,6 +24,7 @@ from tftool.commands.shared.notices import notice, tell_news
 from tftool.commands.shared.on_screen import at_rest, driver_of, simulator_of
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.reading_bar import Bar
+from tftool.commands.view import ViewOptions
 from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.frame_files import load_described
 from tftool.frames.frames import Frames
@@ -262,48 +263,49 @@ async def _opened(url: str) -> bool:
     return await asyncio.get_running_loop().run_in_executor(None, webbrowser.open, url)
 
 
-def run(
-    connection: Connection,
-    place: str | None,
-    port: int,
-    open_browser: bool,
-    run_for: int | None,
-    rate: float,
-    cache_time: int | None,
-    meshes: list[Path] | None,
-    output: Path | None,
-    force: bool,
-) -> ExitStatus:
-    """Run `tftool view`; the parameters are its options."""
-    if output is not None:
-        if cache_time is not None:
+def run(connection: Connection, options: ViewOptions) -> ExitStatus:
+    """Run `tftool view`."""
+    if options.output is not None:
+        if options.cache_time is not None:
             raise UsageError("A file contains all transforms: leave out --cache-time.")
-        return _write(connection, place, output, run_for, meshes or [], force, open_browser)
-    if force:
+        return _write(
+            connection,
+            options.place,
+            options.output,
+            options.run_for,
+            options.meshes or [],
+            options.force,
+            options.open_browser,
+        )
+    if options.force:
         raise UsageError("--force goes with -o FILE.")
     # Here, as a file needs no server, and websockets takes a moment to import.
     from tftool.screens.browser.server import PageServer
 
-    found = None if place is None else named(place)
-    serve = partial(PageServer, port=port, rate=rate, tell=notice, secret=page_secret())
+    found = None if options.place is None else named(options.place)
+    serve = partial(
+        PageServer, port=options.port, rate=options.rate, tell=notice, secret=page_secret()
+    )
     if found is not None and (found.kind.is_recording or found.kind is Kind.STATICS):
-        frames = open_from(connection, place, cache_time=cache_time)
-        _show_frames(connection, frames, serve, run_for, meshes or [], open_browser)
+        frames = open_from(connection, options.place, cache_time=options.cache_time)
+        _show_frames(
+            connection, frames, serve, options.run_for, options.meshes or [], options.open_browser
+        )
         return ExitStatus.DONE
     shown = None
     if found is not None and found.kind is Kind.DESCRIPTION:
-        session, shown = _alive(connection, found, meshes or [])
+        session, shown = _alive(connection, found, options.meshes or [])
     else:
-        session = open_session(connection, place, cache_time=cache_time)
+        session = open_session(connection, options.place, cache_time=options.cache_time)
     page = serve(session.world, name=session.name)
     page.show_live(LiveDisplays(session.world))
     if shown is not None:
         page.show_robot(shown)
         _tell_missing(shown)
     else:
-        _listen(session, page, meshes or [])
+        _listen(session, page, options.meshes or [])
         _let_drive(session, page)
-    session.run(_show(page, session.name, session.lasting(run_for), open_browser))
+    session.run(_show(page, session.name, session.lasting(options.run_for), options.open_browser))
     return ExitStatus.DONE
 
 
