@@ -13,7 +13,7 @@ pytest.importorskip("mcp", reason="mcp, of the extra 'test', is missing")
 from mcp import Client, StdioServerParameters, stdio_client
 
 import tftool as library
-from tftool.commands.mcp.command import MOST_CHARACTERS, fitted
+from tftool.commands.mcp import MOST_CHARACTERS, fitted
 
 START, LENGTH = 1_700_000_000.0, 12.0
 FAULTS = (

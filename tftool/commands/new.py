@@ -1,5 +1,6 @@
-"""`tftool new`: a workspace package to begin with, or a scenario."""
+"""`tftool new`: a new workspace package, or a new scenario."""
 
+import ast
 import json
 import keyword
 import os
@@ -9,14 +10,112 @@ import sys
 import tempfile
 from collections.abc import Collection, Sequence
 from pathlib import Path
+from typing import Annotated, Final
+
+import typer
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.commands.new import EXAMPLES, NewOptions
-from tftool.commands.new.blanks import with_blanks
 from tftool.commands.shared.contradictions import refuse
+from tftool.commands.shared.declaration import Command
+from tftool.commands.shared.options import Json, option
 from tftool.messages.classes import INTERFACES
 from tftool.scenario.builtin import shipped
+
+EXAMPLES = {
+    "static": ("static_frame",),
+    "broadcaster": ("turtle_broadcaster",),
+    "follower": ("turtle_broadcaster", "turtle_follower"),
+    "carrot": ("turtle_broadcaster", "turtle_follower", "fixed_carrot"),
+    "orbit": ("turtle_broadcaster", "turtle_follower", "moving_carrot"),
+    "time_travel": ("turtle_broadcaster", "time_traveller"),
+}
+"""The steps of the tutorial: the nodes that each has when it is finished."""
+
+
+class NewOptions(Command, shares=False):
+    """Make a package of nodes to begin with (ros2 pkg create).
+
+    It contains a finished step of the tutorial: ROS 2 nodes, a launch file, a test and a scenario
+    that tests them. The same files run here and under ROS 2; without it, 'pytest --ros-free' runs
+    the test.
+
+    tftool new my_frames
+    tftool new my_frames --example carrot --exercise
+    tftool new pkg_tf --node-name turtle_tf_broadcaster
+    tftool new my_world.yaml --scenario
+    """
+
+    name: Annotated[
+        str,
+        typer.Argument(
+            metavar="PACKAGE", help="What to make: a package's name, or a path that ends in it."
+        ),
+    ]
+    example: Annotated[
+        str,
+        option(f"Which step of the tutorial: {', '.join(EXAMPLES)}.", "--example", metavar="STEP"),
+    ] = "follower"
+    exercise: Annotated[
+        bool, option("Leave the key lines of the step's nodes to you: TODO.", "--exercise")
+    ] = False
+    node_name: Annotated[
+        str, option("Make a package with this empty node instead.", metavar="NAME")
+    ] = ""
+    scenario: Annotated[
+        bool, option("Make a scenario of that name, and nothing else.", "--scenario")
+    ] = False
+    as_json: Json = False
+
+
+LINES: Final = {
+    "static_frame": {
+        "t.header.frame_id": "TODO: t.header.frame_id, the frame in which the shelf is measured",
+        "t.child_frame_id": "TODO: t.child_frame_id, the frame that is new",
+        "t.transform.translation.z": "TODO: how high the shelf is, in metres",
+    },
+    "turtle_broadcaster": {
+        "t.header.frame_id": "TODO: t.header.frame_id, the frame in which the pose is given",
+        "t.child_frame_id": "TODO: t.child_frame_id, the frame that moves",
+        "t.transform.rotation.z": "TODO: t.transform.rotation.z, from pose.theta",
+        "t.transform.rotation.w": "TODO: t.transform.rotation.w, from pose.theta",
+    },
+    "turtle_follower": {
+        "found": 'raise TransformException("TODO: look the transform up, as `found`")',
+        "command.linear.x": "TODO: command.linear.x, half of how far the goal is",
+        "command.angular.z": "TODO: command.angular.z, the direction of the goal",
+    },
+    "fixed_carrot": {
+        "t.header.frame_id": "TODO: t.header.frame_id, the frame that carries the carrot",
+        "t.child_frame_id": "TODO: t.child_frame_id, the frame that is new",
+        "t.transform.translation.y": "TODO: two metres to the left",
+    },
+    "moving_carrot": {
+        "t.header.frame_id": "TODO: t.header.frame_id, the frame that carries the carrot",
+        "t.transform.translation.x": "TODO: t.transform.translation.x, on a circle of two metres",
+        "t.transform.translation.y": "TODO: t.transform.translation.y, likewise",
+    },
+    "time_traveller": {
+        "found": 'raise TransformException("TODO: look up turtle1 as it was, as `found`")',
+    },
+}
+"""Replacement of each assignment: a comment, or a line that runs where one must."""
+
+
+def with_blanks(node: str, text: str) -> str:
+    """Return a node's source with a TODO in place of each key line."""
+    wanted = LINES[node]
+    lines = text.splitlines(keepends=True)
+    found = [one for one in ast.walk(ast.parse(text)) if isinstance(one, ast.Assign)]
+    # From the end, so that the numbers of the lines before stay right.
+    for one in sorted(found, key=lambda one: one.lineno, reverse=True):
+        blank = wanted.get(ast.unparse(one.targets[0]))
+        if blank is not None:
+            mark = "# " if blank.startswith("TODO") else ""
+            line = f"{' ' * one.col_offset}{mark}{blank}\n"
+            lines[one.lineno - 1 : one.end_lineno] = [line]
+    return "".join(lines)
+
 
 TEMPLATE = "learning_tf"
 """The finished package that each new one is cut from: its name stands where a package's does."""

@@ -1,4 +1,4 @@
-"""Server of the Model Context Protocol; each tool runs a command in a new process."""
+"""`tftool mcp`: answers agents' questions about the recordings of a folder."""
 
 import json
 import os
@@ -8,14 +8,32 @@ import tempfile
 from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
-from typing import Any, Final
+from typing import Annotated, Any, Final
+
+import typer
 
 from tftool.base.errors import InputError, TftoolError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.commands.mcp import McpOptions
+from tftool.commands.shared.declaration import Command
 from tftool.opener import named
 from tftool.recordings.find import Kind
-from tftool.scenario.doctor_expectations import ENDING
+
+
+class McpOptions(Command, shares=False):
+    """Answer questions of an agent about recordings (MCP).
+
+    Communicates over stdin and stdout. Tools: info, tree, echo, explain, doctor, plot, each for a
+    file below ROOT. Nothing is written, no session is joined, no scenario is played, no xacro is
+    expanded, and no link out of ROOT is followed. Answers are the JSON of the command, cut to 4,000
+    characters.
+
+    tftool mcp ~/bags
+    """
+
+    root: Annotated[
+        Path, typer.Argument(metavar="ROOT", help="Folder below which files may be asked about.")
+    ]
+
 
 MOST_CHARACTERS: Final = 4000
 """Characters of an answer: an agent reads all of it, and pays for it."""
@@ -278,6 +296,8 @@ def _read_with(path: Path) -> list[Path]:
         InputError: If a folder has too many entries to look at.
     """
     if not path.is_dir():
+        from tftool.scenario.doctor_expectations import ENDING
+
         return [path.with_name(f"{name}{ENDING}") for name in (path.name, path.stem)]
     found = list(islice(_below(path), MOST_ENTRIES + 1))
     if len(found) > MOST_ENTRIES:
