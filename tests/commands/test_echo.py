@@ -11,7 +11,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.commands.echo.echo_loop import LivePrinter
 from tftool.commands.shared.hosting import HOME
 from tftool.commands.shared.pairs import FramePair
-from tftool.commands.shared.redraw import Redrawing
+from tftool.commands.shared.terminal import Redrawing
 from tftool.geometry.rigid import Transform
 from tftool.world.clock import SimClock
 

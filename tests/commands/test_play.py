@@ -9,7 +9,7 @@ pytest.importorskip("mcap", reason="writes the test files")
 
 from tests.recordings.writers import content, write_mcap
 from tests.terminals import Terminal
-from tftool.commands.shared.keypresses import keys_in
+from tftool.commands.shared.terminal import keys_in
 
 
 @pytest.fixture

@@ -63,7 +63,7 @@ def test_reading_that_takes_long_shows_a_bar_and_ends_at_ctrl_c(tmp_path, file):
 
 
 def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
-    from tftool.commands.shared.reading_bar import Bar
+    from tftool.commands.shared.progress_bars import Bar
 
     class Screen(io.StringIO):
         def isatty(self):
@@ -71,7 +71,7 @@ def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
 
     screen = Screen()
     monkeypatch.setattr("sys.stderr", screen)
-    monkeypatch.setattr("tftool.commands.shared.reading_bar.PATIENCE", 0)
+    monkeypatch.setattr("tftool.commands.shared.progress_bars.PATIENCE", 0)
     bar = Bar("Reading run.mcap")
     while not screen.getvalue():
         bar(25_000_000, 100_000_000)
@@ -84,7 +84,7 @@ def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
 def test_a_session_is_listened_to_with_a_bar_above_what_shows_so_far(monkeypatch):
     from rich.text import Text
 
-    from tftool.commands.shared.listening_bar import ListeningBar
+    from tftool.commands.shared.progress_bars import ListeningBar
 
     class Screen(io.StringIO):
         def isatty(self):

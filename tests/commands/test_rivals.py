@@ -5,10 +5,10 @@ import pytest
 from tftool.base.stamps import seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
+from tftool.commands.echo.command import Printer
 from tftool.commands.echo.echo_loop import Echo
-from tftool.commands.echo.echo_printer import Printer
+from tftool.commands.shared.notices import rivalries
 from tftool.commands.shared.pairs import FramePair
-from tftool.commands.shared.rival_publishers import rivalries
 from tftool.geometry.rigid import Transform
 from tftool.world.clock import SimClock
 from tftool.world.link.session_world import Session, twins

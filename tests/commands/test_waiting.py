@@ -7,8 +7,8 @@ import pytest
 from tftool.base.errors import BackwardExtrapolationException, LookupException, TransformException
 from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
+from tftool.commands.echo.command import Printer
 from tftool.commands.echo.echo_loop import Echo, LivePrinter
-from tftool.commands.echo.echo_printer import Printer
 from tftool.commands.shared.pairs import FramePair
 from tftool.geometry.rigid import Transform
 from tftool.world.clock import SimClock

@@ -16,9 +16,9 @@ import typer
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.commands.shared.contradictions import refuse
+from tftool.base.short_numbers import count
 from tftool.commands.shared.declaration import Command
-from tftool.commands.shared.options import Json, option
+from tftool.commands.shared.options import Json, option, refuse
 from tftool.messages.classes import INTERFACES
 from tftool.scenario.builtin import shipped
 

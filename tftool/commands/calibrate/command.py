@@ -17,10 +17,10 @@ from tftool.buffer.buffer import Buffer
 from tftool.commands.calibrate import CalibrateOptions
 from tftool.commands.calibrate.calibration_report import page
 from tftool.commands.calibrate.mount_files import MOUNT_FILES, joint_to_change, write_mount
-from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.options import refuse
 from tftool.commands.shared.printer import line_width, write_file
-from tftool.commands.shared.reading_bar import Bar
+from tftool.commands.shared.progress_bars import Bar
 from tftool.drawing import calibration_view as view
 from tftool.frames.calibration.calibrate import Calibration, calibrate
 from tftool.frames.calibration.clock_offset import clock_offset, path_of

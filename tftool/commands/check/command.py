@@ -169,7 +169,7 @@ def _recorded(
             f"'{visible(str(kept.parent))}' cannot be written to: {reason}."
         ) from error
     # What records brings every container's writer.
-    from tftool.commands.shared.record_loop import recorded
+    from tftool.world.nodes.recorder import recorded
 
     # Beside its name until it is judged: one of an earlier run stays where nothing fails.
     played = kept.with_name(f".{kept.name}")
@@ -218,7 +218,7 @@ def run(options: CheckOptions) -> ExitStatus:
         ]
     if options.packages:
         # They need all of `ros`.
-        from tftool.commands.check.packages import judge_packages
+        from tftool.commands.check.programs import judge_packages
 
         judged += [(report, True) for report in judge_packages(options.packages)]
     if options.strict:

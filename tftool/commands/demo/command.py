@@ -31,7 +31,6 @@ from tftool.commands.shared.on_screen import (
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse_long_simulation
 from tftool.commands.shared.printer import write
-from tftool.commands.shared.record_loop import recorded
 from tftool.drawing.solids import solids_of
 from tftool.opener import named, scenario_named
 from tftool.recordings.description_frames import prefix_of
@@ -45,6 +44,7 @@ from tftool.screens.terminal.scene import Scene
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.clock import Phase
 from tftool.world.link.session_world import Session, shared
+from tftool.world.nodes.recorder import recorded
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 from tftool.world.world import World
 

@@ -2,27 +2,27 @@
 
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from tftool.base.errors import InputError, UsageError
+from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.base.stamps import Duration, seconds
 from tftool.commands.doctor import DoctorOptions, FailOn
-from tftool.commands.doctor.baseline import Baseline
 from tftool.commands.fleet import fleet, fleet_tasks
 from tftool.commands.fleet.fleet import expanded
 from tftool.commands.fleet.workers import workers_of
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.contradictions import refuse
 from tftool.commands.shared.evidence_sources import evidence_from, rules_of
 from tftool.commands.shared.notices import complain
+from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import pairs_and_place
 from tftool.commands.shared.printer import line_width, write, write_file
 from tftool.doctor.evidence import Evidence, Scope, described_by
-from tftool.doctor.findings import Severity
+from tftool.doctor.findings import Severity, fingerprint
 from tftool.doctor.judge import CHECKS, Diagnosis, judge, refuse_unknown, unknown
 from tftool.doctor.localisation_steps import steps_of
 from tftool.doctor.measured_mounts import MeasuredMount, measured_mounts
@@ -34,6 +34,67 @@ from tftool.recordings.remote_files import fetched
 
 if TYPE_CHECKING:
     from rich.text import Text
+
+
+@dataclass(frozen=True, slots=True)
+class Baseline:
+    """Fingerprints of an earlier report, by the name of each source.
+
+    Attributes:
+        known: Known findings of each source.
+    """
+
+    known: Mapping[str, frozenset[str]]
+
+    @classmethod
+    def read(cls, path: Path) -> "Baseline":
+        """Read the output of `tftool doctor --json` for one source or several.
+
+        Raises:
+            InputError: If the file cannot be read, or is no such report.
+        """
+        try:
+            content = json.loads(path.read_text(encoding="utf-8"))
+        except OSError as error:
+            reason = error.strerror or error
+            raise InputError(f"'{visible(str(path))}' cannot be read: {reason}.") from error
+        except (ValueError, RecursionError) as error:
+            raise _no_report(path, "is no JSON") from error
+        reports = content if isinstance(content, list) else [content]
+        try:
+            return cls(
+                {
+                    str(report["source"]): frozenset(_identity(row) for row in report["findings"])
+                    for report in reports
+                }
+            )
+        except (KeyError, TypeError, AttributeError) as error:
+            raise _no_report(path, "is no report of the doctor") from error
+
+    def marked(self, source: str, diagnosis: Diagnosis) -> Diagnosis:
+        """Mark the findings in the baseline, by this source or, if it is missing there, by any
+        source.
+        """
+        known = self.known.get(source)
+        if known is None:
+            known = frozenset[str]().union(*self.known.values())
+        findings = (replace(f, known=f.fingerprint in known) for f in diagnosis.findings)
+        return replace(diagnosis, findings=tuple(findings))
+
+
+def _identity(row: Mapping[str, Any]) -> str:
+    """Return a finding's fingerprint; for older reports it is computed from the finding's names."""
+    given = row.get("fingerprint")
+    if isinstance(given, str):
+        return given
+    return fingerprint(row["id"], row["frames"], row["edges"], row["topics"])
+
+
+def _no_report(path: Path, what: str) -> InputError:
+    return InputError(
+        f"'{visible(str(path))}' {what}: make one with 'tftool doctor FROM --json > OLD.json'."
+    )
+
 
 Judged: TypeAlias = list[tuple[str, Diagnosis | str]]
 """Each source with its diagnosis, or why it cannot be read."""

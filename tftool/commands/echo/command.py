@@ -1,24 +1,71 @@
 """`tftool echo`: one answer from a file, repeated answers from a session."""
 
-from dataclasses import replace
+import json
+import sys
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tftool.base.errors import TransformException, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, seconds
+from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.buffer.buffer import Buffer
+from tftool.buffer.sample import TransformStamped
 from tftool.commands.echo import EchoOptions
-from tftool.commands.echo.echo_printer import Printer
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.contradictions import refuse
-from tftool.commands.shared.notices import name_frames, notice
+from tftool.commands.shared.notices import name_frames, notice, rivalries
 from tftool.commands.shared.open_from import open_from
-from tftool.commands.shared.options import within
+from tftool.commands.shared.options import refuse, within
 from tftool.commands.shared.pairs import IDENTITY, FramePair, refuse_file_as_frame
-from tftool.commands.shared.rival_publishers import rivalries
+from tftool.drawing import echo_view as view
 from tftool.drawing.echo_view import in_words
+from tftool.frames.frames import Frames
 from tftool.frames.moment import At
+from tftool.geometry.rigid import Transform
 from tftool.opener import named
 from tftool.recordings.find import Kind
+
+
+@dataclass(frozen=True, slots=True)
+class Printer:
+    """Printer of answers to stdout."""
+
+    precision: int = 3
+    with_distance: bool = False
+    for_programs: bool = False
+
+    def found(self, now: Stamp, found: TransformStamped) -> None:
+        """Print an answer."""
+        if self.for_programs:
+            self._line(view.as_object(found, with_distance=self.with_distance))
+        elif sys.stdout.isatty():
+            from tftool.commands.shared.printer import write
+
+            write(
+                view.painted(found, precision=self.precision, with_distance=self.with_distance),
+                end="",
+            )
+            sys.stdout.flush()
+        else:
+            self._write(
+                view.block(found, precision=self.precision, with_distance=self.with_distance)
+            )
+
+    def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
+        """Print an error."""
+        if self.for_programs:
+            self._line(view.failure_as_object(now, refusal))
+        else:
+            self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
+
+    def aged(self, now: Stamp) -> None:
+        """Do nothing: printed answers stay."""
+
+    def _line(self, what: object) -> None:
+        self._write(json.dumps(what, allow_nan=False) + "\n")
+
+    def _write(self, text: str) -> None:
+        sys.stdout.write(text)
+        sys.stdout.flush()
 
 
 def run(connection: Connection, options: EchoOptions) -> ExitStatus:
@@ -42,8 +89,6 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
         options.once or options.at is not None or options.offset is not None
     )
     if kind is not None and kind.is_recording and not is_one_moment:
-        from tftool.commands.echo.echo_span import print_span
-
         connection.refuse_to_share(place)
         notice(f"{in_words(*frames)}:")
         opened = open_from(connection, place, cache_time=options.cache_time)
@@ -148,3 +193,51 @@ def _check_names(*frames: str) -> None:
                 f"Frame \"{frame}\": in tf2 frame_ids cannot start with a '/'. "
                 f"Ask for {frame.lstrip('/') or 'its name without it'}."
             )
+
+
+def print_span(
+    frames: Frames,
+    pair: tuple[str, str],
+    printer: Printer,
+    *,
+    rate: float | None,
+    topic: str | None,
+    most: int | None,
+) -> None:
+    """Print a pair at many times; report on stderr at how many there is no answer.
+
+    Args:
+        frames: The recording.
+        pair: Target and source.
+        printer: How an answer is printed.
+        rate: Moments a second, from the first stamp on; once a second if None.
+        topic: Ask at the stamps of its messages instead.
+        most: How many to print; all if None.
+
+    Raises:
+        InputError: If it has no such topic.
+        UsageError: If there are more moments than can be asked for at once.
+        TransformException: If the pair cannot be looked up at any of them.
+    """
+    # Needs numpy, which an answer about one moment does without.
+    from tftool.frames.pair_samples import evenly
+
+    buffer = frames.buffer
+    name_frames(buffer.frames(), pair)
+    if topic is not None and frames.recording is not None:
+        stamps = frames.recording.headers(topic).stamps
+    else:
+        stamps = evenly(*frames.span, seconds(1.0 / (rate or 1.0)))
+    path = buffer.lookup_transforms(*pair, stamps, missing="nan")
+    rows = path.valid.nonzero()[0]
+    if len(stamps) and not len(rows):
+        # Says why, of the first.
+        buffer.lookup_transform(*pair, int(stamps[0]))
+    for row in rows[:most].tolist():
+        x, y, z = path.translations[row].tolist()
+        qx, qy, qz, qw = path.rotations[row].tolist()
+        pose = Transform((x, y, z), (qx, qy, qz, qw))
+        stamp = int(stamps[row])
+        printer.found(stamp, TransformStamped(stamp, *pair, pose))
+    if len(rows) < len(stamps):
+        notice(f"{len(stamps) - len(rows)} of {len(stamps)} lookups were refused.")

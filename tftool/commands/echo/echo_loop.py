@@ -10,14 +10,13 @@ from tftool.base.errors import TransformException
 from tftool.base.stamps import Duration, Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
-from tftool.commands.echo.echo_printer import Printer
+from tftool.commands.echo.command import Printer
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
-from tftool.commands.shared.notices import notice
+from tftool.commands.shared.notices import notice, rivalries
 from tftool.commands.shared.pair_wait import PairWait
 from tftool.commands.shared.pairs import IDENTITY, FramePair
-from tftool.commands.shared.redraw import Redrawing, can_redraw
-from tftool.commands.shared.rival_publishers import rivalries
+from tftool.commands.shared.terminal import Redrawing, can_redraw
 from tftool.drawing import echo_view as view
 from tftool.world.clock import Phase, pace_of
 from tftool.world.link.session_world import twins

@@ -11,9 +11,8 @@ from tftool.base.exit_status import ExitStatus
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.edit import EditOptions
-from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import notice
-from tftool.commands.shared.reading_bar import Bar
+from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.frames.moment import At
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform

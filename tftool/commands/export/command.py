@@ -7,15 +7,15 @@ from dataclasses import replace
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.short_numbers import count
 from tftool.base.stamps import LATEST
 from tftool.commands.export import ExportOptions
 from tftool.commands.shared.connection import Connection
-from tftool.commands.shared.contradictions import refuse
-from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import name_frames, notice
 from tftool.commands.shared.open_from import WHOLE, open_from
+from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import MomentOptions, pairs_and_place, refuse_several_choices
-from tftool.commands.shared.reading_bar import Bar
+from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.frames.export.export import (
     Exported,
     refuse_input,

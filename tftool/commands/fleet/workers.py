@@ -1,19 +1,67 @@
 """Executors for many recordings: this process, several processes, or a cluster."""
 
+import logging
 import os
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import (
     Executor,
     Future,
     ProcessPoolExecutor,
 )
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, contextmanager
 from multiprocessing import get_context
 from typing import Any, Protocol
 
-from tftool.base.errors import UsageError
+from tftool.base.errors import InputError, UsageError
+from tftool.base.escaping import visible
 from tftool.recordings.remote_files import is_url
+
+ANSWERS_WITHIN = "20s"
+"""How long a scheduler may take to answer."""
+
+
+@contextmanager
+def connected(address: str) -> Iterator[Executor]:
+    """Connect to the scheduler of a cluster.
+
+    If a worker ends, another one gets its work.
+
+    Args:
+        address: "tcp://HOST:8786".
+
+    Raises:
+        UsageError: If Dask is not installed, or this is not an address.
+        InputError: If no scheduler answers there.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise UsageError(
+            "--scheduler needs an extra: pip install 'tftool-tf2[fleet]'; --jobs does not."
+        ) from None
+    # Its log of workers that come and go is of no use to a user who waits for findings.
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    # Made apart from its constructor, so that it can be closed if that fails. Garbage collection
+    # would close it otherwise; within the construction of the next client, that waits for ever for
+    # the lock which this construction holds.
+    client: Any = object.__new__(distributed.Client)
+    try:
+        try:
+            client.__init__(address, timeout=ANSWERS_WITHIN, set_as_default=False)
+        except (OSError, TimeoutError) as error:
+            raise InputError(
+                f"No Dask scheduler answers at '{visible(address)}': start one with "
+                "'dask scheduler' and workers with 'dask worker'."
+            ) from error
+        except ValueError as error:
+            raise UsageError(
+                f"'{visible(address)}' is no address of a Dask scheduler: write tcp://HOST:8786."
+            ) from error
+        yield client.get_executor()
+    finally:
+        client.close()
+
 
 _ON_CLUSTER = 512
 """Recordings that wait at a cluster at once."""
@@ -105,8 +153,6 @@ class Cluster:
 
     def open(self) -> AbstractContextManager[Executor]:
         """Return an executor of the cluster."""
-        from tftool.commands.fleet.cluster import connected
-
         return connected(self.address)
 
     def place(self, source: str) -> str:

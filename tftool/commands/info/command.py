@@ -7,6 +7,7 @@ from pathlib import Path
 from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
+from tftool.base.short_numbers import count
 from tftool.commands.info import InfoOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import complain, notice

@@ -20,7 +20,7 @@ from tftool.buffer.traffic import NetDelay, Traffic
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.pair_wait import PairWait
 from tftool.commands.shared.pairs import FramePair
-from tftool.commands.shared.redraw import Redrawing
+from tftool.commands.shared.terminal import Redrawing
 from tftool.drawing import theme
 from tftool.drawing import traffic_view as view
 from tftool.drawing.echo_view import in_words

@@ -1,30 +1,32 @@
 """`tftool play`: a recording as a live session."""
 
 import asyncio
+import os
+import shutil
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, Stamp, as_seconds
+from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.commands.play import PlayOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import join_or_host
-from tftool.commands.shared.keypresses import keyboard
-from tftool.commands.shared.notices import notice
+from tftool.commands.shared.notices import is_news, notice, tell_record
 from tftool.commands.shared.open_from import open_from
-from tftool.commands.shared.playback import Display, press
+from tftool.commands.shared.terminal import keyboard
 from tftool.doctor.evidence import evidence_of_recording
 from tftool.doctor.findings import Severity
 from tftool.doctor.judge import judge
-from tftool.drawing.playback_line import PlaybackMark
+from tftool.drawing.playback_line import Playback, PlaybackMark, after, line, passed
 from tftool.frames.moment import At
 from tftool.opener import named
 from tftool.recordings.recording import Recording
 from tftool.recordings.timeline import Timeline
-from tftool.world.clock import Clock, FollowedClock
+from tftool.world.clock import Clock, FollowedClock, Phase
 from tftool.world.clock import run as run_loop
 from tftool.world.endpoints import PUBLISHER
 from tftool.world.link.feed import TopicFeed
@@ -33,6 +35,126 @@ from tftool.world.link.session_world import shared
 from tftool.world.nodes.player import Player
 from tftool.world.supervisor import beside, live
 from tftool.world.world import World
+
+if TYPE_CHECKING:
+    from tftool.world.log import LogRecord
+    from tftool.world.nodes.player import Player
+
+
+REDRAW: Final = seconds(0.1)
+FASTER: Final = 1.1
+"""What a press of an arrow makes of the rate; rosbag2's own figure."""
+
+NEAR, FAR = seconds(1), seconds(10)
+
+_ERASE = "\r\x1b[2K"
+
+
+def press(player: "Player", key: str, marks: Sequence[PlaybackMark] = ()) -> None:
+    """Handle a key: pause, next message, seek, rate, quit; ignore other keys.
+
+    Args:
+        player: The player.
+        key: The key.
+        marks: Findings that "n" goes to, one after the other.
+    """
+    if key == "space":
+        if player.is_paused:
+            player.resume()
+        else:
+            player.pause()
+    elif key in ("right", "s"):
+        player.step()
+    elif key in ("up", "down"):
+        player.set_rate(player.rate * (FASTER if key == "up" else 1.0 / FASTER))
+    elif key in _SEEKS:
+        player.seek(player.position + _SEEKS[key])
+    elif key == "n":
+        to = after(marks, player.position - player.start)
+        if to is not None:
+            player.seek(player.start + to)
+    elif key in ("0", "home"):
+        player.seek(player.start)
+    elif key in ("q", "Q"):
+        player.world.stop()
+
+
+_SEEKS: Final[dict[str, Duration]] = {
+    "[": -NEAR,
+    "]": NEAR,
+    "left": -NEAR,
+    "{": -FAR,
+    "}": FAR,
+}
+
+
+class Display:
+    """Line on stderr, if that is a terminal, with the position of the playback."""
+
+    def __init__(self, player: "Player", clock: Clock, marks: Sequence[PlaybackMark] = ()) -> None:
+        """Start without a line.
+
+        Args:
+            player: The player.
+            clock: When to draw.
+            marks: Findings of the doctor.
+        """
+        self._marks = marks
+        self._done: Duration = -1
+        self._player = player
+        self._clock = clock
+        self._is_shown = False
+        self.has_keys = False
+        self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+        encoding = (getattr(sys.stderr, "encoding", "") or "ascii").lower()
+        self._ascii_only = not encoding.startswith("utf")
+
+    def tell(self, record: "LogRecord") -> None:
+        """Print messages of the link and the player."""
+        if is_news(record):
+            self.clear()
+            notice(visible(record.text))
+        elif record.node == self._player.name:
+            self.clear()
+            tell_record(record)
+
+    def draw(self) -> None:
+        """Redraw the line."""
+        if not self._is_terminal:
+            return
+        player = self._player
+        now = Playback(
+            player.position - player.start,
+            player.end - player.start,
+            player.rate,
+            player.is_paused,
+            player.laps,
+            self._marks,
+        )
+        for mark in passed(self._marks, self._done, now.done):
+            self.clear()
+            notice(f"{as_seconds(mark.since):.2f} s: {visible(mark.message)}")
+        self._done = now.done
+        # The last column stays free: some terminals wrap there.
+        width = shutil.get_terminal_size().columns - 1
+        text = line(now, width, with_keys=self.has_keys, ascii_only=self._ascii_only)
+        sys.stderr.write(_ERASE + text)
+        sys.stderr.flush()
+        self._is_shown = True
+
+    def clear(self) -> None:
+        """Erase the line."""
+        if self._is_shown:
+            sys.stderr.write(_ERASE)
+            sys.stderr.flush()
+            self._is_shown = False
+
+    async def keep(self) -> None:
+        """Redraw the line for as long as this runs."""
+        while True:
+            self.draw()
+            await self._clock.sleep(REDRAW, Phase.WATCH)
+
 
 MOST_JUDGED = 1_000_000
 """Transforms of a recording that the doctor looks at before it plays: that takes about a second."""

@@ -6,11 +6,10 @@ from rich.text import Text
 
 from tftool.base.errors import InputError, TransformException, UsageError
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
-from tftool.commands.plot.plot_style import PlotStyle
+from tftool.commands.plot.command import PlotStyle
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
-from tftool.commands.shared.keypresses import keyboard
-from tftool.commands.shared.suspend import left_while_stopped
+from tftool.commands.shared.terminal import keyboard, left_while_stopped
 from tftool.frames.pair_samples import Moments, sample
 from tftool.world.clock import Phase
 from tftool.world.stopper import leave_screen

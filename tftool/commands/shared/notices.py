@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 from tftool.base.escaping import visible, visible_lines
 from tftool.base.near_names import near_names
+from tftool.base.short_numbers import count
 
 if TYPE_CHECKING:
+    from tftool.buffer.buffer import Buffer
     from tftool.world.log import LogRecord
 
 MOST_NAMED = 12
@@ -151,3 +153,28 @@ def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
     if asked in ("0", "1"):
         return asked == "1"
     return is_terminal and not environment.get("NO_COLOR") and environment.get("TERM") != "dumb"
+
+
+MOST_TOLD = 3
+"""Frames that are named; of more it is said how many there are."""
+
+
+def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:
+    """Return a sentence for each frame that several nodes publish alternately."""
+    told: list[str] = []
+    more = 0
+    for frame in frames:
+        senders = buffer.rivals(frame)
+        if not senders:
+            continue
+        if len(told) == MOST_TOLD:
+            more += 1
+            continue
+        names = " and ".join(f"'{visible(sender)}'" for sender in senders)
+        told.append(
+            f"{visible(frame)} is broadcast by {len(senders)} nodes in turns, {names}: it jumps "
+            "between what they say. One child frame should have one broadcaster."
+        )
+    if more:
+        told.append(f"So {'is' if more == 1 else 'are'} {count(more, 'frame')} more.")
+    return told

@@ -17,8 +17,7 @@ from tftool.opener import LISTEN_FOR, named, open_frames, refuse_options_of_file
 from tftool.recordings.find import Kind
 
 if TYPE_CHECKING:
-    from tftool.commands.shared.listening_bar import ListeningBar, Look
-    from tftool.commands.shared.reading_bar import Bar
+    from tftool.commands.shared.progress_bars import Bar, ListeningBar, Look
     from tftool.world.world import World
 
 NO_SESSION = "No session is running here"
@@ -140,7 +139,7 @@ def _listening_bar(listen_for: float, look: "Look | None") -> "Iterator[Listenin
         notice(f"Listening for {listen_for:g} s ...")
         yield None
         return
-    from tftool.commands.shared.listening_bar import ListeningBar
+    from tftool.commands.shared.progress_bars import ListeningBar
 
     with ListeningBar(listen_for, look) as bar:
         yield bar
@@ -152,7 +151,7 @@ def _bar(place: str) -> "Iterator[Bar | None]":
     if not sys.stderr.isatty():
         yield None
         return
-    from tftool.commands.shared.reading_bar import Bar
+    from tftool.commands.shared.progress_bars import Bar
 
     # The end of a path is what tells files apart, and all of it would not fit beside the bar.
     short = place.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]

@@ -184,6 +184,23 @@ def _date(text: str) -> At:
     return At(whole + int(digits), is_stamp=True)
 
 
+# Contradictions
+
+Rule = tuple[object, str]
+"""Condition of a contradiction between options, and its sentence."""
+
+
+def refuse(*rules: Rule) -> None:
+    """Refuse options by the first rule that applies.
+
+    Raises:
+        UsageError: If one does.
+    """
+    for holds, sentence in rules:
+        if holds:
+            raise UsageError(sentence)
+
+
 # Options
 
 WHEN = "When"

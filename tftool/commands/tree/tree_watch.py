@@ -1,5 +1,8 @@
 """`tftool tree --watch`: a live tree."""
 
+import os
+import sys
+
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
@@ -10,14 +13,36 @@ from tftool.base.stamps import Duration, seconds
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.notices import is_news
-from tftool.commands.shared.on_screen import screen_lacks
-from tftool.commands.tree.tree_keys import watch_with_keys
-from tftool.commands.tree.tree_text import fitting
+from tftool.commands.shared.on_screen import screen_lacks, take_solids
+from tftool.commands.tree.command import fitting
 from tftool.doctor.frame_marks import marks
-from tftool.world.clock import Phase, pace_of
+from tftool.drawing.solids import Solids
+from tftool.screens.terminal.screen_options import Setting, setting_from
+from tftool.screens.terminal.tree_app import TreeWatch
+from tftool.screens.terminal.world_app import show
+from tftool.world.clock import Phase, pace_of, run
+from tftool.world.link.session_world import Session
 from tftool.world.log import LogRecord
 from tftool.world.stopper import leave_screen
 from tftool.world.world import World
+
+
+def watch_with_keys(session: Session, duration: Duration | None) -> None:
+    """Show the tree until q is pressed or the time is up."""
+    world = session.world
+    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting(title="tftool tree"))
+    app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
+
+    def tell(record: LogRecord) -> None:
+        if is_news(record):
+            app.tell(record.text)
+
+    def take(solids: Solids) -> None:
+        app.solids = solids
+
+    take_solids(world, "tree", take, app.tell)
+    world.log.listen(tell, "screen")
+    run(world.clock, show(app, session.along(session.lasting(duration))))
 
 
 def show_changes(

@@ -19,11 +19,10 @@ from tftool.base.short_numbers import short_size
 from tftool.base.stamps import Duration
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
-from tftool.commands.shared.interrupts import interruptible
 from tftool.commands.shared.notices import notice, tell_news
 from tftool.commands.shared.on_screen import at_rest, driver_of, simulator_of
 from tftool.commands.shared.open_from import WHOLE, open_from
-from tftool.commands.shared.reading_bar import Bar
+from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.commands.view import ViewOptions
 from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.frame_files import load_described

@@ -1,7 +1,9 @@
 """A recorder of a world's topics."""
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from functools import partial
+from pathlib import Path
 from typing import Any, Final, Protocol
 
 from tftool.base.errors import InputError, MalformedMessage
@@ -10,6 +12,8 @@ from tftool.messages.classes import Message
 from tftool.messages.codec import Codec, codec
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel
+from tftool.recordings.compression import best_compression
+from tftool.recordings.rolling_writer import RollingRecording
 from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 from tftool.world.clock import Clock, pace_of
 from tftool.world.endpoints import PUBLISHER
@@ -219,3 +223,21 @@ class Recorder:
                 metadata,
             )
         return found
+
+
+@contextmanager
+def recorded(world: World, path: Path, *, force: bool = False) -> Iterator[RollingRecording]:
+    """Record all topics of this process's world while the block runs.
+
+    Raises:
+        UsageError: If something has that name and `force` is not given.
+        InputError: If it cannot be written.
+    """
+    rolling = RollingRecording(path, compression=best_compression(), force=force)
+    recorder = Recorder(world, rolling, everything=True)
+    try:
+        yield rolling
+        recorder.refresh()
+    finally:
+        recorder.close()
+        rolling.close()

@@ -1,0 +1,225 @@
+"""Progress on stderr while a file is read or written, or a session listened to; and Ctrl-C."""
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from types import FrameType
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.markup import escape
+from rich.progress import (
+    BarColumn,
+    DownloadColumn,
+    Progress,
+    TaskID,
+    TextColumn,
+    TimeRemainingColumn,
+    TransferSpeedColumn,
+)
+from rich.text import Text
+
+from tftool.base.short_numbers import count
+from tftool.base.stamps import Duration, as_seconds, seconds
+from tftool.world.clock import WallClock
+
+if TYPE_CHECKING:
+    from tftool.frames.frames import Frames
+
+
+PATIENCE = seconds(0.5)
+"""How long reading goes on before a bar shows."""
+
+_REDRAWN = seconds(0.1)
+
+
+class Bar:
+    """Progress bar on stderr, if that is a terminal, shown after half a second."""
+
+    def __init__(self, what: str) -> None:
+        """Start without a bar.
+
+        Args:
+            what: Text in front of the bar, fit for a terminal.
+        """
+        self._what = what
+        self._clock = WallClock()
+        self._since = self._drawn = self._clock.now()
+        self._progress: Progress | None = None
+        self._task: TaskID | None = None
+        self._handlers: dict[int, Any] = {}
+
+    def __call__(self, done: int, total: int) -> None:
+        """Show the progress: bytes, rate, time left."""
+        now = self._clock.now()
+        if now - self._since < PATIENCE or now - self._drawn < _REDRAWN or not sys.stderr.isatty():
+            return
+        self._drawn = now
+        if self._progress is None:
+            self._begin(done, total)
+        assert self._progress is not None
+        assert self._task is not None
+        self._progress.update(self._task, completed=done, total=total)
+        self._progress.refresh()
+
+    def _begin(self, done: int, total: int) -> None:
+        self._progress = Progress(
+            TextColumn(escape(self._what)),
+            BarColumn(),
+            DownloadColumn(),
+            TransferSpeedColumn(),
+            TimeRemainingColumn(),
+            console=Console(stderr=True),
+            transient=True,
+            auto_refresh=False,
+            # Nothing else is printed meanwhile.
+            redirect_stdout=False,
+            redirect_stderr=False,
+        )
+        # Drawn as it starts, and shown until the next round: with how far it is by now.
+        self._task = self._progress.add_task("", completed=done, total=total)
+        self._progress.start()
+        # A signal ends the process at once: what it leaves behind must be as it was.
+        self._progress.console.show_cursor(True)
+        self._erase_when_killed()
+
+    def _erase_when_killed(self) -> None:
+        """Erase the bar before a signal ends the process."""
+        if threading.current_thread() is not threading.main_thread():
+            return
+        for number in (signal.SIGINT, signal.SIGTERM):
+            before = signal.getsignal(number)
+            if not callable(before):
+                continue
+
+            def leave(
+                number: int,
+                frame: FrameType | None,
+                before: Callable[[int, FrameType | None], object] = before,
+            ) -> None:
+                # Past Python's own buffer, which the signal may have met in the middle of a write.
+                with suppress(OSError):
+                    os.write(2, b"\r\x1b[2K")
+                before(number, frame)
+
+            signal.signal(number, leave)
+            self._handlers[number] = before
+
+    def stop(self) -> None:
+        """Erase the bar."""
+        while self._handlers:
+            signal.signal(*self._handlers.popitem())
+        if self._progress is not None:
+            self._progress.stop()
+            self._progress = None
+
+
+Look: TypeAlias = "Callable[[Frames], Sequence[Text]]"
+
+_SHARE = 4
+"""How many times as long as a look took the next one is put off."""
+
+
+class ListeningBar:
+    """Progress bar of a session, with lines below it; erased at the end.
+
+    It is called in another thread than the one that waits for its end.
+    """
+
+    def __init__(self, lasting: float, look: "Look | None") -> None:
+        """Start without a bar.
+
+        Args:
+            lasting: How long the session is listened to, seconds.
+            look: Returns lines about the findings so far.
+        """
+        self._lasting = lasting
+        self._look = look
+        self._lines: Sequence[Text] = ()
+        self._clock = WallClock()
+        self._next = self._clock.now()
+        self._console = Console(stderr=True)
+        self._progress = Progress(
+            TextColumn("Listening"),
+            BarColumn(),
+            TextColumn("{task.completed:.1f} of {task.total:g} s"),
+            TextColumn("{task.description}"),
+            console=self._console,
+            auto_refresh=False,
+        )
+        self._task = self._progress.add_task("", total=lasting)
+        self._live = Live(
+            console=self._console,
+            transient=True,
+            auto_refresh=False,
+            redirect_stdout=False,
+            redirect_stderr=False,
+        )
+        self._lock = threading.Lock()
+        self._is_over = False
+
+    def __enter__(self) -> Self:
+        self._live.start()
+        # A signal may end the process at once: the cursor must be there then.
+        self._console.show_cursor(True)
+        self._draw()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        # A look may be under way in its thread.
+        with self._lock:
+            self._is_over = True
+            self._live.stop()
+
+    def __call__(self, frames: "Frames", since: Duration) -> None:
+        """Show how far it is, and look at what was heard."""
+        transforms = 0 if frames.log is None else len(frames.log)
+        self._progress.update(
+            self._task,
+            completed=min(as_seconds(since), self._lasting),
+            description=count(transforms, "transform"),
+        )
+        began = self._clock.now()
+        if self._look is not None and transforms and began >= self._next:
+            self._lines = self._look(frames)
+            now = self._clock.now()
+            self._next = now + _SHARE * (now - began)
+        self._draw()
+
+    def _draw(self) -> None:
+        # Lines that do not fit would scroll, and could not be erased.
+        room = max(self._console.height - 3, 0)
+        shown = [*self._lines[:room]]
+        if len(self._lines) > room:
+            shown[-1:] = [Text(f"… and {len(self._lines) - room + 1} more", "dim")]
+        for line in shown:
+            line.no_wrap, line.overflow = True, "ellipsis"
+        with self._lock:
+            if not self._is_over:
+                self._live.update(Group(self._progress, *shown), refresh=True)
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Let SIGINT and SIGTERM raise `KeyboardInterrupt` within this block.
+
+    Only outside of an event loop, which has handlers of its own.
+    """
+    if sys.platform == "win32" or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def interrupt(_number: int, _frame: FrameType | None) -> None:
+        raise KeyboardInterrupt
+
+    numbers = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(number, interrupt) for number in numbers]
+    try:
+        yield
+    finally:
+        for number, handler in zip(numbers, before, strict=True):
+            signal.signal(number, handler)

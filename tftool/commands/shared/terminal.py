@@ -1,0 +1,216 @@
+"""Ctrl-Z: the shell gets the terminal as it was, and `fg` restores the drawing."""
+
+import asyncio
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import TYPE_CHECKING, Self
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+    from rich.live import Live
+
+    from tftool.world.clock import Clock
+
+
+_layers: list[tuple[Callable[[], object], Callable[[], object]]] = []
+"""What leaves the terminal and what takes it again, outermost first."""
+
+
+@contextmanager
+def left_while_stopped(leave: Callable[[], object], enter: Callable[[], object]) -> Iterator[None]:
+    """Restore the terminal while Ctrl-Z stops the process; may be nested.
+
+    Without effect outside the main thread, where there is no SIGTSTP, and where it is ignored.
+
+    Args:
+        leave: Gives the terminal back as it was.
+        enter: Takes it again.
+    """
+    number = getattr(signal, "SIGTSTP", None)
+    if number is None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.getsignal(number)
+    if before is signal.SIG_DFL:
+        signal.signal(number, _asked)
+    _layers.append((leave, enter))
+    try:
+        yield
+    finally:
+        _layers.remove((leave, enter))
+        if before is signal.SIG_DFL:
+            signal.signal(number, before)
+
+
+def _asked(number: int, frame: FrameType | None) -> None:
+    """Stop between two callbacks of the loop, so never within a write."""
+    try:
+        loop = asyncio.get_running_loop()
+    except RuntimeError:
+        _stop()
+    else:
+        loop.call_soon_threadsafe(_stop)
+
+
+def _stop() -> None:
+    layers = list(_layers)
+    for leave, _ in reversed(layers):
+        leave()
+    # Not SIGTSTP: a process whose group no shell looks after would go on at once.
+    os.kill(os.getpid(), signal.SIGSTOP)  # returns once the process goes on
+    for _, enter in layers:
+        enter()
+
+
+_NAMES = {
+    b"\x1b[A": "up",
+    b"\x1b[B": "down",
+    b"\x1b[C": "right",
+    b"\x1b[D": "left",
+    b"\x1bOA": "up",
+    b"\x1bOB": "down",
+    b"\x1bOC": "right",
+    b"\x1bOD": "left",
+    b"\x1b[H": "home",
+    b"\x1b[1~": "home",
+}
+_LONGEST = max(map(len, _NAMES))
+
+
+def keys_in(typed: bytes) -> list[str]:
+    """Return the names of the keys with these bytes; unknown bytes are ignored."""
+    found = []
+    while typed:
+        for length in range(min(_LONGEST, len(typed)), 1, -1):
+            name = _NAMES.get(typed[:length])
+            if name is not None:
+                found.append(name)
+                typed = typed[length:]
+                break
+        else:
+            char = typed[:1]
+            if char == b"\x1b":
+                break  # another key that sends several bytes
+            if char == b" ":
+                found.append("space")
+            elif 0x20 < char[0] < 0x7F:
+                found.append(char.decode("ascii"))
+            typed = typed[1:]
+    return found
+
+
+@contextmanager
+def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
+    """Call back for every key pressed in the terminal, in a running loop.
+
+    Yields:
+        Whether keys are taken: there has to be a terminal, and this in its foreground.
+    """
+    try:
+        import termios
+        import tty
+
+        number = sys.stdin.fileno()
+        before = termios.tcgetattr(number)
+        # In the background, to change the terminal would stop the process.
+        is_ours = os.tcgetpgrp(number) == os.getpgrp()
+    except (ImportError, OSError, ValueError, AttributeError, termios_error()):
+        is_ours = False
+    if not is_ours:
+        yield False
+        return
+
+    def typed() -> None:
+        try:
+            text = os.read(number, 1024)
+        except OSError:
+            text = b""
+        if not text:
+            asyncio.get_running_loop().remove_reader(number)
+        for key in keys_in(text):
+            pressed(key)
+
+    def take() -> None:
+        tty.setcbreak(number, termios.TCSANOW)
+
+    def give_back() -> None:
+        termios.tcsetattr(number, termios.TCSANOW, before)
+
+    loop = asyncio.get_running_loop()
+    take()
+    try:
+        loop.add_reader(number, typed)
+        with left_while_stopped(give_back, take):
+            yield True
+    finally:
+        loop.remove_reader(number)
+        give_back()
+
+
+def termios_error() -> type[BaseException]:
+    """Return the exception type of terminal settings; on systems without them, one never raised."""
+    try:
+        import termios
+    except ImportError:
+        return OSError
+    return termios.error
+
+
+def can_redraw() -> bool:
+    """Whether stdout is a terminal with a movable cursor."""
+    return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+
+
+class Redrawing:
+    """Drawer that replaces its last picture; lines on stderr go above it.
+
+    Nothing is drawn, and the cursor is not moved, until the first picture.
+    """
+
+    def __init__(self, clock: "Clock") -> None:
+        """Prepare to draw.
+
+        Args:
+            clock: When it is killed, the terminal gets its cursor back.
+        """
+        from rich.console import Console
+
+        from tftool.commands.shared.terminal import left_while_stopped
+        from tftool.world.stopper import leave_screen
+
+        self.console: Console = Console()
+        self._live: Live | None = None
+        self._undo = clock.when_killed.add(leave_screen, "screen")
+        self._stopping = left_while_stopped(self._leave, lambda: None)
+
+    def show(self, picture: "RenderableType") -> None:
+        """Draw in place of the last picture."""
+        from rich.live import Live
+
+        if self._live is None:
+            # stderr that goes to a file goes on to the file.
+            self._live = Live(
+                console=self.console, auto_refresh=False, redirect_stderr=sys.stderr.isatty()
+            )
+            self._live.start()
+        self._live.update(picture, refresh=True)
+
+    def __enter__(self) -> Self:
+        self._stopping.__enter__()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._stopping.__exit__(None, None, None)
+        self._leave()
+        self._undo()
+
+    def _leave(self) -> None:
+        """Leave the last picture; the next one goes below it."""
+        if self._live is not None:
+            self._live.stop()
+            self._live = None
