@@ -188,6 +188,7 @@ class FrameTree:
 
     def register(self, name: str) -> Frame:
         """Return the frame with that name; create the frame if the name is new."""
+        # A frame is never removed, so that its number stays valid, also in a cached path.
         number = self.numbers.get(name)
         if number is not None:
             return self.frames[number]
@@ -215,9 +216,11 @@ class FrameTree:
         if link is None or fresh:
             if static:
                 link = StaticLink()
+                # Else the next sample would be put into the history that has just been replaced.
                 self.senders.pop(child, None)
             else:
                 link = History(self.limit)
+                # No sample has this sender, so the first one is checked and noted in full.
                 self.senders[child] = ("", None, NO_PARENT, link)
             frame.link = link
         self.register(parent)
@@ -234,6 +237,7 @@ class FrameTree:
         number = self._authority_numbers.get(authority)
         if number is None:
             number = 0
+            # Beyond the limit samples stay, and only lose the name of their sender (number 0).
             if len(self.authorities) < MAX_AUTHORITIES:
                 number = self._authority_numbers[authority] = len(self.authorities)
                 self.authorities.append(authority)
@@ -257,15 +261,19 @@ class FrameTree:
         frames, up, down = self.frames, walk.up, walk.down
         refused = NO_PARENT
         frame = source
+        # Up from the source. `walk` in `_kernel.c` does the same where every link has data.
         while True:
             link = frames[frame].link
             if link is None:
                 break
             parent = link.parent
+            # The newest parent holds for the whole span, unless the link has changed it (`mixed`):
+            # then the path depends on the time, and must not be cached.
             if link.mixed or not (link.oldest_stamp <= time <= link.newest_stamp or time == 0):
                 parent = link.parent_at(time)
                 walk.timeless = walk.timeless and not link.mixed
             if parent < 0:
+                # No error yet: the target may hang from a frame that was passed below this one.
                 refused = frame
                 walk.timeless = False
                 break
@@ -280,6 +288,7 @@ class FrameTree:
         walk.top = top = frame
 
         frame = target
+        # Up from the target: here a link without data lies on the way to any common ancestor.
         while frame != top:
             link = frames[frame].link
             if link is None:
@@ -292,6 +301,7 @@ class FrameTree:
                 walk.end = walk.refused = frame
                 return walk.close(REFUSED)
             if frame == source:
+                # The source is the common ancestor: links passed above it do not count.
                 walk.above = up[:]
                 up.clear()
                 walk.end = frame
@@ -304,6 +314,7 @@ class FrameTree:
         walk.end = frame
         if frame == walk.top:
             return walk.close(ARRIVED)
+        # The sides did not meet, and above the source data was missing: that is the reason.
         if refused >= 0:
             walk.refused = refused
             return walk.close(REFUSED)
@@ -331,6 +342,7 @@ class FrameTree:
                 if parent not in reached:
                     reached[parent] = None
                     waiting.append(parent)
+        # Frames are counted, not the longest path: better walk again than cache a loop.
         if len(reached) + len(walk.up) + len(walk.down) > MAX_DEPTH:
             return False
         return not self._may_circle(reached)
@@ -381,6 +393,7 @@ class FrameTree:
                 return ARRIVED, _oldest(stamps)
             if len(stamps) > MAX_DEPTH:
                 return LOOP, 0
+            # Links below this frame: those above do not count if the target joins here.
             parents[frame] = len(stamps)
         # Then up from the target, until something the source hangs from.
         ours: list[Stamp] = []
@@ -400,4 +413,5 @@ class FrameTree:
 
 
 def _oldest(stamps: list[Stamp]) -> Stamp:
+    # 0 is the stamp of links that hold at all times, not the oldest moment.
     return min((stamp for stamp in stamps if stamp), default=0)

@@ -57,6 +57,7 @@ class TransformRows:
         stamp, numbers = sample(self.payload, self._walked.order, place)
         sequence = 0
         if self._layout is not CDR:
+            # ROS 1's header begins with it, right before the stamp.
             (sequence,) = _WORD.unpack_from(self.payload, place.stamp - 4)
         return TransformRow(stamp, place.parent, place.child, numbers, sequence)
 
@@ -68,6 +69,8 @@ class TransformRows:
         Raises:
             MalformedMessage: If a stamp does not fit into ROS's seconds.
         """
+        # Lengths of names decide all offsets: only with the same names, in the same order, can
+        # bytes be replaced in place.
         same = len(rows) == len(self.rows) and all(
             one[1:3] == other[1:3] for one, other in zip(rows, self.rows, strict=True)
         )
@@ -80,6 +83,7 @@ class TransformRows:
                 patched[place.stamp : place.stamp + 8] = _packed_stamp(
                     self._layout, row.stamp, order
                 )
+            # By identity: NaN differs from itself, and numbers nobody touched must keep every bit.
             if row.numbers is not old.numbers:
                 struct.pack_into(f"{order}7d", patched, place.numbers, *row.numbers)
         return bytes(patched)
@@ -98,6 +102,7 @@ def encode_rows(layout: Layout, rows: Sequence[TransformRow]) -> bytes:
             found += _WORD.pack(row.sequence)
         found += _packed_stamp(layout, row.stamp, "<")
         for name in (row.parent, row.child):
+            # A name from a command line may hold bytes that are no UTF-8.
             raw = name.encode("utf-8", "surrogateescape")
             raw = raw + b"\x00" if is_cdr else raw
             if is_cdr:

@@ -106,6 +106,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
                 raw = payload[position + 4 : end]
                 # ROS 2 counts the zero byte that ends a text.
                 raw = raw.removesuffix(b"\x00") if is_cdr else raw
+                # An odd name must not cost the message: its bytes become visible escapes.
                 names.append(raw.decode("utf-8", "backslashreplace"))
                 fixed.append((position, end))
                 position = end
@@ -215,6 +216,7 @@ class Template:
         Returns:
             The word under the mask; -1 if the covered bytes may differ.
         """
+        # `_words` is sorted: `flatnonzero` made it.
         place = int(np.searchsorted(self._words, word))
         if place == len(self._words) or self._words[place] != word:
             return -1
@@ -230,6 +232,7 @@ class Template:
         """Return a mask of the rows with the template's frames, shape (n,); None if all rows have
         them.
         """
+        # A copy: what follows works in place. Bits that are set after the mask tell a row apart.
         apart = rows.take(self._words, axis=1)
         apart ^= self._values
         apart &= self._masks
@@ -243,8 +246,10 @@ class Template:
         if not len(rows):
             return
         _items(records, 8, 56)[:] = _items(rows, place.numbers - self._begin, 56)
+        # Copied first: numpy takes only contiguous items as another type.
         times = _items(rows, place.stamp - self._begin, 8).copy().view(np.int32).reshape(-1, 2)
         stamps = times[:, 0].astype(np.int64)
         stamps *= NANOSECONDS
+        # Seconds are signed, nanoseconds are not.
         stamps += times[:, 1].view(np.uint32)
         records[:, 0] = stamps

@@ -197,6 +197,7 @@ class SimClock(Clock):
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
 
+        # A thread rings, since timers of this loop count simulated seconds.
         def ring() -> None:
             with contextlib.suppress(RuntimeError):  # the loop has been closed
                 loop.call_soon_threadsafe(_set, future)
@@ -246,6 +247,7 @@ class SimClock(Clock):
             loop_timer: Seconds until asyncio's own next timer, None without one.
         """
         due = self._next_due()
+        # Rounded up: of a timer that is a nanosecond early asyncio would ask again, for ever.
         timer = None if loop_timer is None else self._now + math.ceil(loop_timer * NANOSECONDS)
         if due is None and timer is None:
             return False

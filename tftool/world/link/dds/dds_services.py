@@ -101,6 +101,7 @@ class CycloneServer:
 
     def _asked(self, sample: DdsSample) -> None:
         sender = self._part.sender(sample)
+        # A writer that is not known yet is taken for Cyclone's: its announcement is on the way.
         if sender[:2] not in (names.CYCLONE, b""):
             self._on_stranger(names.vendor(sender))
             return
@@ -140,10 +141,12 @@ class CycloneClient:
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
         """Send a request and wait for the response."""
         vendors = {
+            # The first bytes of a GUID name the library.
             one.gid[:2]
             for one in self._part.graph.entities(SERVER, name=self._name)
             if one.ros_type == self._ros_type
         }
+        # Without a server there is no vendor either: then the request waits for one to come.
         if vendors and names.CYCLONE not in vendors:
             raise LinkError(REFUSED.format(vendor=names.vendor(next(iter(vendors)))))
         number = next(self._numbers)
@@ -156,6 +159,7 @@ class CycloneClient:
         except TimeoutError:
             raise LinkError(f"no server answered within {timeout:g} s, or it has left") from None
         finally:
+            # After a timeout or a cancellation, too: a late reply finds nothing.
             del self._waiting[number]
 
     async def _send(self, number: int, payload: bytes) -> None:
@@ -171,6 +175,7 @@ class CycloneClient:
     def _open(self) -> None:
         request, reply = self._part.kinds(self._ros_type)
         take_part = self._part.participant
+        # The reader first: a reply must not come before there is one to take it.
         reader = take_part.reader(f"{names.REPLY}{self._name}Reply", reply, QUALITY, self._answered)
         writer = take_part.writer(f"{names.REQUEST}{self._name}Request", request, QUALITY, b"")
         self._close = [reader.close, writer.close]
@@ -179,8 +184,10 @@ class CycloneClient:
 
     def _answered(self, sample: DdsSample) -> None:
         payload = sample.payload
+        # The second byte of CDR's header: servers may write either order.
         order = "<" if payload[1] & 1 else ">"
         guid, number = struct.unpack_from(f"{order}Qq", payload, _HEAD)
+        # All clients of a service get all replies, and their numbers begin at 1 alike.
         answer = self._waiting.get(number)
         if guid == self._guid and answer is not None and not answer.done():
             answer.set_result(payload[:_HEAD] + payload[_HEAD + _NUMBER :])

@@ -66,15 +66,18 @@ class LibraryLog:
         try:
             yield
         finally:
+            # The rest of the process keeps its own stderr: only the domain has taken the stream.
             stderr.value = before
 
     def _open(self, c: ctypes.CDLL) -> int:
         """Return the C stream to read; it stays open, as domains continue to write to it."""
         if self._stream is None:
+            # Never closed: the library may write at any time, also while the process ends.
             read, write = os.pipe()
             os.set_blocking(write, False)
             c.fdopen.restype = ctypes.c_void_p
             stream: int = c.fdopen(write, b"w")
+            # Without a buffer of C's, in which a complaint would wait for more of them.
             c.setbuf(ctypes.c_void_p(stream), None)
             self._stream = stream
             threading.Thread(target=self._read, args=(read,), name="dds-log", daemon=True).start()
@@ -84,11 +87,13 @@ class LibraryLog:
         with os.fdopen(read, encoding="utf-8", errors="replace") as lines:
             for line in lines:
                 text = _STAMP.sub("", line.strip())
+                # Addresses and counts differ each time: without them, a complaint is one of a kind.
                 kind = _NUMBER.sub("#", text)[:40]
                 said = self._repeats.said(kind, f"The DDS library: {shorten(text, _MOST)}")
                 if not said:
                     continue
                 with self._lock:
+                    # Called without the lock: a listener may end itself.
                     listeners = tuple(self._listeners)
                 for listener in listeners:
                     listener(said)

@@ -74,10 +74,12 @@ class DdsMiddleware(Middleware):
         """Wait until all existing participants are known."""
         discovery, clock = self._discovery, WallClock()
         begin = clock.now()
+        # Our own participant has ports on this machine, too, by which they are counted.
         ours = 1
         news = True
         while True:
             discovery.look()
+            # There is no loop yet, and lists of nodes come by the inbox.
             self._participant.inbox.call_now()
             waited = clock.now() - begin
             there = participants_here(self._options.domain) - ours
@@ -120,6 +122,7 @@ class DdsMiddleware(Middleware):
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Call back on `loop` from now on, and report changes of the graph."""
         self.watcher = watcher
+        # The watcher is there first: what waits in the inbox is reported to it.
         self._participant.inbox.start(loop)
         self._discovery.start(self._changed)
         if watcher is not None:
@@ -137,6 +140,7 @@ class DdsMiddleware(Middleware):
 
     def close(self) -> None:
         """Send buffered messages, and leave."""
+        # Before the participant: with it the library deletes what is in it, whoever holds it.
         for listening in [one for several in self._readers.values() for one in several]:
             listening.close()
         self._readers.clear()
@@ -174,6 +178,7 @@ class DdsMiddleware(Middleware):
     def _assign(self, listening: "_Listening") -> None:
         """Announce a reader as one of the node that declared the subscription."""
         listening.hide()
+        # ROS 2 lists a reader under one node: the first one that claims it.
         listening.hide = nothing
         if self._options.read_only or listening.reader is None:
             return
@@ -190,6 +195,7 @@ class DdsMiddleware(Middleware):
         kind = self._kind(ros_type)
         if self._options.read_only:
             raise LinkError("a read-only process publishes nothing")
+        # ROS 2 looks for the hash in the writer's user data, and warns where it differs.
         beside = f"typehash={type_hash(INTERFACES, ros_type)};".encode()
         writer = self._participant.writer(names.TOPIC + name, kind, quality, beside)
         hide = self._discovery.show_endpoint(node_name(node), PUBLISHER, writer.gid)
@@ -210,6 +216,7 @@ class DdsMiddleware(Middleware):
         except (LinkError, InputError) as error:
             self.say_once(f"type {ros_type}", f"'{name}' cannot be read over DDS: {error}.")
             return nothing
+        # Several of a kind are possible: latched subscriptions have a reader each.
         several = self._readers.setdefault((name, ros_type), [])
         several.append(listening)
         self._assign(listening)
@@ -225,6 +232,7 @@ class DdsMiddleware(Middleware):
         """Whether a reader requests reliability: for tf2 yes, others accept any offer."""
         if name in ("tf", "tf_static"):
             return True
+        # A reader that asks for more than is offered gets nothing at all.
         offered = self.graph.entities(PUBLISHER, name=name)
         return all(one.quality.is_reliable for one in offered if one.ros_type == ros_type)
 
@@ -272,6 +280,7 @@ class DdsMiddleware(Middleware):
         except (LinkError, InputError) as error:
             self.say_once(f"type {ros_type}", f"'{name}' cannot be served over DDS: {error}.")
             return nothing
+        # A service is a reader of requests and a writer of replies, both of its node.
         reads, writes = server.gids
         hide = [
             self._discovery.show_endpoint(node_name(node), SUBSCRIPTION, reads),
@@ -314,6 +323,7 @@ class DdsMiddleware(Middleware):
         """Report why an endpoint and ours do not connect, if so."""
         if not isinstance(found, GraphEntity) or found.kind != PUBLISHER:
             return
+        # tf2's listeners ask for a fixed quality; other readers lower theirs.
         asked = {"tf": TF, "tf_static": TF_STATIC}.get(found.name)
         policy = "" if asked is None else conflict(found.quality, asked)
         if policy:
@@ -381,6 +391,8 @@ class _Listening:
 
     def refused(self, policy: int) -> None:
         """Request less if a publisher offers less."""
+        # Less durability would lose earlier messages in silence, and tf2's topics keep their
+        # quality.
         if self._is_closed or self.name in ("tf", "tf_static") or policy != _RELIABILITY:
             return
         if self.reader is not None:
@@ -389,6 +401,7 @@ class _Listening:
 
     def _arrived(self, sample: DdsSample) -> None:
         if not self._is_closed:
+            # It may have waited in the inbox while the reader was closed.
             self._on_message(Arrived(sample.payload, self._middleware.sender(sample)))
 
 
@@ -411,6 +424,7 @@ class DdsPublisher:
     def close(self) -> None:
         """Close the publisher."""
         self._hide()
+        # Hidden first: nobody is told of a writer that is gone.
         self._writer.close()
 
 

@@ -249,6 +249,7 @@ class ZenohMiddleware(Middleware):
 
     def key_of_service(self, name: str, ros_type: str) -> str:
         """Return the key for requests: with the server's own hash if it is announced."""
+        # A server of another release has another hash, and zenoh compares keys letter by letter.
         servers = self.graph.entities(SERVER, name=name)
         known = next((one.type_hash for one in servers if one.ros_type == ros_type), "")
         return keys.data_key(self._options.domain, name, ros_type, known)
@@ -281,6 +282,7 @@ class ZenohMiddleware(Middleware):
         key, there = change
         if there:
             found = keys.parse_token(key)
+            # None is reported as well: it may have been the first word of another domain.
             new = None if found is None else self.graph.add(key, found)
             self.report(new, there)
         else:
@@ -352,6 +354,7 @@ class ZenohClient:
     async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
         """Send a request and wait for the response."""
         if not self._sequence:
+            # Only who asks is a client: every world knows all services, and would fill the graph.
             self._stack.callback(self._middleware.show(self._token))
         self._sequence += 1
         beside = Attachment(self._sequence, stamp, self._gid).encode()
