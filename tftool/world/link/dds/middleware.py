@@ -424,7 +424,7 @@ class DdsPublisher:
     def close(self) -> None:
         """Close the publisher."""
         self._hide()
-        # Hidden first: nobody is told of a writer that is gone.
+        # Hidden first: the announcement must not list a writer that is gone.
         self._writer.close()
 
 
