@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 from tftool.geometry import quantities as carry
 from tftool.geometry.rigid import Transform, Vector3, transform
 from tftool.messages.classes import INTERFACES, duplicate
-from tftool.ros.tf2.interface import ConvertRegistration, TransformRegistration
+from tftool.ros.tf2.buffer import ConvertRegistration, TransformRegistration
 
 Do = TypeVar("Do", bound=Callable[[Any, Any], Any])
 

@@ -18,8 +18,15 @@ from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
 from tftool.ros.rclpy.time import Duration
-from tftool.ros.tf2.buffer import Buffer, LookupRequest, full_question, length, question
-from tftool.ros.tf2.interface import NOW, BufferInterface
+from tftool.ros.tf2.buffer import (
+    NOW,
+    Buffer,
+    BufferInterface,
+    LookupRequest,
+    full_question,
+    length,
+    question,
+)
 
 _PADDING = Duration(seconds=2.0)
 
