@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import UsageError
 from tftool.base.near_names import did_you_mean
@@ -67,51 +67,48 @@ class Parameters:
         raise UsageError(f"node '{self._owner}' has no parameter '{name}'{hint}")
 
 
-class ParameterHolder(Protocol):
-    """Parameters as their services use them, in messages of rcl_interfaces."""
-
-    def values(self, names: Sequence[str]) -> list[Any]:
-        """Return a ParameterValue for each name, without a type for unknown names."""
-
-    def descriptors(self, names: Sequence[str]) -> list[Any]:
-        """Return a ParameterDescriptor for each known name."""
-
-    def listed(self, prefixes: Sequence[str], depth: int) -> Any:
-        """Return a ListParametersResult."""
-
-    def change(self, parameters: Sequence[Any]) -> Any:
-        """Set all of some Parameters, or none; return a SetParametersResult."""
-
-
 Answer = Callable[[Any, Any], Any]
 """Fills in and returns the response to a request: both are given."""
 
 
-def parameter_services(holder: ParameterHolder) -> Iterator[tuple[str, Any, Answer]]:
-    """Yield each parameter service's name below its node, its type, and its handler."""
+def parameter_services(
+    *,
+    values: Callable[[Sequence[str]], list[Any]],
+    descriptors: Callable[[Sequence[str]], list[Any]],
+    listed: Callable[[Sequence[str], int], Any],
+    change: Callable[[Sequence[Any]], Any],
+) -> Iterator[tuple[str, Any, Answer]]:
+    """Yield each parameter service's name below its node, its type, and its handler.
+
+    Args:
+        values: Returns a ParameterValue for each name.
+        descriptors: Returns a ParameterDescriptor for each known name.
+        listed: Returns the ListParametersResult of some prefixes and a depth.
+        change: Sets all of some Parameters, or none; returns a SetParametersResult.
+    """
 
     def get(request: Any, response: Any) -> Any:
-        response.values = holder.values(request.names)
+        response.values = values(request.names)
         return response
 
     def types(request: Any, response: Any) -> Any:
-        response.types = [value.type for value in holder.values(request.names)]
+        response.types = [value.type for value in values(request.names)]
         return response
 
     def set_each(request: Any, response: Any) -> Any:
-        response.results = [holder.change([one]) for one in request.parameters]
+        response.results = [change([one]) for one in request.parameters]
         return response
 
     def set_together(request: Any, response: Any) -> Any:
-        response.result = holder.change(request.parameters)
+        response.result = change(request.parameters)
         return response
 
     def list_(request: Any, response: Any) -> Any:
-        response.result = holder.listed(request.prefixes, request.depth)
+        response.result = listed(request.prefixes, request.depth)
         return response
 
     def describe(request: Any, response: Any) -> Any:
-        response.descriptors = holder.descriptors(request.names)
+        response.descriptors = descriptors(request.names)
         return response
 
     for name, kind, answer in (
@@ -125,49 +122,37 @@ def parameter_services(holder: ParameterHolder) -> Iterator[tuple[str, Any, Answ
         yield name, INTERFACES.find("rcl_interfaces", "srv", kind), answer
 
 
-class ParameterServices:
-    """Server of a node's parameters."""
+def serve_parameters(node: "Node") -> None:
+    """Serve a node's parameters until it ends."""
+    known = node.parameters.values()
 
-    def __init__(self, node: "Node") -> None:
-        """Serve until the node ends."""
-        self._node = node
-        for name, kind, answer in parameter_services(self):
-            self._serve(name, kind, answer)
+    def number(name: str) -> int:
+        return SCALARS.get(type(known.get(name)), 0)
 
-    def _serve(self, name: str, kind: Any, answer: Answer) -> None:
-        def handle(request: Any) -> Any:
-            return answer(request, kind.Response())
-
-        self._node.serve(f"{self._node.name}/{name}", handle, kind)
-
-    def _number(self, name: str) -> int:
-        return SCALARS.get(type(self._node.parameters.values().get(name)), 0)
-
-    def values(self, names: Sequence[str]) -> list[Any]:
-        """Return a ParameterValue for each name."""
-        known = self._node.parameters.values()
-        return [value_message(known.get(name), self._number(name)) for name in names]
-
-    def descriptors(self, names: Sequence[str]) -> list[Any]:
-        """Return a ParameterDescriptor for each known name."""
+    def descriptors(names: Sequence[str]) -> list[Any]:
         kind = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
-        known = self._node.parameters.values()
-        return [kind(name=name, type=self._number(name)) for name in names if name in known]
+        return [kind(name=name, type=number(name)) for name in names if name in known]
 
-    def listed(self, prefixes: Sequence[str], depth: int) -> Any:
-        """Return the names below some prefixes."""
-        return list_result(self._node.parameters.values(), prefixes, depth)
-
-    def change(self, parameters: Sequence[Any]) -> Any:
-        """Make all changes or none; return the result."""
+    def change(parameters: Sequence[Any]) -> Any:
         kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
-        before = dict(self._node.parameters.values())
+        before = dict(known)
         try:
             for one in parameters:
-                self._node.set_parameter(one.name, value_of(one.value))
+                node.set_parameter(one.name, value_of(one.value))
         except (UsageError, ValueError) as refusal:
             for name, value in before.items():
-                if self._node.parameters.values()[name] != value:
-                    self._node.set_parameter(name, value)
+                if known[name] != value:
+                    node.set_parameter(name, value)
             return kind(successful=False, reason=str(refusal))
         return kind(successful=True)
+
+    def serve(name: str, kind: Any, answer: Answer) -> None:
+        node.serve(f"{node.name}/{name}", lambda request: answer(request, kind.Response()), kind)
+
+    for below, kind, answer in parameter_services(
+        values=lambda names: [value_message(known.get(name), number(name)) for name in names],
+        descriptors=descriptors,
+        listed=lambda prefixes, depth: list_result(known, prefixes, depth),
+        change=change,
+    ):
+        serve(below, kind, answer)

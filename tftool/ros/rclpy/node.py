@@ -22,7 +22,7 @@ from tftool.ros.rclpy.entities import (
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger, logger_services
 from tftool.ros.rclpy.node_graph import NodeGraph
-from tftool.ros.rclpy.node_parameters import NodeParameters, ServedParameters, teller
+from tftool.ros.rclpy.node_parameters import NodeParameters, services_of, teller
 from tftool.ros.rclpy.qos import (
     QoSOverridingOptions,
     QoSProfile,
@@ -35,7 +35,6 @@ from tftool.ros.rclpy.services import Client, Service
 from tftool.ros.rclpy.time import Clock, Duration, Rate, ROSClock
 from tftool.ros.rclpy.topics import Publisher, RosoutPublisher, Subscription
 from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
-from tftool.world.node_parameters import parameter_services
 
 E = TypeVar("E", bound=NodeEntity)
 
@@ -88,7 +87,7 @@ class Node(NodeGraph, NodeParameters):
             seat = self._tftool
             seat.rosout = seat.keep(RosoutPublisher, seat, self._logger.name, rosout_qos_profile)
         if start_parameter_services:
-            self._serve_own(parameter_services(ServedParameters(self)))
+            self._serve_own(services_of(self))
         if enable_logger_service:
             self._serve_own(logger_services())
 

@@ -3,7 +3,7 @@
 import array
 import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from pathlib import Path
@@ -25,6 +25,7 @@ from tftool.ros.rclpy.qos import qos_profile_parameter_events
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.topics import Publisher
 from tftool.ros.rclpy.validation import validate_parameter_name
+from tftool.world.node_parameters import Answer, parameter_services
 
 
 class ParameterType(IntEnum):
@@ -643,37 +644,27 @@ def teller(seat: NodeSeat) -> Callable[..., None]:
     return tell
 
 
-# A request may name a type that is none, or a value that is not of its type.
-_REFUSALS = (ParameterNotDeclaredException, ValueError, TypeError)
+def services_of(node: NodeParameters) -> Iterator[tuple[str, Any, Answer]]:
+    """Return the services of a node's parameters."""
 
-
-class ServedParameters:
-    """A node's parameters in the form of `node_parameters`."""
-
-    def __init__(self, node: NodeParameters) -> None:
-        self._node = node
-
-    def values(self, names: Sequence[str]) -> list[Any]:
-        """Return a ParameterValue for each name; none at all if one has no value, as in ROS 2."""
+    def values(names: Sequence[str]) -> list[Any]:
+        # None at all if one has no value, as in ROS 2.
         try:
-            return [one.get_parameter_value() for one in self._node.get_parameters(list(names))]
+            return [one.get_parameter_value() for one in node.get_parameters(names)]
         except (ParameterNotDeclaredException, ParameterUninitializedException):
             return []
 
-    def descriptors(self, names: Sequence[str]) -> list[Any]:
-        """Return a ParameterDescriptor for each known name."""
-        node = self._node
-        return [node.describe_parameter(name) for name in names if node.has_parameter(name)]
-
-    def listed(self, prefixes: Sequence[str], depth: int) -> Any:
-        """Return the names below some prefixes."""
-        return self._node.list_parameters(prefixes, depth)
-
-    def change(self, parameters: Sequence[Any]) -> Any:
-        """Make all changes or none; return the result."""
+    def change(parameters: Sequence[Any]) -> Any:
+        # A request may name a type that is none, or a value that is not of its type.
         try:
-            return self._node.set_parameters_atomically(
-                [Parameter.from_parameter_msg(one) for one in parameters]
-            )
-        except _REFUSALS as error:
+            changes = [Parameter.from_parameter_msg(one) for one in parameters]
+            return node.set_parameters_atomically(changes)
+        except (ParameterNotDeclaredException, ValueError, TypeError) as error:
             return set_result(False, str(error))
+
+    return parameter_services(
+        values=values,
+        descriptors=lambda names: node.describe_parameters(filter(node.has_parameter, names)),
+        listed=node.list_parameters,
+        change=change,
+    )

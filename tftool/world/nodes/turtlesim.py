@@ -13,7 +13,7 @@ from tftool.messages.turtle_messages import ColorMessage, Empty, Kill, Spawn
 from tftool.world.clock import Phase
 from tftool.world.log import Level
 from tftool.world.node import Node
-from tftool.world.node_parameters import ParameterServices, Value
+from tftool.world.node_parameters import Value, serve_parameters
 from tftool.world.nodes.trail import DrawingService, Segment, Trail
 from tftool.world.nodes.turtle import Turtle, require_turtle_name, shown
 from tftool.world.nodes.turtle_ports import (
@@ -142,7 +142,7 @@ class Turtlesim(Node):
             ("reset", self._on_reset, Empty),
         ):
             self.serve(self._prefix + service, handler, kind, shares=True)
-        ParameterServices(self)
+        serve_parameters(self)
         DrawingService(self, self.trail)
         start = self.clock.now()
         self._turtles, self._counter = {}, 0
