@@ -104,6 +104,17 @@ def test_a_recording_is_scrubbed_played_and_measured_without_a_server(chromium, 
     assert page.complaints() == []
 
 
+def test_a_file_plays_by_itself_where_its_address_says_so(chromium, tmp_path):
+    path = file_of(tmp_path, drawn_world(4), end=3.1, begin=EPOCH)
+    page = opened(chromium, path, "play=1&speed=4")
+    page.until(lambda: page.said("tftool.moment()") > 0)
+    # It begins anew at its end.
+    page.until(lambda: page.said("tftool.moment()") > 2)
+    page.until(lambda: page.said("tftool.moment()") < 2)
+    page.find("#play").click()
+    page.until(lambda: page.find("#play").get_attribute("aria-label") == "Play")
+
+
 def test_wild_names_are_shown_as_they_are_and_do_nothing(chromium, tmp_path):
     buffer = Buffer()
     for name in WILD:

@@ -83,6 +83,11 @@ class Address:
         self.url = url
 
 
+def bottom(element):
+    """Where an element ends, in pixels from the top of the window."""
+    return element.rect["y"] + element.rect["height"]
+
+
 @contextlib.contextmanager
 def view(tmp_path, *words):
     """Run `tftool view` in a session of its own; give what a page is opened with."""
@@ -178,9 +183,57 @@ def test_a_recording_is_called_recorded_and_opens_at_its_start_with_its_whole_pa
         page.until(lambda: [path[-1:] for path in page.said("tftool.ahead()")] == [[[10, 0, 0]]])
         page.scrub(4)
         page.until(lambda: [path[0][0] > 3.9 for path in page.said("tftool.ahead()")] == [True])
+        assert page.until(lambda: page.text("#moment")) == "4.000 of 10.000 s"
         page.find("#more summary").click()
         page.find("#whole").click()
         page.until(lambda: page.said("tftool.ahead()") == [[]])
+
+
+def test_a_trail_shows_no_other_moments_after_settings_jumps_and_drags(chromium, tmp_path):
+    run = tmp_path / "run.tum"
+    # A metre a second along x: a place says of what moment it is.
+    run.write_text("".join(f"{100 + step} {step} 0 0 0 0 0 1\n" for step in range(301)))
+    places = "Math.min(...tftool.trailOf(arguments[0]).map(([x]) => x)) - tftool.moment()"
+    with view(tmp_path, run) as address:
+        page = Page(chromium, address, "whole=0&trails=1&view=top")
+        page.until(lambda: page.said("tftool.moment()") == 0)
+        (moving,) = (name for name in page.drawn() if page.drawn()[name]["arrow"])
+        over = page.find("#over")
+
+        def oldest():
+            return page.driver.execute_script(f"return {places}", moving)
+
+        def drag():
+            ActionChains(chromium).drag_and_drop_by_offset(over, 40, 30).perform()
+
+        def lengthen(seconds):
+            typed = page.find("#length")
+            typed.send_keys(Keys.CONTROL, "a", Keys.NULL, str(seconds), Keys.ENTER)
+
+        page.find("#more summary").click()
+        for moment, length in ((200, 10), (70, 50), (250, 5), (60, 20)):
+            page.scrub(moment)
+            page.until(lambda moment=moment: page.said("tftool.moment()") == moment)
+            lengthen(length)
+            drag()
+            # At any moment while it loads it is too short, and never too long.
+            while oldest() > 0.5 - length:
+                assert oldest() >= -length
+            assert oldest() >= -length
+
+
+@pytest.mark.parametrize("width", [390, 700, 1000, 1600])
+def test_settings_open_inside_the_window(chromium, stage, width):
+    stage.put(1.0)
+    with Resized(chromium, width, 844):
+        page = Page(chromium, stage)
+        page.until(lambda: "turtle" in page.drawn())
+        if width < 640:
+            page.find('.drawer[data-drawer="menu"]').click()
+        page.find("#more summary").click()
+        settings = page.find("#more > .panel").rect
+        assert settings["x"] >= 0
+        assert settings["x"] + settings["width"] <= width
 
 
 def test_a_description_has_no_timeline_and_the_same_colours_served_and_as_a_file(
@@ -197,6 +250,8 @@ def test_a_description_has_no_timeline_and_the_same_colours_served_and_as_a_file
             page = Page(chromium, address)
             page.until(lambda page=page: {"base", "inner"} == page.drawn().keys())
             page.until(lambda page=page: not page.find("#time").is_displayed())
+            said = "live" if address is served else "description"
+            page.until(lambda page=page, said=said: page.text("#status") == said)
             colours.append(
                 page.said("[...document.querySelectorAll('.swatch')].map((e) => e.style.cssText)")
             )
@@ -256,6 +311,9 @@ def test_a_low_window_shows_the_picture_alone_until_panels_are_asked_for(chromiu
         assert not any(panel.is_displayed() for panel in panels)
         page.find("#panels").click()
         page.until(lambda: all(panel.is_displayed() for panel in panels))
+
+        # Neither does the list reach below the timeline.
+        page.until(lambda: bottom(page.find("#left")) <= page.find("#time").rect["y"])
 
         page.find("#left .collapse").click()
         assert not page.find("#tree").is_displayed()
@@ -342,6 +400,45 @@ def test_a_mesh_of_many_facets_is_shaded_smoothly(chromium, tmp_path):
         page = Page(chromium, address, "names=0&axes=0&grid=0&theme=light&view=side")
         # A column of 12 flat facets would have 12 shades.
         page.until(lambda: page.driver.execute_script(shades) > 20)
+
+
+def test_a_mesh_is_measured_the_same_in_another_fixed_frame(chromium, tmp_path):
+    (tmp_path / "ball.stl").write_bytes(ball(1.0, rings=64))
+    file = tmp_path / "ball.urdf"
+    mount = '<joint name="mount" type="fixed">'
+    box = '<box size="2 2 2"/>'
+    assert ROBOT.count(box) == ROBOT.count(mount) == 1
+    moved = f'{mount}<origin xyz="3 0 0" rpy="0 0 1.5707963"/>'
+    file.write_text(ROBOT.replace(box, '<mesh filename="ball.stl"/>').replace(mount, moved))
+    with view(tmp_path, file, "--meshes", tmp_path) as address:
+        page = Page(chromium, address, "names=0&view=top&fixed=base&axes=0")
+        page.until(lambda: page.said("tftool.robot().waiting") == 0 and "inner" in page.drawn())
+        page.find("#measure").click()
+
+        def measured(*places):
+            for place in places:
+                x, y = page.said(f"tftool.pixelOf({place[0]}, {place[1]}, 0)")
+                half = page.find("#over").rect
+                at = round(x - half["width"] / 2), round(y - half["height"] / 2)
+                ActionChains(chromium).move_to_element_with_offset(
+                    page.find("#over"), *at
+                ).click().perform()
+            told = page.until(lambda: " m (" in page.text("#measured") and page.text("#measured"))
+            assert " in base " in told
+            return float(re.search(r"([\d.]+) m \(", told)[1])
+
+        # Two points of the ball, above (0.6, 0.6) and (-0.6, 0.6): as high as each other.
+        assert measured((0.6, 0.6), (-0.6, 0.6)) == pytest.approx(1.2, abs=0.05)
+        page.pick("fixed", "inner")
+        page.until(lambda: max(map(abs, page.drawn()["inner"]["pose"][:3])) < 1e-9)
+        # The whole ball is in the picture again, and the grid at its lowest point.
+        page.until(lambda: page.said("tftool.ground().level") == pytest.approx(-1, abs=0.01))
+        page.until(lambda: page.said("tftool.pixelOf(0, 4, 0)")[1] > bottom(page.find("#bar")))
+        # The same, where x is what was y: by a quarter turn back, and 3 m to the side.
+        page.find("#measure").click()
+        page.find("#measure").click()
+        turned = [(y, 3 - x) for x, y in ((0.6, 0.6), (-0.6, 0.6))]
+        assert measured(*turned) == pytest.approx(1.2, abs=0.05)
 
 
 def test_the_pairs_numbers_stay_in_a_narrow_window_and_the_banner_below_the_bar(chromium):

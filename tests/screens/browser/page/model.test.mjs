@@ -53,6 +53,14 @@ test("poses are those in the fixed frame; what another tree or a loop holds has 
   assert.equal(made.biggestRoot(), "world");
 });
 
+test("what is static or moved by a joint is carried by the frame above it", () => {
+  const made = model();
+  const carriers = (...joints) => made.names.map((name) => made.names[made.carrier(name, new Set(joints))]);
+  assert.deepEqual(carriers(), ["world", "arm", "arm", "lone", "egg", "hen"]);
+  assert.deepEqual(carriers("arm", "egg", "hen"), ["world", "world", "world", "lone", "egg", "hen"]);
+  assert.equal(made.carrier("nobody", new Set()), -1);
+});
+
 test("a frame without a pose says why", () => {
   const made = model();
   const said = (fixed) => {

@@ -74,12 +74,13 @@ test("a grid reaches equally far to all sides, with its axes in it", () => {
   assert.ok(linesOf([0, 0], 1, 20).every(({ faded }) => Math.min(...faded) < 1));
 });
 
+const PICTURE = { width: 400, height: 400 };
 const overlap = (one, other) =>
   one.left < other.left + 60 && other.left < one.left + 60 && one.top < other.top + 14 && other.top < one.top + 14;
 
 test("names do not stand on each other, and what moved aside has a line", () => {
   const wanted = Array.from({ length: 8 }, () => ({ x: 200, y: 200, width: 60, height: 14 }));
-  const stands = arrange(wanted);
+  const stands = arrange(wanted, PICTURE);
   assert.ok(stands.every((stand) => stand !== null));
   stands.forEach((one, at) => stands.slice(at + 1).forEach((other) => assert.ok(!overlap(one, other))));
   assert.ok(!stands[0].moved);
@@ -88,16 +89,21 @@ test("names do not stand on each other, and what moved aside has a line", () => 
 
 test("where there is no room a name is left out, but never the one that was picked", () => {
   const wanted = Array.from({ length: 300 }, (_, at) => ({ x: 200, y: 200, width: 60, height: 14, first: at === 299 }));
-  const stands = arrange(wanted);
+  const stands = arrange(wanted, PICTURE);
   assert.ok(stands.some((stand) => stand === null));
   assert.ok(stands[299] !== null);
 });
 
 test("a name stays where it stood, and off what is reserved", () => {
-  const [stand] = arrange([{ x: 200, y: 200, width: 60, height: 14, was: 2 }]);
+  const [stand] = arrange([{ x: 200, y: 200, width: 60, height: 14, was: 2 }], PICTURE);
   assert.equal(stand.place, 2);
-  const [moved] = arrange([{ x: 200, y: 200, width: 60, height: 14 }], [[170, 205, 60, 20]]);
+  const [moved] = arrange([{ x: 200, y: 200, width: 60, height: 14 }], PICTURE, [[170, 205, 60, 20]]);
   assert.notEqual(moved.place, 0);
-  const [inside] = arrange([{ x: 380, y: 200, width: 60, height: 14 }], [[390, 0, 120, 800]]);
-  assert.ok(inside.left + 60 <= 390);
+});
+
+test("a name is inside the picture, at whatever side its frame is", () => {
+  for (const [x, y] of [[395, 200], [5, 200], [200, 3], [200, 397], [0, 0], [400, 400]]) {
+    const [{ left, top }] = arrange([{ x, y, width: 60, height: 14 }], PICTURE);
+    assert.ok(left >= 0 && left + 60 <= 400 && top >= 0 && top + 14 <= 400, `${left} ${top}`);
+  }
 });

@@ -51,6 +51,16 @@ test("play goes on at its speed once the poses requested have come", () => {
   assert.deepEqual(requested, [12, 12.2]);
 });
 
+test("what plays in a loop begins anew at its end, and rests there otherwise", () => {
+  for (const [loops, after] of [[true, 10], [false, 20]]) {
+    const { line } = timeline(19.95);
+    Object.assign(line, { ends: true, playing: true, loops });
+    line.tick(100);
+    assert.equal(line.at, after);
+    assert.equal(line.playing, loops);
+  }
+});
+
 test("play that reaches the newest moment is live again", () => {
   const { line, requested } = timeline();
   line.scrub(19.95);

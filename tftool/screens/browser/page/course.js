@@ -226,6 +226,7 @@ export class Course {
 
   drawPlot(ink, at, looked, plot) {
     const { pen, width, height } = fresh(this.plot);
+    if (!width) return; // in a low window there is no plot
     const series = extended(this.series, at === null ? this.later : []);
     const lines = linesOf(series, plot);
     const { unit } = PLOTS[plot];

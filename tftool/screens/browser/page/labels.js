@@ -25,8 +25,16 @@ export const MANY = 80;
 const FEW = 12;
 const NEAREST = 4; // of the places need no line
 
+/** @param {number[]} one left, top, width and height @param {number[]} other */
+export function overlap([left, top, width, height], other) {
+  return left < other[0] + other[2] && other[0] < left + width && top < other[1] + other[3] && other[1] < top + height;
+}
+
 class Grid {
-  constructor() {
+  /** @param {{ width: number, height: number }} picture */
+  constructor({ width, height }) {
+    this.width = width;
+    this.height = height;
     /** @type {Set<number>} */
     this.taken = new Set();
   }
@@ -39,6 +47,8 @@ class Grid {
   }
 
   free(...box) {
+    const [left, top, width, height] = box;
+    if (left < 0 || top < 0 || left + width > this.width || top + height > this.height) return false;
     for (const cell of this.cells(...box)) if (this.taken.has(cell)) return false;
     return true;
   }
@@ -61,13 +71,14 @@ export function standAt({ x, y, width, height }, place) {
 }
 
 /**
- * Give every name a place; null for one that finds none. The first in the list choose first.
+ * Give every name a place in the picture; null for one that finds none. The first in the list choose first.
  * @param {Wanted[]} wanted
+ * @param {{ width: number, height: number }} picture
  * @param {number[][]} [reserved] left, top, width and height of what no name may cover
  * @returns {(Stand | null)[]}
  */
-export function arrange(wanted, reserved = []) {
-  const grid = new Grid();
+export function arrange(wanted, picture, reserved = []) {
+  const grid = new Grid(picture);
   for (const box of reserved) grid.take(...box);
   const places = wanted.length > MANY ? FEW : PLACES.length;
   return wanted.map((one) => {

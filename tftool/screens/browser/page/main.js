@@ -89,6 +89,8 @@ const timeline = new Timeline(
 );
 timeline.speed = choices.speed;
 timeline.ends = inside !== null;
+// The address may ask for a file that plays by itself, as on a page of the web.
+if (inside && given.play && !calm()) timeline.playing = timeline.loops = true;
 
 const tree = new Tree($("tree"), {
   choose: (name) => choose(choices.chosen === name ? undefined : name),
@@ -278,6 +280,7 @@ function solve() {
   shown.frames = describe(model, choices, timeline.past, server.pair);
   shown.drawn = shown.frames.filter((frame) => frame.shown);
   shown.lines = pathsTo(timeline.at);
+  robot.place(shown.frames, model, choices);
 }
 
 /** The trails, finely where a past moment is looked at. @param {number | null} at */
@@ -301,7 +304,6 @@ function pathsTo(at) {
 function paint() {
   const { drawn, lines } = shown;
   const { pair } = server;
-  robot.place(shown.frames, choices);
   displays.place(model.poses?.at ?? null, model, choices.undrawn);
   stage.draw(drawn, { ...choices, scale: 10 ** Number($("scale").value), level: robot.box?.min.z ?? 0 });
   const special = new Set([choices.chosen, hovered, ...(pair?.found ? [pair.source, pair.target] : [])]);
@@ -432,12 +434,16 @@ function fit(box) {
   }
 }
 
+/** Whether this person wants nothing to move by itself. */
+function calm() {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
+}
+
 /** Bring a frame into the middle, near enough to see its axes. */
 function flyTo(name) {
   const pose = model.absolute[model.index.get(name) ?? -1];
   if (!pose) return;
-  const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
-  stage.fly(pose, 10 ** Number($("scale").value), calm ? 0 : FLIGHT, insets());
+  stage.fly(pose, 10 ** Number($("scale").value), calm() ? 0 : FLIGHT, insets());
 }
 
 function refit() {

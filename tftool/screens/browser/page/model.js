@@ -167,6 +167,18 @@ export class Model {
     return false;
   }
 
+  /**
+   * The frame that carries another one: reached upwards over what is static or moved by these joints.
+   * @param {string | undefined} name
+   * @param {Set<string>} joints frames that joints move
+   */
+  carrier(name, joints) {
+    let at = this.index.get(name) ?? -1;
+    if (this.looped.includes(at)) return at;
+    while (this.parents[at] >= 0 && (this.statics[at] || joints.has(this.names[at]))) at = this.parents[at];
+    return at;
+  }
+
   /** The root of the tree with the most frames: where a first picture starts. */
   biggestRoot() {
     const sizes = new Map();

@@ -104,14 +104,15 @@ export function showPair(pair) {
  * @param {import("./timeline.js").Timeline} timeline
  * @param {ReturnType<typeof import("./freshness.js").freshness>} state
  */
-export function showStatus({ past, playing }, state) {
+export function showStatus({ past, playing, moves }, state) {
   const { classList } = document.body;
   classList.toggle("gone", state === "gone" || state === "silent");
   classList.toggle("stale", state === "stale");
   classList.toggle("past", past);
   const text = {
     wait: "connecting", gone: "session ended", silent: "no answer", stale: "no new data",
-    past: playing ? "replay" : "past", stored: playing && past ? "replay" : "recorded", live: "live",
+    past: playing ? "replay" : "past", live: "live",
+    stored: !moves && !$("robot").hidden ? "description" : playing && past ? "replay" : "recorded",
   }[state];
   $("status").dataset.state = state;
   setText($("status"), text);
@@ -191,11 +192,12 @@ export function showReach({ at, ends, moves, reach, span: { oldest, newest } }) 
 
 /** @param {import("./timeline.js").Timeline} timeline */
 export function showTime(timeline) {
-  const { at, playing, reach: { oldest, newest, now }, forgotten } = timeline;
+  const { at, ends, playing, reach: { oldest, newest, now }, forgotten } = timeline;
   showReach(timeline);
   setText(
     $("moment"),
-    at !== null ? `${number(at, 3)} s (${number(at - newest, 2)})${forgotten ? ", left the buffer" : ""}`
+    at !== null && ends ? `${number(at, 3)} of ${number(newest, 3)} s`
+    : at !== null ? `${number(at, 3)} s (${number(at - newest, 2)})${forgotten ? ", left the buffer" : ""}`
     : `${number(now, 2)} s, buffer ${number(newest - oldest, 1)} s`,
   );
   $("live").setAttribute("aria-pressed", String(at === null && !/gone|stale/.test(document.body.className)));

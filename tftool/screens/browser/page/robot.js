@@ -86,9 +86,11 @@ export class Robot {
     scene.add(above, sun, sun.target, this.group);
     this.shadow = shade();
     scene.add(this.shadow);
-    /** @type {Box3 | null} around its shapes, in the frame they were drawn in first */
+    /** @type {Box3 | null} around its shapes, in the fixed frame */
     this.box = null;
     this.boxed = ""; // for what `box` was made
+    /** @type {Set<string>} frames that joints move */
+    this.joints = new Set();
   }
 
   /** Frames that have a shape. */
@@ -127,6 +129,7 @@ export class Robot {
     }
     this.unloaded = description.links.flatMap((link) => link.collisions.map((shape) => /** @type {[string, Shape]} */ ([link.frame, shape])));
     this.shaped = new Set(description.links.filter(({ visuals, collisions }) => visuals.length + collisions.length).map(({ frame }) => frame));
+    this.joints = new Set(description.joints.map(({ frame }) => frame));
     for (const joint of description.joints) {
       const way = new Vector3(...joint.axis);
       const arrow = new ArrowHelper(way, new Vector3(), AXIS_LENGTH, AXIS, AXIS_LENGTH / 4, AXIS_LENGTH / 8);
@@ -234,16 +237,19 @@ export class Robot {
   }
 
   /**
-   * Find the box around the robot, once its meshes are there, where the fixed frame is one of its own:
-   * the ground is at its lowest point then.
+   * Find the box around the robot, once its meshes are there, where nothing but its joints moves it in
+   * the fixed frame: the ground is at its lowest point then.
    * @param {string | undefined} fixed
+   * @param {import("./model.js").Model} model
+   * @param {number} placed links
    */
-  settle(fixed) {
-    const key = `${fixed} ${this.waiting}`;
+  settle(fixed, model, placed) {
+    const key = `${fixed} ${this.waiting} ${placed}`;
     if (key === this.boxed) return;
     this.boxed = key;
     this.box = null;
-    if (fixed === undefined || !this.links.has(fixed)) return;
+    const [link] = this.links.keys();
+    if (!placed || model.carrier(fixed, this.joints) !== model.carrier(link, this.joints)) return;
     const box = new Box3();
     this.solids.visuals.surround(box);
     for (const { all, loose } of this.links.values()) {
@@ -281,9 +287,10 @@ export class Robot {
   /**
    * Put the links where their frames are.
    * @param {import("./frames.js").Frame[]} frames
+   * @param {import("./model.js").Model} model
    * @param {Look} look
    */
-  place(frames, look) {
+  place(frames, model, look) {
     if (!this.group.visible) return;
     if (look.collisions) {
       for (const [frame, shape] of this.unloaded.splice(0)) this.add(frame, "collisions", shape, COLLISION);
@@ -293,9 +300,11 @@ export class Robot {
     const turn = new Quaternion();
     const where = new Vector3();
     const one = new Vector3(1, 1, 1);
+    let placed = 0;
     for (const { name, pose, filtered } of frames) {
       const link = this.links.get(name);
       if (!link || !pose || filtered || look.bare.has(name)) continue;
+      placed++;
       link.all.visible = true;
       link.all.matrix.compose(where.fromArray(pose, 0), turn.fromArray(pose, 3), one);
       this.places.put(link.number, link.all.matrix);
@@ -307,7 +316,7 @@ export class Robot {
       link.axes.visible = look.jointaxes;
     }
     this.solids.visuals.show(look.visuals, look.opacity);
-    this.settle(look.fixed);
+    this.settle(look.fixed, model, placed);
     this.shadow.visible = this.box !== null && look.grid && look.visuals;
     this.solids.collisions.show(look.collisions, 1);
     if (this.opacity !== look.opacity || this.painted !== this.waiting) {

@@ -21,7 +21,7 @@ import { distanceFor } from "./bounds.js";
 import { FLAT, fitFlat, flatCamera, panOnly } from "./cameras.js";
 import { Crowd, SPIKES } from "./crowd.js";
 import { Ground, LAYER as GROUND } from "./ground.js";
-import { arrange, MANY, standAt } from "./labels.js";
+import { arrange, MANY, overlap, standAt } from "./labels.js";
 import { isTurtle } from "./opening.js";
 import { round, spelled } from "./scale.js";
 import { THEMES } from "./themes.js";
@@ -37,7 +37,6 @@ const LINE = 22; // pixels, of a name with its halo
 const ROOMY = 0.84; // of the picture that the frames' origins fill: names and axes reach beyond
 const SMALLEST = 0.56; // metres from the middle to the sides
 const CORNER = { width: 124, height: 108 }; // pixels of the scale and the axes in the corner
-const BESIDE = 120; // pixels to the left and right of the picture, where no name may reach
 const ARRANGED_EVERY = 5; // pictures, with many names
 const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale frames turn into
 
@@ -522,8 +521,10 @@ export class Stage {
     const pen = flat(this.over);
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
-    const { left, bottom } = this.inset;
-    this.reserved = [...this.covered, [left + 10, this.height - bottom - CORNER.height, CORNER.width, CORNER.height]];
+    const corner = [10, this.height - this.inset.bottom - CORNER.height, CORNER.width, CORNER.height];
+    // Beside the list of frames, or below it where that is short.
+    if (this.covered.some((panel) => overlap(panel, corner))) corner[0] += this.inset.left;
+    this.reserved = [...this.covered, corner];
     this.drawChain(pen, pair);
     for (const { pose, strong } of rings) {
       const spot = pose ? this.project(pose[0], pose[1], pose[2]) : null;
@@ -535,7 +536,7 @@ export class Stage {
       pen.stroke();
     }
     this.drawNames(pen, labels);
-    this.drawCorner(pen);
+    this.drawCorner(pen, corner[0] + 8);
   }
 
   /** The way from frame to frame, and the straight one with its length. */
@@ -593,7 +594,7 @@ export class Stage {
     const anew = seen.length <= MANY || ++this.gone >= ARRANGED_EVERY;
     if (anew) this.gone = 0;
     const stands = anew
-      ? arrange(seen, [...this.reserved, ...[-BESIDE, this.width].map((left) => [left, 0, BESIDE, this.height])])
+      ? arrange(seen, this, this.reserved)
       : seen.map((one) => (one.was === undefined && !one.first ? null : standAt(one, one.was ?? 0)));
     this.stood.clear();
     pen.strokeStyle = this.theme.text;
@@ -618,8 +619,7 @@ export class Stage {
   }
 
   /** How long a metre is, and where x, y and z point, in the corner that panels leave free. */
-  drawCorner(pen) {
-    const left = this.inset.left + 18;
+  drawCorner(pen, left) {
     const bottom = this.height - this.inset.bottom - 16;
     const pixel = this.pixel();
     const long = round(64 * pixel);

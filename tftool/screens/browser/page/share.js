@@ -3,7 +3,7 @@
 
 const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at", "opacity", "side"];
 const WORDS = ["fixed", "target", "source", "pair", "chosen", "only", "not", "view", "theme", "plot", "followed"];
-const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole"];
+const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes", "through", "whole", "play"];
 const LISTS = ["hidden", "closed", "trailed", "bare", "undrawn"];
 
 /** Read the address; what is missing or makes no sense is left out. */

@@ -37,6 +37,7 @@ export class Timeline {
     this.tickedAt = 0;
     this.moves = true; // whether any frame is dynamic
     this.ends = false; // nothing more comes: there is no present to run into
+    this.loops = false; // what is played to its end begins anew
   }
 
   get past() {
@@ -145,8 +146,9 @@ export class Timeline {
     this.tickedAt = now;
     if (this.at === null || !this.playing || this.awaiting) return;
     const next = Math.max(this.at, this.reach.oldest) + passed * this.rate * this.speed;
-    if (next >= this.reach.newest) this.ends ? this.scrub(next) : this.goLive();
-    else this.show(next);
+    if (next < this.reach.newest) this.show(next);
+    else if (this.loops) this.show(this.reach.oldest);
+    else this.ends ? this.scrub(next) : this.goLive();
   }
 
   /**
