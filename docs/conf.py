@@ -29,12 +29,14 @@ exclude_patterns = ["requirements*"]
 html_theme = "furo"
 html_logo = html_favicon = "../tftool/screens/browser/page/icon.svg"
 html_title = "tftool"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_show_sphinx = False
 html_show_copyright = False
 # Nothing is fetched from elsewhere: the theme's own fonts are the system's.
 html_theme_options = {"top_of_page_buttons": []}
 pygments_style = "friendly"
-pygments_dark_style = "monokai"
+pygments_dark_style = "github-dark"
 
 # Attributes of a class stand in its text; listed once more they would be there twice.
 napoleon_use_ivar = True
