@@ -13,12 +13,12 @@ from tftool.base.stamps import Stamp, as_seconds
 from tftool.buffer.buffer import Buffer
 from tftool.frames.frames import Frames
 from tftool.frames.transform_log import TransformLog
+from tftool.recordings.container_reader import Recorded
 from tftool.recordings.contract import (
     Edge,
     Headers,
     Publisher,
     RecordedTopic,
-    Source,
     Stamps,
     Transforms,
 )
@@ -116,7 +116,7 @@ def described_by(path: str | Path) -> Described:
         return Described(mistakes=_mistakes(error))
 
 
-def _recorded_description(source: Source) -> Described:
+def _recorded_description(source: Recorded) -> Described:
     for topic in description_topics(source.topics):
         namespace = topic.name.rpartition("/")[0]
         try:
@@ -194,7 +194,7 @@ def evidence_of_recording(recording: "Recording", scope: Scope | None = None) ->
 
 
 def _evidence_of_source(
-    source: Source, transforms: Transforms, described: Described | None
+    source: Recorded, transforms: Transforms, described: Described | None
 ) -> Evidence:
     described = described or _recorded_description(source)
     odometry = [topic.name for topic in source.topics if topic.type == ODOMETRY and topic.count]

@@ -210,24 +210,6 @@ class Template:
         self._masks = masks[self._words]
         self._values = row.view(np.uint64)[self._words]
 
-    def value(self, word: int, mask: int) -> int:
-        """Return the value of a word in the bytes that are equal in all rows.
-
-        Returns:
-            The word under the mask; -1 if the covered bytes may differ.
-        """
-        # `_words` is sorted: `flatnonzero` made it.
-        place = int(np.searchsorted(self._words, word))
-        if place == len(self._words) or self._words[place] != word:
-            return -1
-        return int(self._values[place]) & mask if int(self._masks[place]) & mask == mask else -1
-
-    def constants(self) -> list[tuple[int, int]]:
-        """Return the words that are equal in all rows, at least in part: the word's index and a
-        mask.
-        """
-        return list(zip(self._words.tolist(), self._masks.tolist(), strict=True))
-
     def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
         """Return a mask of the rows with the template's frames, shape (n,); None if all rows have
         them.

@@ -1,4 +1,4 @@
-"""A container as a `Source`: choice of streams with transforms, and what containers share."""
+"""Columns of an open container: transforms, headers, clock and messages of chosen topics."""
 
 import re
 import struct
@@ -66,7 +66,14 @@ def short_type(name: str) -> str:
 
 
 class Recorded:
-    """An open recording; see `Source`."""
+    """An open recording: its contents are known, and its messages are read on demand.
+
+    Reading raises `InputError` if nothing can be read; other damage is listed in `damage`, and
+    never raises.
+
+    Attributes:
+        name: Name as given by the user.
+    """
 
     def __init__(self, name: str, container: Container) -> None:
         """Examine a container's contents.
@@ -115,7 +122,7 @@ class Recorded:
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the names of its topics."""
+        """Return the names of its topics, without counting messages, which may be slow."""
         return frozenset(stream.topic for stream in self._container.streams)
 
     @property
@@ -149,7 +156,10 @@ class Recorded:
     def transforms(
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> Transforms:
-        """Return all transforms: of named topics, else of all whose type contains them."""
+        """Return all transforms: of named topics, else of all whose type contains them.
+
+        Odometry and PoseStamped are read as transforms if their topics are named.
+        """
         chosen = [n for n, one in enumerate(self._container.streams) if self._gives(one, topics)]
         table = Table(self._container.expected(chosen))
         cutters: dict[tuple[Layout, bool], Cutter] = {}

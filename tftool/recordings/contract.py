@@ -1,11 +1,10 @@
-"""Interface of sources of recorded frames: their values and columns.
+"""Values and columns of recorded frames.
 
-A source is finite and complete. Moments are whole nanoseconds; *stamps* are those in headers, *log
-times* are the times of reception by the recorder. Columns hold values exactly as recorded,
+A recording is finite and complete. Moments are whole nanoseconds; *stamps* are those in headers,
+*log times* are the times of reception by the recorder. Columns hold values exactly as recorded,
 including not-a-number, zero quaternions, stamps of 0 and leading slashes.
 """
 
-from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from typing import Protocol, TypeAlias
 
@@ -210,69 +209,3 @@ class Progress(Protocol):
 
     def __call__(self, done: int, total: int) -> None:
         """Report that `done` of `total` bytes are read."""
-
-
-class Source(Protocol):
-    """An open recording: its contents are known, and its messages are read on demand.
-
-    Reading raises `InputError` if nothing can be read; other damage is listed in `damage`, and
-    never raises.
-    """
-
-    @property
-    def name(self) -> str:
-        """Name as given by the user."""
-
-    @property
-    def kind(self) -> str:
-        """Container's name for sentences: "MCAP", "rosbag2 (sqlite3)", "ROS 1 bag"."""
-
-    @property
-    def size(self) -> int:
-        """Size of all its files in bytes."""
-
-    @property
-    def start(self) -> Stamp:
-        """Log time of the first message; 0 if there is none."""
-
-    @property
-    def end(self) -> Stamp:
-        """Log time of the last message; 0 if there is none."""
-
-    @property
-    def names(self) -> frozenset[str]:
-        """Return the names of its topics, without counting messages, which may be slow."""
-
-    @property
-    def topics(self) -> tuple[RecordedTopic, ...]:
-        """Return every topic, by name, each once."""
-
-    @property
-    def publishers(self) -> tuple[Publisher, ...]:
-        """Return every stream of messages, by topic and node."""
-
-    @property
-    def damage(self) -> tuple[str, ...]:
-        """Return damage and repairs as sentences."""
-
-    def transforms(
-        self, topics: Collection[str] | None = None, progress: Progress | None = None
-    ) -> Transforms:
-        """Return all transforms: of named topics, else of all whose type contains them.
-
-        Odometry and PoseStamped are read as transforms if their topics are named.
-        """
-
-    def headers(
-        self, topics: Collection[str] | None = None, progress: Progress | None = None
-    ) -> dict[str, Headers]:
-        """Return headers by topic: of named topics, else of all whose type begins with one."""
-
-    def clock(self) -> tuple[Stamps, Stamps]:
-        """Return the readings of `/clock` and their log times, nanoseconds, each of shape (n,)."""
-
-    def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
-        """Yield the messages of some topics in the recording's order."""
-
-    def close(self) -> None:
-        """Close its files."""

@@ -12,8 +12,8 @@ from tftool.buffer.buffer import Buffer
 from tftool.messages.classes import INTERFACES
 from tftool.messages.codec import Codec
 from tftool.messages.layouts import CDR, ROS1
-from tftool.recordings.container_reader import short_type
-from tftool.recordings.contract import RecordedTopic, Source
+from tftool.recordings.container_reader import Recorded, short_type
+from tftool.recordings.contract import RecordedTopic
 from tftool.recordings.joint_state_reader import RecordedJoints
 from tftool.robots.robot_model import Robot, set_still
 from tftool.robots.urdf import LARGEST, parse_description
@@ -53,7 +53,7 @@ def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
     ]
 
 
-def read_description(source: Source, topic: RecordedTopic) -> Robot | None:
+def read_description(source: Recorded, topic: RecordedTopic) -> Robot | None:
     """Return the first valid description on a topic.
 
     Returns:

@@ -1,24 +1,22 @@
 """Reading of joint positions from recorded messages in bulk."""
 
 import struct
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
 from tftool.base.stamps import NANOSECONDS
-from tftool.recordings.container_reader import short_type
-from tftool.recordings.contract import Floats, RecordedTopic, Source, Stamps
+from tftool.recordings.container_reader import Recorded, short_type
+from tftool.recordings.contract import RecordedTopic
 from tftool.robots.joint_states import JointStates
 
 JOINT_STATE: Final = "sensor_msgs/JointState"
 
 MOST_JOINTS: Final = 10_000
 """Names one message may have."""
-
-Words: TypeAlias = npt.NDArray[np.uint32]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +30,7 @@ class RecordedJoints:
     """
 
     states: tuple[JointStates, ...] = ()
-    ignored: dict[str, int] = field(default_factory=dict)
+    ignored: Mapping[str, int] = field(default_factory=dict)
 
 
 def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> tuple[str, ...]:
@@ -56,7 +54,7 @@ def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> 
     return tuple(own or named)
 
 
-def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
+def read_joint_states(source: Recorded, topics: Sequence[str]) -> RecordedJoints:
     """Read the JointState messages of some topics.
 
     As in robot_state_publisher, a message with different numbers of names and positions is ignored.
@@ -65,38 +63,26 @@ def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
         source: The recording.
         topics: Names of topics it has.
     """
-    layouts = {
-        topic.name: _Ros1() if topic.encoding == "ros1" else _Cdr()
-        for topic in source.topics
-        if topic.name in topics
-    }
-    groups: dict[tuple[str, ...], _NameGroup] = {}
-    ignored: dict[str, int] = {}
+    encodings = {topic.name: topic.encoding for topic in source.topics}
+    groups: dict[tuple[tuple[str, ...], str], list[tuple[bytes, bytes]]] = {}
+    ignored: Counter[str] = Counter()
     last: dict[str, _Template] = {}
-    known: dict[tuple[str, bytes], _Template] = {}
     for message in source.messages(topics):
-        payload = message.payload
-        topic = message.sender.topic
+        payload, topic = message.payload, message.sender.topic
         template = last.get(topic)
         if template is None or not template.fits(payload):
-            layout = layouts[topic]
             try:
-                template = layout.template(payload)
-            except (struct.error, ValueError, UnicodeDecodeError):
-                text = f"'{topic}' has a message that is no JointState"
-                ignored[text] = ignored.get(text, 0) + 1
+                template = _template(payload, is_cdr=encodings[topic] != "ros1")
+            except (struct.error, ValueError):
+                ignored[f"'{topic}' has a message that is no JointState"] += 1
                 continue
             if template.problem:
-                text = f"'{topic}' has a message {template.problem}"
-                ignored[text] = ignored.get(text, 0) + 1
+                ignored[f"'{topic}' has a message {template.problem}"] += 1
                 continue
-            template = known.setdefault((topic, template.head), template)
             last[topic] = template
-        group = groups.get(template.names)
-        if group is None:
-            group = groups[template.names] = _NameGroup(template.names)
-        group.add(template, payload)
-    return RecordedJoints(tuple(group.columns() for group in groups.values()), ignored)
+        stamp, positions = payload[4:12], payload[template.begin : template.end]
+        groups.setdefault((template.names, template.order), []).append((stamp, positions))
+    return RecordedJoints(tuple(_columns(*key, rows) for key, rows in groups.items()), ignored)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,9 +91,7 @@ class _Template:
 
     Attributes:
         order: "<" or ">".
-        stamp: Offset of the stamp.
-        head: The bytes from `after` to the positions: frame, names, number of positions.
-        after: Offset of `head`.
+        head: The bytes from the stamp to the positions: frame, names, number of positions.
         begin: Offset of the positions.
         end: Offset of their end.
         names: The joints.
@@ -115,9 +99,7 @@ class _Template:
     """
 
     order: str
-    stamp: int
     head: bytes
-    after: int
     begin: int
     end: int
     names: tuple[str, ...]
@@ -125,111 +107,62 @@ class _Template:
 
     def fits(self, payload: bytes) -> bool:
         """Whether another message has the same offsets."""
-        return len(payload) >= self.end and payload.startswith(self.head, self.after)
+        return len(payload) >= self.end and payload.startswith(self.head, 12)
 
 
-class _Layout:
-    """Byte layout of a JointState: after a prefix, with or without alignment."""
+def _template(payload: bytes, *, is_cdr: bool) -> _Template:
+    """Parse one message up to its positions.
 
-    origin = 0
-    stamp = 0
-    aligned = False
+    Raises:
+        struct.error: If it is cut off.
+        ValueError: If it is not a JointState.
+    """
+    # The stamp is behind CDR's header with the byte order, or ROS 1's sequence number.
+    order = "<" if not is_cdr or payload[1:2] in (b"\1", b"\3") else ">"
+    number = struct.Struct(f"{order}I")
+    place = 12
 
-    def order(self, payload: bytes) -> str:
-        return "<"
+    def align(size: int) -> int:
+        return place + (4 - place) % size if is_cdr else place
 
-    def template(self, payload: bytes) -> _Template:
-        """Parse one message up to its positions.
-
-        Raises:
-            struct.error: If it is cut off.
-            ValueError: If it is not a JointState.
-        """
-        order = self.order(payload)
-        number = struct.Struct(f"{order}I")
-        place = after = self.stamp + 8
-
-        def align(place: int, size: int) -> int:
-            return place + (self.origin - place) % size if self.aligned else place
-
-        def text(place: int) -> tuple[bytes, int]:
-            place = align(place, 4)
-            (length,) = number.unpack_from(payload, place)
-            end = place + 4 + length
-            if end > len(payload):
-                raise ValueError("cut off")
-            return payload[place + 4 : end].rstrip(b"\0"), end
-
-        _, place = text(place)
-        place = align(place, 4)
-        (count,) = number.unpack_from(payload, place)
-        if count > MOST_JOINTS:
-            raise ValueError("too many names")
-        place += 4
-        names = []
-        for _ in range(count):
-            name, place = text(place)
-            names.append(name.decode("utf-8"))
-        place = align(place, 4)
-        (positions,) = number.unpack_from(payload, place)
-        begin = align(place + 4, 8)
-        end = begin + 8 * positions
-        problem = ""
-        if positions != count:
-            problem = f"with {count} names and {positions} positions, which is ignored"
-        elif not count:
-            problem = "without a joint"
-        elif len(set(names)) != count:
-            problem = "that names a joint twice"
-        elif end > len(payload):
+    def text() -> tuple[bytes, int]:
+        begin = align(4) + 4
+        (length,) = number.unpack_from(payload, begin - 4)
+        if begin + length > len(payload):
             raise ValueError("cut off")
-        head = payload[after:begin]
-        return _Template(order, self.stamp, head, after, begin, end, tuple(names), problem)
+        return payload[begin : begin + length].rstrip(b"\0"), begin + length
+
+    _, place = text()
+    place = align(4)
+    (count,) = number.unpack_from(payload, place)
+    if count > MOST_JOINTS:
+        raise ValueError("too many names")
+    place += 4
+    names = []
+    for _ in range(count):
+        name, place = text()
+        names.append(name.decode("utf-8"))
+    place = align(4)
+    (positions,) = number.unpack_from(payload, place)
+    place += 4
+    begin = align(8)
+    end = begin + 8 * positions
+    problem = ""
+    if positions != count:
+        problem = f"with {count} names and {positions} positions, which is ignored"
+    elif not count:
+        problem = "without a joint"
+    elif len(set(names)) != count:
+        problem = "that names a joint twice"
+    elif end > len(payload):
+        raise ValueError("cut off")
+    return _Template(order, payload[12:begin], begin, end, tuple(names), problem)
 
 
-class _Cdr(_Layout):
-    """ROS 2's layout: four bytes with the byte order, then aligned data."""
-
-    origin = 4
-    stamp = 4
-    aligned = True
-
-    def order(self, payload: bytes) -> str:
-        """Return the byte order, given in the second byte."""
-        return "<" if payload[1:2] in (b"\1", b"\3") else ">"
-
-
-class _Ros1(_Layout):
-    """ROS 1's layout: a sequence number first, and no alignment."""
-
-    stamp = 4
-
-
-class _NameGroup:
-    """Messages with the same joint names."""
-
-    def __init__(self, names: tuple[str, ...]) -> None:
-        self.names = names
-        self._stamps: list[bytes] = []
-        self._positions: list[bytes] = []
-        self._runs: list[tuple[str, int]] = []
-
-    def add(self, template: _Template, payload: bytes) -> None:
-        """Append a message's stamp and positions."""
-        self._stamps.append(payload[template.stamp : template.stamp + 8])
-        self._positions.append(payload[template.begin : template.end])
-        if not self._runs or self._runs[-1][0] != template.order:
-            self._runs.append((template.order, len(self._stamps) - 1))
-
-    def columns(self) -> JointStates:
-        """Return all of them."""
-        ends = [start for _, start in self._runs[1:]] + [len(self._stamps)]
-        stamps: list[Stamps] = []
-        positions: list[Floats] = []
-        for (order, first), last in zip(self._runs, ends, strict=True):
-            words = np.frombuffer(b"".join(self._stamps[first:last]), dtype=f"{order}u4")
-            whole: Words = words.reshape(-1, 2)
-            stamps.append(whole[:, 0].astype(np.int64) * NANOSECONDS + whole[:, 1])
-            raw = np.frombuffer(b"".join(self._positions[first:last]), dtype=f"{order}f8")
-            positions.append(raw.astype(np.float64).reshape(last - first, len(self.names)))
-        return JointStates(self.names, np.concatenate(stamps), np.concatenate(positions))
+def _columns(names: tuple[str, ...], order: str, rows: list[tuple[bytes, bytes]]) -> JointStates:
+    """Return the joint states of messages in one byte order, each its stamp and its positions."""
+    stamps, positions = (b"".join(column) for column in zip(*rows, strict=True))
+    times = np.frombuffer(stamps, dtype=f"{order}u4").reshape(-1, 2).astype(np.int64)
+    found = np.frombuffer(positions, dtype=f"{order}f8").astype(np.float64)
+    moments = times[:, 0] * NANOSECONDS + times[:, 1]
+    return JointStates(names, moments, found.reshape(len(rows), len(names)))

@@ -1,6 +1,5 @@
 """Decoding of recorded messages into columns: natively if built, else in numpy."""
 
-from collections.abc import Sequence
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -17,7 +16,7 @@ from tftool.messages.transform_rows import (
     sample,
     walk,
 )
-from tftool.recordings.columns import Batch, Growing, Table, words_at
+from tftool.recordings.columns import Batch, Growing, Table
 from tftool.recordings.contract import Indexes
 from tftool.recordings.foreign_transforms import Decoder
 
@@ -127,8 +126,6 @@ class TemplateCutter(Cutter):
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)
         self._templates: dict[int, list[Template]] = {}
-        # Of a length: for how many layouts, which word tells them apart, and which part of it.
-        self._told: dict[int, tuple[int, int, int]] = {}
         self._bytes = 0
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
@@ -156,11 +153,6 @@ class TemplateCutter(Cutter):
             buffer = np.concatenate([np.zeros(8, dtype=np.uint8), batch.buffer])
             batch = Batch(buffer, batch.starts + 8, batch.lengths, batch.log_times, batch.senders)
         templates = self._templates.setdefault(length, [])
-        # Several layouts of one length: one word tells which, without trying each.
-        if len(templates) > 1:
-            batch, numbers = self._cut_told(batch, numbers, length)
-            if not len(batch):
-                return
         rows = rows_of(batch.buffer, batch.starts + begin, width)
         tried = 0
         while len(rows):
@@ -189,38 +181,6 @@ class TemplateCutter(Cutter):
                 rows, numbers, batch = rows[rest], numbers[rest], batch.chosen(rest)
             tried += 1
 
-    def _cut_told(self, batch: Batch, numbers: Indexes, length: int) -> tuple[Batch, Indexes]:
-        """Decode messages whose layouts differ in one word; each row is copied only once.
-
-        Returns:
-            The rest, of layouts that are not known yet, in a batch and its numbers.
-        """
-        templates = self._templates[length]
-        told = self._told.get(length)
-        if told is None or told[0] != len(templates):
-            told = self._told[length] = (len(templates), *telling_word(templates))
-        _, word, mask = told
-        if not mask:
-            return batch, numbers
-        begin, width = row_span(self._layout, length)
-        starts = batch.starts + begin
-        found = words_at(batch.buffer, starts + 8 * word, "<u8")
-        found &= np.uint64(mask)
-        left = np.ones(len(batch), dtype=np.bool_)
-        for template in templates:
-            which = np.flatnonzero(found == np.uint64(template.value(word, mask)))
-            if not len(which):
-                continue
-            rows = rows_of(batch.buffer, starts[which], width)
-            fits = template.fits(rows)
-            if fits is not None:
-                which, rows = which[fits], rows[fits]
-            if len(which):
-                self._append(template, rows, numbers[which])
-                left[which] = False
-        rest = np.flatnonzero(left)
-        return batch.chosen(rest), numbers[rest]
-
     def _learn(self, payload: bytes, length: int) -> bool:
         """Make a template of a message; return whether that is possible."""
         try:
@@ -232,7 +192,6 @@ class TemplateCutter(Cutter):
         if self._bytes > _TEMPLATE_BYTES:
             self._bytes = 0
             self._templates = {length: self._templates[length]}
-            self._told.clear()
         self._templates[length].append(Template(self._layout, payload, walked))
         return True
 
@@ -344,15 +303,6 @@ class Decoding:
 
     def flush(self) -> None:
         """Do nothing: no message is buffered."""
-
-
-def telling_word(templates: Sequence[Template]) -> tuple[int, int]:
-    """Return a word that differs between all templates, and a mask of its bits; 0 for none."""
-    for word, mask in templates[0].constants():
-        values = [template.value(word, mask) for template in templates]
-        if -1 not in values and len(set(values)) == len(values):
-            return word, mask
-    return 0, 0
 
 
 def _compacted(batch: Batch) -> Batch:

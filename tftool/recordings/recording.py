@@ -32,7 +32,6 @@ from tftool.recordings.contract import (
     Publisher,
     RawMessage,
     RecordedTopic,
-    Source,
     Stamps,
     Transforms,
 )
@@ -95,7 +94,7 @@ class Recording:
 
     def __init__(
         self,
-        source: Source,
+        source: Recorded,
         progress: Progress | None = None,
         robot: Robot | None = None,
         kept: KeptColumns | None = None,
@@ -143,7 +142,7 @@ class Recording:
         self.source.close()
 
     @property
-    def _readable(self) -> Source:
+    def _readable(self) -> Recorded:
         self._require_open()
         return self.source
 

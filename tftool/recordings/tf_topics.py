@@ -13,7 +13,8 @@ import numpy as np
 from tftool.base.errors import InputError
 from tftool.base.near_names import near_names
 from tftool.base.short_numbers import count
-from tftool.recordings.contract import Edge, Progress, Source, Transforms
+from tftool.recordings.container_reader import Recorded
+from tftool.recordings.contract import Edge, Progress, Transforms
 
 SHARED_ROOTS: Final = frozenset({"earth", "map", "world"})
 """Fixed frames that REP 105 lets several robots share; odom belongs to one robot."""
@@ -47,7 +48,7 @@ class RobotNames:
 
 
 def transforms_on(
-    source: Source, topics: Sequence[str], progress: Progress | None = None
+    source: Recorded, topics: Sequence[str], progress: Progress | None = None
 ) -> tuple[Transforms, RobotNames]:
     """Read the transforms of some topics, each with its static topic.
 
@@ -95,7 +96,7 @@ def transforms_on(
     return whole, names
 
 
-def _with_statics(source: Source, names: Iterable[str]) -> list[str]:
+def _with_statics(source: Recorded, names: Iterable[str]) -> list[str]:
     """Return these topics with the static topic of each."""
     known = {topic.name for topic in source.topics if topic.transforms}
     found = []

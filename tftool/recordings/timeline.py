@@ -10,10 +10,10 @@ import numpy.typing as npt
 from tftool.base.stamps import SIMULATED_BELOW, Stamp
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.recordings.container_reader import Recorded
 from tftool.recordings.contract import (
     Edge,
     Indexes,
-    Source,
     Stamps,
     Transforms,
 )
@@ -120,7 +120,7 @@ class Timeline:
         end: Log time of the last message.
     """
 
-    def __init__(self, source: Source, transforms: Transforms) -> None:
+    def __init__(self, source: Recorded, transforms: Transforms) -> None:
         """Sort the messages.
 
         Args:

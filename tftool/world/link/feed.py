@@ -13,7 +13,8 @@ from tftool.messages.codec import Codec, codec
 from tftool.messages.layouts import ROS1
 from tftool.messages.schema import full_name
 from tftool.recordings.channel import TRANSIENT_LOCAL
-from tftool.recordings.contract import RawMessage, RecordedTopic, Source
+from tftool.recordings.container_reader import Recorded
+from tftool.recordings.contract import RawMessage, RecordedTopic
 from tftool.recordings.timeline import PlayClock
 from tftool.world.endpoints import Quality
 from tftool.world.link.seam import WirePublisher
@@ -34,7 +35,7 @@ class TopicFeed:
         left_out: Why others are not, as sentences.
     """
 
-    def __init__(self, link: Link, source: Source, clock: PlayClock, node: str) -> None:
+    def __init__(self, link: Link, source: Recorded, clock: PlayClock, node: str) -> None:
         """Announce the topics to publish.
 
         Args:
