@@ -24,8 +24,8 @@ from tftool.recordings.channel import Channel
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
 from tftool.recordings.mcap.write import McapWriter
+from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.recordings.rolling_writer import RollingRecording
-from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 
 START = seconds(1_750_000_000)
 TURNS = 3

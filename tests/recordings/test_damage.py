@@ -26,7 +26,7 @@ from tests.recordings.writers import (
 )
 from tftool import InputError, Recording, UsageError, open_recording
 from tftool.recordings import decompression as compressed
-from tftool.recordings.compression import compressor
+from tftool.recordings.decompression import compressor
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
 from tftool.recordings.mcap import format as mcap_records

@@ -15,10 +15,9 @@ import tftool
 from tests.recordings.writers import numbers
 from tftool.base.errors import InputError, UsageError
 from tftool.recordings.channel import Channel
-from tftool.recordings.container import CopiedAttachment
+from tftool.recordings.container import CopiedAttachment, Piece
 from tftool.recordings.mcap.format import RECORD
 from tftool.recordings.mcap.write import McapWriter
-from tftool.recordings.pieces import Piece
 
 START = 1_750_000_000 * 10**9
 PAIRS = [("odom", "base_link"), ("base_link", "arm"), ("map", "odom")]

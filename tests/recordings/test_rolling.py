@@ -14,9 +14,9 @@ from tftool.base.stamps import seconds
 from tftool.buffer.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.messages.transforms import encode_transforms
+from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.recordings.recording import open_recording
 from tftool.recordings.rolling_writer import RecordLimits, RollingRecording
-from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 
 START = seconds(1_750_000_000)
 TF = ros2_channel("/tf", TRANSFORMS)

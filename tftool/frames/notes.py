@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from tftool.base.escaping import visible
 from tftool.base.short_numbers import count
-from tftool.recordings.odometry import implying
+from tftool.recordings.tf_topics import implying
 
 if TYPE_CHECKING:
     from tftool.recordings.description_frames import DescribedFrames

@@ -1,4 +1,4 @@
-"""One recorded stream of messages, and the interface of writers."""
+"""One recorded stream of messages, its offered quality of service, and the interface of writers."""
 
 import re
 from dataclasses import dataclass, replace
@@ -11,12 +11,40 @@ TRANSIENT_LOCAL: Final = "transient_local"
 
 _OFFER = re.compile(r"(durability|reliability):\s*([\w\"']+)")
 _LONGEST_OFFERS = 100_000
-_WORDS = {
-    "durability": {"1": TRANSIENT_LOCAL, "2": "volatile"},
-    "reliability": {"1": "reliable", "2": "best_effort"},
-}
 _MESSAGE_TEXTS: Final = ("ros1msg", "ros2msg")
 _TEXTS: Final = (*_MESSAGE_TEXTS, "ros2idl", "jsonschema")
+
+
+_OFFERED: Final = """\
+- history: keep_last
+  depth: {depth}
+  reliability: reliable
+  durability: {durability}
+  deadline:
+    sec: 9223372036
+    nsec: 854775807
+  lifespan:
+    sec: 9223372036
+    nsec: 854775807
+  liveliness: automatic
+  liveliness_lease_duration:
+    sec: 9223372036
+    nsec: 854775807
+  avoid_ros_namespace_conventions: false
+"""
+
+NUMBERS_BELOW: Final = 9
+"""Versions of rosbag2's metadata below this write policies as numbers."""
+
+_POLICIES: Final = {
+    "history": ("system_default", "keep_last", "keep_all", "unknown"),
+    "reliability": ("system_default", "reliable", "best_effort", "unknown"),
+    "durability": ("system_default", "transient_local", "volatile", "unknown"),
+    "liveliness": ("system_default", "automatic", "manual_by_node", "manual_by_topic", "unknown"),
+}
+_POLICY = re.compile(
+    rf"^([\s-]*)({'|'.join(_POLICIES)}):[ \t]*['\"]?(\w+)['\"]?[ \t]*$", re.MULTILINE
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +68,9 @@ def offers_of(text: str) -> Offers:
     found: dict[str, list[str]] = {"durability": [], "reliability": []}
     for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
         plain = word.strip("\"'")
-        found[policy].append(_WORDS[policy].get(plain, plain))
+        names = _POLICIES[policy]
+        is_number = plain.isdecimal() and int(plain) < len(names)
+        found[policy].append(names[int(plain)] if is_number else plain)
 
     def best(policy: str, wanted: str, other: str) -> str:
         words = found[policy]
@@ -153,3 +183,28 @@ class ContainerWriter(Protocol):
 
     def abandon(self) -> None:
         """Close the file without its end."""
+
+
+def offers_text(static: bool) -> str:
+    """Return the QoS of a publisher of transforms as text.
+
+    Args:
+        static: Whether late subscribers get the last message too.
+    """
+    durability = "transient_local" if static else "volatile"
+    return _OFFERED.format(depth=1 if static else 100, durability=durability)
+
+
+def restyled(text: str, version: int) -> str:
+    """Return offered QoS with policies in the form of a metadata version."""
+
+    def policy(match: "re.Match[str]") -> str:
+        before, name, value = match.groups()
+        words = _POLICIES[name]
+        if version < NUMBERS_BELOW and value in words:
+            value = str(words.index(value))
+        elif version >= NUMBERS_BELOW and value.isdecimal() and int(value) < len(words):
+            value = words[int(value)]
+        return f"{before}{name}: {value}"
+
+    return _POLICY.sub(policy, text)

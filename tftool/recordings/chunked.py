@@ -18,10 +18,9 @@ from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.transform_rows import Bytes
 from tftool.recordings.channel import Channel
 from tftool.recordings.columns import Batch
-from tftool.recordings.container import MOST_STREAMS, Extras, File, MessageTable, Taken
+from tftool.recordings.container import MOST_STREAMS, Extras, File, MessageTable, Piece, Taken
 from tftool.recordings.contract import Indexes, Stamps
 from tftool.recordings.decompression import Ahead, Packed, unpack, unpack_beginning
-from tftool.recordings.pieces import Piece
 
 FAULTS: Final = (InputError, struct.error, KeyError)
 """Errors of a record that is damaged."""

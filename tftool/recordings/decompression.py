@@ -1,4 +1,4 @@
-"""Decompression of a recording's pieces, with sizes checked before memory is allocated."""
+"""Compression and decompression of a recording's pieces; sizes are checked before allocation."""
 
 import bz2
 import contextlib
@@ -12,6 +12,7 @@ from tftool.base.errors import InputError, UsageError
 
 if TYPE_CHECKING:
     from types import ModuleType
+
 
 LARGEST: Final = 3 << 27
 """Bytes of the largest piece that is read or unpacked: lz4 holds twice as many, and who looks at
@@ -337,3 +338,38 @@ def _stream(method: str) -> Any:
     if method == "bz2":
         return bz2.BZ2Decompressor()
     raise InputError(f"its compression is unknown ({method!r})")
+
+
+ZSTD_LEVEL: Final = 1
+"""Higher levels cost a recorder more than they save on its disk."""
+
+
+def compressor(method: str) -> Callable[[bytes], bytes]:
+    """Return the compressor of a method: "", "none", "zstd", "lz4" or "bz2".
+
+    Raises:
+        UsageError: If there is no such method, or its package is not installed.
+    """
+    if method in ("", "none"):
+        return bytes
+    if method == "bz2":
+        return bz2.compress
+    if method == "zstd":
+        packed: Callable[[bytes], bytes] = zstandard().ZstdCompressor(level=ZSTD_LEVEL).compress
+        return packed
+    if method == "lz4":
+        frame = lz4_frame()
+        # ROS 1 reads frames of independent blocks alone, without their size in front.
+        return lambda piece: bytes(
+            frame.compress(piece, block_linked=False, content_checksum=True, store_size=False)
+        )
+    raise UsageError(f"'{method}' is an unknown compression: none, zstd, lz4 and bz2 are known.")
+
+
+def best_compression() -> str:
+    """Return the compression of a new MCAP file: zstd where installed."""
+    try:
+        zstandard()
+    except UsageError:
+        return "none"
+    return "zstd"

@@ -11,7 +11,7 @@ import numpy as np
 from tftool.base.stamps import NANOSECONDS
 from tftool.recordings.container_reader import Recorded, short_type
 from tftool.recordings.contract import RecordedTopic
-from tftool.robots.joint_states import JointStates
+from tftool.robots.robot_model import JointStates
 
 JOINT_STATE: Final = "sensor_msgs/JointState"
 

@@ -1,4 +1,4 @@
-"""Conversion of messages between ROS 1's and ROS 2's encoding, by their definitions."""
+"""Channels of ROS 2 types, and conversion of messages between ROS 1's and ROS 2's encoding."""
 
 import re
 from collections.abc import Callable
@@ -9,8 +9,7 @@ from tftool.messages.classes import INTERFACES, Interfaces, completed
 from tftool.messages.codec import Codec, RecordedCodec
 from tftool.messages.layouts import CDR, ROS1
 from tftool.messages.schema import full_name
-from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
-from tftool.recordings.rosbag2.offered_qos import offers_text
+from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of, offers_text
 from tftool.recordings.schema_text import (
     known_hash,
     ros1_definition,
@@ -125,3 +124,24 @@ def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
     interfaces.define(full, text)
     interfaces.message(full)
     return full, interfaces
+
+
+TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
+
+
+def ros2_channel(topic: str, kind: str, *, static: bool = False) -> Channel:
+    """Return the channel of a known type, as ROS 2 records it.
+
+    Args:
+        topic: Its name.
+        kind: The type: "tf2_msgs/msg/TFMessage".
+        static: Whether late subscribers get the last message too.
+
+    Raises:
+        InputError: If the type is not known.
+    """
+    metadata = (
+        ("offered_qos_profiles", offers_text(static)),
+        ("topic_type_hash", known_hash(kind)),
+    )
+    return Channel(topic, kind, "cdr", "ros2msg", ros2_definition(kind).encode(), metadata)

@@ -50,9 +50,8 @@ from tftool.recordings.joint_state_reader import (
     joint_state_topics,
     read_joint_states,
 )
-from tftool.recordings.odometry import implying, joined
 from tftool.recordings.rosbag2.folder import open_found
-from tftool.recordings.tf_topics import transforms_on
+from tftool.recordings.tf_topics import implying, joined, transforms_on
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import UnexpandedXacro
 

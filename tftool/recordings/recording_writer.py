@@ -17,7 +17,7 @@ from tftool.recordings.containers import (
     container_stored,
     library_name,
 )
-from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
+from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.recordings.rosbag2.folder_writer import FolderWriter
 from tftool.recordings.target import Target, failed
 

@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.messages.layouts import CDR
-from tftool.messages.splice import TransformRow, TransformRows, encode_rows
+from tftool.messages.transform_rows import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
 from tftool.recordings.containers import library_name
 from tftool.recordings.find import ACTIVE

@@ -1,10 +1,10 @@
-"""Transforms of chosen topics, with several robots' frames kept apart.
+"""Transforms of chosen topics: several robots' frames kept apart; odometry and poses on request.
 
 Robots in namespaces publish the same frame names on topics of their own: /r1/tf, /r2/tf.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -14,7 +14,7 @@ from tftool.base.errors import InputError
 from tftool.base.near_names import near_names
 from tftool.base.short_numbers import count
 from tftool.recordings.container_reader import Recorded
-from tftool.recordings.contract import Edge, Progress, Transforms
+from tftool.recordings.contract import Edge, Progress, RecordedTopic, Transforms
 
 SHARED_ROOTS: Final = frozenset({"earth", "map", "world"})
 """Fixed frames that REP 105 lets several robots share; odom belongs to one robot."""
@@ -117,3 +117,49 @@ def _colliding(robots: Sequence[Sequence[Edge]]) -> frozenset[str]:
     children = {edge.child for edges in robots for edge in edges}
     shared = SHARED_ROOTS - children
     return frozenset(frame for frame, times in used.items() if times > 1 and frame not in shared)
+
+
+IMPLYING: Final = (
+    "nav_msgs/Odometry",
+    "geometry_msgs/PoseStamped",
+    "geometry_msgs/PoseWithCovarianceStamped",
+)
+"""Types whose messages say where one frame is in another, short.
+
+Odometry names both; a pose names what it is in, and its topic is taken for the frame's name.
+"""
+
+
+def implying(topics: Iterable[RecordedTopic]) -> tuple[RecordedTopic, ...]:
+    """Return the topics whose messages imply transforms."""
+    return tuple(one for one in topics if one.type in IMPLYING and one.encoding in ("cdr", "ros1"))
+
+
+def joined(said: Transforms, implied: Transforms) -> Transforms:
+    """Merge published transforms with implied ones of frames that tf lacks.
+
+    Args:
+        said: Transforms of the topics that carry them.
+        implied: Transforms implied by other topics of the same recording.
+    """
+    known: Collection[str] = {edge.child for edge in said.edges}
+    first = len(said.log_times)
+    added = tuple(
+        Edge(
+            edge.parent,
+            edge.child,
+            edge.static,
+            edge.slashed,
+            edge.records,
+            (edge.messages + first).astype(np.int32),
+        )
+        for edge in implied.edges
+        if edge.child not in known and edge.child != edge.parent
+    )
+    return Transforms(
+        said.edges + added,
+        np.concatenate([said.log_times, implied.log_times]),
+        np.concatenate([said.senders, implied.senders]),
+        said.publishers,
+        said.damage + implied.damage,
+    )

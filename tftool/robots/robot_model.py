@@ -18,7 +18,6 @@ from tftool.geometry import rigid_arrays as batch
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
 from tftool.robots.description import RobotDescription, RobotJoint, RobotLink
-from tftool.robots.joint_states import JointStates
 from tftool.robots.urdf import load_description
 
 MOST_NAMED = 12
@@ -27,6 +26,40 @@ MOST_NAMED = 12
 Floats: TypeAlias = npt.NDArray[np.float64]
 
 Records: TypeAlias = npt.NDArray[np.int64]
+
+
+Stamps: TypeAlias = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointStates:
+    """Positions of some joints at many times.
+
+    Attributes:
+        names: The joints, in the order of the columns.
+        stamps: Nanoseconds, shape (n,).
+        positions: Radians or metres, shape (n, len(names)).
+    """
+
+    names: Sequence[str]
+    stamps: Stamps
+    positions: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "names", tuple(self.names))
+        object.__setattr__(self, "stamps", np.asarray(self.stamps, dtype=np.int64))
+        object.__setattr__(self, "positions", np.asarray(self.positions, dtype=np.float64))
+        count = len(self.stamps) if self.stamps.ndim == 1 else -1
+        if self.positions.shape != (count, len(self.names)):
+            raise ValueError(
+                f"stamps has shape {self.stamps.shape} and positions {self.positions.shape}; "
+                f"{len(self.names)} joints need (n,) and (n, {len(self.names)})"
+            )
+        if len(set(self.names)) != len(self.names):
+            raise ValueError("a joint is named twice")
+
+    def __len__(self) -> int:
+        return len(self.stamps)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,7 +16,7 @@ from tftool.recordings.channel import Channel
 from tftool.recordings.edit.changes import Edits
 from tftool.recordings.edit.rewrite import edit
 from tftool.recordings.mcap.write import McapWriter
-from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
+from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.recordings.schema_text import ros2_definition
 
 SECOND = 10**9

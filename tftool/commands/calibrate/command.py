@@ -35,8 +35,8 @@ from tftool.frames.frames import Frames
 from tftool.frames.pair_samples import links_between, sample
 from tftool.geometry.rigid import Transform
 from tftool.opener import open_frames
-from tftool.recordings.odometry import implying
 from tftool.recordings.target import refuse_existing
+from tftool.recordings.tf_topics import implying
 from tftool.robots.robot_model import Robot, load_urdf
 
 

@@ -28,7 +28,7 @@ from tftool.doctor.evidence import evidence_of_log
 from tftool.doctor.judge import CHECKS, judge
 from tftool.frames.transform_log import TransformLog
 from tftool.messages.transforms import decode_transforms
-from tftool.recordings.compression import best_compression
+from tftool.recordings.decompression import best_compression
 from tftool.recordings.rolling_writer import Kept, RecordLimits, RollingRecording
 from tftool.scenario import builtin
 from tftool.world.clock import Clock, Phase, pace_of

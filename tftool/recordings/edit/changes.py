@@ -17,8 +17,7 @@ from tftool.geometry.rigid import Transform
 from tftool.messages.classes import Interfaces, Message
 from tftool.messages.codec import Codec, RecordedCodec
 from tftool.messages.schema import PRIMITIVES, full_name
-from tftool.messages.splice import TransformRow, TransformRows
-from tftool.messages.transform_rows import Bytes
+from tftool.messages.transform_rows import Bytes, TransformRow, TransformRows
 from tftool.recordings.channel import Channel
 from tftool.recordings.container import MessageTable, Taken
 from tftool.recordings.container_reader import (

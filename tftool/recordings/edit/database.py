@@ -19,9 +19,8 @@ import numpy as np
 from tftool.base.errors import InputError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
-from tftool.recordings.container import MessageTable
+from tftool.recordings.container import MessageTable, Piece
 from tftool.recordings.edit.outputs import digest_table
-from tftool.recordings.pieces import Piece
 from tftool.recordings.rosbag2.read import Sqlite
 from tftool.recordings.rosbag2.write import translated
 

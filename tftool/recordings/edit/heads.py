@@ -9,7 +9,7 @@ from tftool.base.errors import InputError
 from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
-from tftool.messages.splice import TransformRow, TransformRows, encode_rows
+from tftool.messages.transform_rows import TransformRow, TransformRows, encode_rows
 from tftool.recordings.channel import Channel
 from tftool.recordings.container import ContainerReader, Taken
 from tftool.recordings.container_reader import LAYOUTS
@@ -21,8 +21,7 @@ from tftool.recordings.edit.changes import (
     carries_transforms,
 )
 from tftool.recordings.edit.outputs import EditedFile
-from tftool.recordings.message_conversion import as_ros1
-from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
+from tftool.recordings.message_conversion import TRANSFORMS, as_ros1, ros2_channel
 
 
 @dataclass(slots=True)

@@ -14,18 +14,17 @@ from tftool.base.errors import InputError, MalformedMessage, TftoolError
 from tftool.base.stamps import LAST_STAMP, Stamp
 from tftool.messages.schema import full_name
 from tftool.messages.transform_rows import walk
-from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of
+from tftool.recordings.channel import TRANSIENT_LOCAL, Channel, offers_of, offers_text
 from tftool.recordings.chunked import Chunk, ChunkedReader
-from tftool.recordings.compression import compressor
 from tftool.recordings.container import Block, ContainerReader, MessageTable, Taken
 from tftool.recordings.container_reader import LAYOUTS
 from tftool.recordings.containers import container_named
 from tftool.recordings.contract import Stamps
+from tftool.recordings.decompression import compressor
 from tftool.recordings.edit.changes import carries_transforms
 from tftool.recordings.edit.tables import Kinds, Result, TableChange
 from tftool.recordings.mcap.write import McapWriter
 from tftool.recordings.message_conversion import Conversion, as_ros1, as_ros2
-from tftool.recordings.rosbag2.offered_qos import offers_text
 from tftool.recordings.schema_text import known_hash, ros2_definition
 
 _HEAD = struct.Struct("<qQQ")

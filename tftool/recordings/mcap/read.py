@@ -24,7 +24,7 @@ from tftool.recordings.chunked import (
     reason_of,
 )
 from tftool.recordings.columns import Batch, in_order, words_at
-from tftool.recordings.container import MOST_STREAMS, CopiedAttachment, Taken, check_told
+from tftool.recordings.container import MOST_STREAMS, CopiedAttachment, Piece, Taken, check_told
 from tftool.recordings.containers import MCAP_MAGIC
 from tftool.recordings.contract import Progress, Stamps
 from tftool.recordings.decompression import Ahead
@@ -59,7 +59,6 @@ from tftool.recordings.mcap.format import (
     strings_at,
     text_at,
 )
-from tftool.recordings.pieces import Piece
 
 _TELLING: Final = (SCHEMA, CHANNEL)
 _SPARSE = 4096  # bytes that one message more is worth when reading them singly

@@ -17,9 +17,9 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk
-from tftool.recordings.compression import best_compression, compressor
-from tftool.recordings.container import CopiedAttachment, MessageTable
+from tftool.recordings.container import CopiedAttachment, MessageTable, Piece
 from tftool.recordings.containers import MCAP_MAGIC, library_name
+from tftool.recordings.decompression import best_compression, compressor
 from tftool.recordings.mcap.format import (
     ATTACHMENT_INDEX,
     CHANNEL,
@@ -47,7 +47,6 @@ from tftool.recordings.mcap.format import (
     strings,
     text,
 )
-from tftool.recordings.pieces import Piece
 
 COMPRESSIONS: Final = ("zstd", "lz4", "none")
 

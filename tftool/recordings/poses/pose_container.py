@@ -17,10 +17,10 @@ from tftool.recordings.columns import Batch
 from tftool.recordings.contract import Floats, Progress, Stamps
 from tftool.recordings.find import Found
 from tftool.recordings.mcap.write import McapWriter
+from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.recordings.poses.pose_formats import PoseFormat, format_of_file
 from tftool.recordings.poses.pose_links import PoseFile, PoseLink
 from tftool.recordings.poses.pose_options import PoseOptions
-from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 
 _TURNED: Final = (1.0, 0.0, 0.0, 0.0)
 """Quaternion x y z w of the half turn about x between the axes of OpenCV and OpenGL."""

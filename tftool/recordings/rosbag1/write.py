@@ -17,9 +17,9 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.stamps import NANOSECONDS, Stamp
 from tftool.recordings.channel import Channel
 from tftool.recordings.chunked import Chunk
-from tftool.recordings.compression import compressor
 from tftool.recordings.container import MessageTable
 from tftool.recordings.containers import ROS1_MAGIC
+from tftool.recordings.decompression import compressor
 from tftool.recordings.message_conversion import as_ros1
 from tftool.recordings.rosbag1.format import (
     BAG,

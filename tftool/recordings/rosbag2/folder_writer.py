@@ -10,9 +10,8 @@ import yaml
 
 from tftool.base import yaml_guard
 from tftool.base.stamps import Stamp
-from tftool.recordings.channel import Channel, ContainerWriter
+from tftool.recordings.channel import Channel, ContainerWriter, offers_text, restyled
 from tftool.recordings.find import METADATA
-from tftool.recordings.rosbag2.offered_qos import offers_text, restyled
 
 VERSION: Final = 9
 """Of the metadata where nothing says otherwise."""

@@ -16,8 +16,7 @@ from tftool.world.world import World
 
 if TYPE_CHECKING:
     from tftool.robots.description import RobotJoint
-    from tftool.robots.joint_states import JointStates
-    from tftool.robots.robot_model import Robot
+    from tftool.robots.robot_model import JointStates, Robot
 
 JOINT_STATES: Final = "joint_states"
 DESCRIPTION: Final = "robot_description"

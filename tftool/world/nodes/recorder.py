@@ -12,9 +12,9 @@ from tftool.messages.classes import Message
 from tftool.messages.codec import Codec, codec
 from tftool.messages.transforms import encode_transforms
 from tftool.recordings.channel import Channel
-from tftool.recordings.compression import best_compression
+from tftool.recordings.decompression import best_compression
+from tftool.recordings.message_conversion import TRANSFORMS, ros2_channel
 from tftool.recordings.rolling_writer import RollingRecording
-from tftool.recordings.ros2_streams import TRANSFORMS, ros2_channel
 from tftool.world.clock import Clock, pace_of
 from tftool.world.endpoints import PUBLISHER
 from tftool.world.link.seam import Arrived
