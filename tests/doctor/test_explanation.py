@@ -335,3 +335,12 @@ def test_where_there_is_room_a_link_is_one_row():
 
     (row,) = [line for line in console.file.getvalue().splitlines() if "5 Hz" in line]
     assert row.rstrip().endswith("REFUSES: newest is 250 ms too old")
+
+
+@pytest.mark.parametrize(("static_at", "answers"), [(0.0, True), (7.92, False)])
+def test_of_a_frame_that_is_sent_as_static_and_as_moving_the_last_kind_counts(static_at, answers):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link")
+    made.static("base_footprint", "base_link", at=static_at)
+    question = Question("odom", "laser", asked=T + seconds(7.93))
+    assert traced(Model(made.evidence()), question).available is answers

@@ -66,3 +66,25 @@ def test_few_samples_have_no_steps():
     for tick in range(5):
         made.sent("map", "odom", tick * 0.1, (float(tick % 2), 0.0, 0.0, *NO_TURN))
     assert steps_of(Model(made.evidence())) == ()
+
+
+@pytest.mark.parametrize("jump", [0.0, 0.3])
+def test_stamps_that_are_less_regular_than_the_motion_make_no_steps(jump):
+    """Wheels that tell of 42 mm in each message, whenever it is stamped."""
+    made, at = robot(odometry=False, scans=False), 0.0
+    for number, gap in enumerate([0.15, 0.1, 0.2, 0.05, 0.3, 0.045, 0.15, 0.2, 0.05, 0.14] * 8):
+        at += gap
+        made.sent("odom", "base_link", at, (0.042 * number + jump * (number > 45), 0, 0, *NO_TURN))
+    steps = steps_of(Model(made.evidence()), "odom", "base_link")
+    assert [step.moved for step in steps] == pytest.approx([jump] if jump else [], abs=0.07)
+
+
+def test_a_robot_that_starts_and_stops_at_once_makes_no_steps():
+    made = robot(odometry=False, scans=False)
+    made.moving(
+        "odom",
+        "base_link",
+        10.0,
+        lambda t: (0.5 * min(max(t - 3.03, 0.0), 2.0), 0.0, 0.0, *NO_TURN),
+    )
+    assert steps_of(Model(made.evidence()), "odom", "base_link") == ()

@@ -99,10 +99,10 @@ def _steps(track: Track) -> list[LocalisationStep]:
     where, turns = track.translations[places], unit(track.rotations[places])
     moved = np.diff(where, axis=0)
     turned = rotation_vectors(multiply(turns[1:], conjugate(turns[:-1])))
-    off_moved = _unexplained(moved, gaps)
-    off_turned = _unexplained(turned, gaps)
-    is_step = (off_moved > max(LEAST_MOVED, SIGMAS * _noise(off_moved))) | (
-        off_turned > max(LEAST_TURNED, SIGMAS * _noise(off_turned))
+    off_moved, noise_moved = _unexplained(moved, gaps)
+    off_turned, noise_turned = _unexplained(turned, gaps)
+    is_step = (off_moved > max(LEAST_MOVED, SIGMAS * noise_moved)) | (
+        off_turned > max(LEAST_TURNED, SIGMAS * noise_turned)
     )
     steps, begin = [], 0
     for at in np.flatnonzero(is_step).tolist():
@@ -123,23 +123,30 @@ def _steps(track: Track) -> list[LocalisationStep]:
     return steps
 
 
-def _unexplained(changes: Floats, gaps: Floats) -> Floats:
-    """Return the length of each change, minus the motion predicted from its neighbours.
+def _unexplained(changes: Floats, gaps: Floats) -> tuple[Floats, float]:
+    """Return how far each change is from what the motion before and after explains, and the noise.
 
-    The median of the four is used, so that a step among them has no effect.
+    Whatever lies between the velocities before and after is acceleration. Since stamps may be less
+    regular than the motion, the same is tried with the change for each sample, and the better of
+    the two counts.
 
     Args:
         changes: From sample to sample, shape (n, 3).
         gaps: Seconds they take, shape (n,).
     """
-    speeds = changes / gaps[:, None]
-    padded = np.vstack((speeds[2:0:-1], speeds, speeds[-2:-4:-1]))
-    beside = np.stack([padded[shift : shift + len(speeds)] for shift in (0, 1, 3, 4)])
-    off: Floats = np.linalg.norm(changes - np.median(beside, axis=0) * gaps[:, None], axis=1)
-    return off
-
-
-def _noise(lengths: Floats) -> float:
-    """Return the standard deviation of lengths, up to a quarter of them steps."""
-    # Three quarters of a normal distribution are within 1.15 standard deviations.
-    return float(np.percentile(lengths, 75)) / 1.15
+    lengths, apart = [], []
+    for scale in (gaps[:, None], np.ones((len(gaps), 1))):
+        rates = changes / scale
+        padded = np.vstack((rates[2:0:-1], rates, rates[-2:-4:-1]))
+        beside = np.stack([padded[shift : shift + len(rates)] for shift in (0, 1, 3, 4)])
+        usual = np.median(beside, axis=0) * scale
+        before, after = beside[:2].mean(axis=0) * scale, beside[2:].mean(axis=0) * scale
+        between = after - before
+        squares = np.einsum("ij,ij->i", between, between)
+        share = np.einsum("ij,ij->i", changes - before, between)
+        share = np.clip(share / np.where(squares > 0.0, squares, 1.0), 0.0, 1.0)
+        lengths.append(np.linalg.norm(changes - before - share[:, None] * between, axis=1))
+        apart.append(np.linalg.norm(changes - usual, axis=1))
+    # Up to a quarter may be steps: the rest of a normal distribution is within 1.15 deviations.
+    noise = float(np.percentile(np.minimum(*apart), 75)) / 1.15
+    return np.minimum(*lengths), noise

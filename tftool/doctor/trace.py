@@ -244,11 +244,10 @@ class LookupTrace:
         """Return a buffer with the samples that had arrived."""
         # As many as the recording may have: where a frame is missing must be the robot's fault.
         buffer = Buffer(self.cache, log=_silent, max_frames=MOST_FRAMES)
-        tracks = sorted(self.model.tracks, key=lambda track: track.static)
-        for track in tracks:
-            places = self.arrived(track)[-MOST_SET:]
-            if not len(places):
-                continue
+        sent = [(track, self.arrived(track)[-MOST_SET:]) for track in self.model.tracks]
+        sent = [(track, places) for track, places in sent if len(places)]
+        # Of a frame that is sent as static and as moving, the kind that came last is kept.
+        for track, places in sorted(sent, key=lambda one: int(one[0].logs[one[1][-1]])):
             if not track.static:
                 buffer.set_transforms(
                     track.parent,
