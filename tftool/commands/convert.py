@@ -1,6 +1,5 @@
 """`tftool convert`: one rotation, or pose, in every notation."""
 
-import json
 import sys
 from typing import Annotated
 
@@ -12,6 +11,7 @@ from tftool.base.exit_status import ExitStatus
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.options import OUTPUT, Json, option
+from tftool.commands.shared.printer import write_json
 from tftool.drawing import notation_view as view
 from tftool.geometry.notation.notations import NAMED_FORMS
 from tftool.geometry.notation.rotations import LONGEST, read
@@ -118,7 +118,7 @@ def run(options: ConvertOptions) -> ExitStatus:
             notice(visible(note))
     if options.for_programs:
         content = {"read_as": [one.form for one in read_all], **view.as_object(pose)}
-        sys.stdout.write(json.dumps(content, indent=2, allow_nan=False) + "\n")
+        write_json(content)
     elif options.target is not None:
         sys.stdout.write(view.alone(pose, options.target, degrees=options.degrees) + "\n")
     else:

@@ -1,7 +1,6 @@
 """`tftool new`: a new workspace package, or a new scenario."""
 
 import ast
-import json
 import keyword
 import os
 import re
@@ -19,6 +18,7 @@ from tftool.base.exit_status import ExitStatus
 from tftool.base.short_numbers import count
 from tftool.commands.shared.declaration import Command
 from tftool.commands.shared.options import Json, option, refuse
+from tftool.commands.shared.printer import write_json
 from tftool.messages.classes import INTERFACES
 from tftool.scenario.builtin import shipped
 
@@ -257,7 +257,7 @@ def _tell(
     if as_json:
         following = [{"command": line, "purpose": purpose} for line, purpose in lines]
         told = {"schema": "tftool.new/1", "made": str(path), "files": sorted(files)}
-        sys.stdout.write(json.dumps({**told, "next": following}, indent=2) + "\n")
+        write_json({**told, "next": following})
         return
     counted = f": {count(len(files), 'file')}" if files else ""
     sys.stdout.write(f"Made {path}{counted}.{todo}\n")

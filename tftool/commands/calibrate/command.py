@@ -19,7 +19,7 @@ from tftool.commands.calibrate.calibration_report import page
 from tftool.commands.calibrate.mount_files import MOUNT_FILES, joint_to_change, write_mount
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.options import refuse
-from tftool.commands.shared.printer import line_width, write_file
+from tftool.commands.shared.printer import line_width, write_file, write_json
 from tftool.commands.shared.progress_bars import Bar
 from tftool.drawing import calibration_view as view
 from tftool.frames.calibration.calibrate import Calibration, calibrate
@@ -260,7 +260,7 @@ def _print_clocks(paths: list[TransformArray], *, for_programs: bool) -> ExitSta
             sys.stdout.write(f"refused: {refusal}\nTo record next: {refusal.next_motion}.\n")
         return ExitStatus.FAILED
     if for_programs:
-        sys.stdout.write(json.dumps({"clock_offset": view.clock_object(found)}) + "\n")
+        write_json({"clock_offset": view.clock_object(found)}, indent=None)
     else:
         sys.stdout.write(
             f"Clock offset: t_A = t_B {found.seconds:+.6f} s ± {found.interval95 * 1e3:.2f} ms "

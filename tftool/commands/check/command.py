@@ -1,7 +1,6 @@
 """`tftool check`: play scenarios on simulated time and judge their expectations."""
 
 import glob
-import json
 import os
 import re
 import sys
@@ -20,7 +19,7 @@ from tftool.base.report import Report
 from tftool.base.stamps import Stamp, as_seconds, seconds
 from tftool.commands.check import CheckOptions
 from tftool.commands.shared.notices import complain, notice
-from tftool.commands.shared.printer import write, write_file
+from tftool.commands.shared.printer import write, write_file, write_json
 from tftool.drawing import report_view as judgements
 from tftool.opener import scenario_named
 from tftool.recordings.find import METADATA
@@ -225,7 +224,7 @@ def run(options: CheckOptions) -> ExitStatus:
         judged = [(_strictly(report), readable) for report, readable in judged]
     reports = [report for report, _ in judged]
     if options.for_programs:
-        sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
+        write_json(judgements.as_rows(reports))
     else:
         if Console().is_terminal and sys.stderr.isatty():
             # The terminal has the whole sentence already.

@@ -1,10 +1,9 @@
 """`tftool demo`: a scenario on the screen; without a terminal it is played and summarised."""
 
 import asyncio
-import json
 import sys
 from contextlib import nullcontext
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from rich.text import Text
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, Stamp
+from tftool.base.stamps import Stamp
 from tftool.commands.demo import DemoOptions
 from tftool.commands.shared.connection import HOME, Connection
 from tftool.commands.shared.hosting import JoinDecision, join_or_host
@@ -30,7 +29,7 @@ from tftool.commands.shared.on_screen import (
 )
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import refuse_long_simulation
-from tftool.commands.shared.printer import write
+from tftool.commands.shared.printer import write, write_json
 from tftool.drawing.solids import solids_of
 from tftool.opener import named, scenario_named
 from tftool.recordings.description_frames import prefix_of
@@ -43,103 +42,94 @@ from tftool.screens.still_frames import first_look
 from tftool.screens.terminal.scene import Scene
 from tftool.screens.terminal.screen_options import Setting
 from tftool.world.clock import Phase
-from tftool.world.link.session_world import Session, shared
+from tftool.world.link.session_world import shared
 from tftool.world.nodes.recorder import recorded
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 from tftool.world.world import World
 
 
-@dataclass(frozen=True, slots=True)
-class _Showing:
-    """Shows scenarios in the terminal one after the other, with the options of the command."""
+def _show(
+    connection: Connection, options: DemoOptions, chosen: Scenario, wanted: str | None
+) -> str | None:
+    """Show a scenario or the running session; return the scenario the user chose next, if any.
 
-    connection: Connection
-    rate: float
-    lasting: Duration | None
-    recording: Path | None
-    still: bool
-    ascii_only: bool
-    light: bool
-
-    def scenario(self, chosen: Scenario, wanted: str | None) -> str | None:
-        """Show a scenario or the running session; return the scenario the user chose next, if any.
-
-        Args:
-            chosen: The scenario.
-            wanted: Name of the scenario; None to show the running session, if there is one.
-        """
-        found = join_or_host(self.connection, wanted, needs_turtles=True)
-        if found.session is None:
-            return self._hosted(chosen, found)
-        if self.recording is not None:
-            raise UsageError(
-                "'tftool record' records the running session: --record is for a demo that "
-                "hosts (--host)."
-            )
-        return self._joined(found.session)
-
-    def _until(self, world: World) -> Stamp | None:
-        """Return the end time, counted from now because the screen takes time to start."""
-        return None if self.lasting is None else world.clock.now() + self.lasting
-
-    def _joined(self, session: Session) -> str | None:
-        """Show the running session."""
-        world, live = session.world, session.live
-
-        async def life() -> None:
-            await live(self._until(world))
-
-        driver = None if self.connection.read_only else driver_of(world, "turtle1")
-        title = f"tftool demo, in {session.name}"
-        setting = Setting(ascii_only=self.ascii_only, light=self.light, title=title)
-        return run_app(scene_of(world), life(), driver, setting)
-
-    def _hosted(self, chosen: Scenario, found: JoinDecision) -> str | None:
-        """Show a scenario in a new world that other processes can join."""
-        recording = self.recording
-        around: Watch = nullcontext
-        if recording is not None:
-            around = partial(recorded, path=recording)
-        play = build(left_to_a_person(chosen), self.connection.providers.wall_clock(self.rate))
-        world, link = play.world, found.link
-        if found.alone:
-            # Notices from before the screen came up are hidden behind it.
-            world.log.warn("session", found.alone)
-
-        async def life() -> None:
-            until = self._until(world)
-            with around(world), shared(link, world):
-                await play.live(until, endless=until is None)
-
-        driver = None if simulator_of(world) is None else driver_of(world, "turtle1")
-        idle = None
-        if driver is not None and not self.still:
-            # Whatever joins sees the turtle at rest, and has it to itself.
-            idle = IdleDrawing(world, is_alone=lambda: link is None or not link.graph.processes())
-        setting = Setting(
-            ascii_only=self.ascii_only,
-            light=self.light,
-            title=f"tftool demo {chosen.name}",
-            pair=("turtle2", dict(chosen.arguments).get("source_frame", "turtle1")),
-            scenarios=None if recording is not None else builtin.abouts,
+    Args:
+        connection: The command's connection.
+        options: Its options.
+        chosen: The scenario.
+        wanted: Name of the scenario; None to show the running session, if there is one.
+    """
+    found = join_or_host(connection, wanted, needs_turtles=True)
+    if found.session is None:
+        return _show_hosted(connection, options, chosen, found)
+    if options.recording is not None:
+        raise UsageError(
+            "'tftool record' records the running session: --record is for a demo that "
+            "hosts (--host)."
         )
-        return run_app(scene_of(world), life(), driver, setting, idle)
+    world, live = found.session.world, found.session.live
+
+    async def life() -> None:
+        await live(_end(options, world))
+
+    driver = None if connection.read_only else driver_of(world, "turtle1")
+    setting = _setting(options, f"tftool demo, in {found.session.name}")
+    return run_app(scene_of(world), life(), driver, setting)
+
+
+def _end(options: DemoOptions, world: World) -> Stamp | None:
+    """Return the end time, counted from now because the screen takes time to start."""
+    return None if options.lasting is None else world.clock.now() + options.lasting
+
+
+def _setting(options: DemoOptions, title: str) -> Setting:
+    return Setting(title=title, ascii_only=options.ascii_only, light=options.light)
+
+
+def _show_hosted(
+    connection: Connection, options: DemoOptions, chosen: Scenario, found: JoinDecision
+) -> str | None:
+    """Show a scenario in a new world that other processes can join."""
+    around: Watch = nullcontext
+    if options.recording is not None:
+        around = partial(recorded, path=options.recording)
+    play = build(left_to_a_person(chosen), connection.providers.wall_clock(options.rate))
+    world, link = play.world, found.link
+    if found.alone:
+        # Notices from before the screen came up are hidden behind it.
+        world.log.warn("session", found.alone)
+
+    async def life() -> None:
+        until = _end(options, world)
+        with around(world), shared(link, world):
+            await play.live(until, endless=until is None)
+
+    driver = None if simulator_of(world) is None else driver_of(world, "turtle1")
+    idle = None
+    if driver is not None and not options.still:
+        # Whatever joins sees the turtle at rest, and has it to itself.
+        idle = IdleDrawing(world, is_alone=lambda: link is None or not link.graph.processes())
+    setting = replace(
+        _setting(options, f"tftool demo {chosen.name}"),
+        pair=("turtle2", dict(chosen.arguments).get("source_frame", "turtle1")),
+        scenarios=None if options.recording is not None else builtin.abouts,
+    )
+    return run_app(scene_of(world), life(), driver, setting, idle)
 
 
 def _list(*, for_programs: bool) -> None:
     """Print the built-in scenarios."""
     listed = builtin.abouts()
     if for_programs:
-        typer.echo(json.dumps([{"name": name, "about": about} for name, about in listed]))
+        write_json([{"name": name, "about": about} for name, about in listed], indent=None)
         return
-
     table = Table.grid(padding=(0, 2), pad_edge=False)
     for name, about in listed:
         table.add_row(Text(name), Text(about))
     write(table)
 
 
-def _show_recording(connection: Connection, word: str, *, ascii_only: bool, light: bool) -> None:
+def _show_recording(connection: Connection, options: DemoOptions, word: str) -> None:
     """Show a recording, paused at its beginning."""
     if lacking := screen_lacks():
         raise UsageError(
@@ -153,8 +143,8 @@ def _show_recording(connection: Connection, word: str, *, ascii_only: bool, ligh
         await shown.clock.sleep_until(frames.span[1], Phase.WATCH)
         await asyncio.get_running_loop().create_future()
 
-    title = f"tftool demo {visible(Path(word).name)}"
-    setting = Setting(title=title, ascii_only=ascii_only, light=light, at=first_look(frames))
+    setting = _setting(options, f"tftool demo {visible(Path(word).name)}")
+    setting = replace(setting, at=first_look(frames))
     scene = Scene(shown)
     if frames.robot is not None:
         robot = frames.robot
@@ -197,46 +187,38 @@ def run(connection: Connection, options: DemoOptions) -> ExitStatus:
                 "The demo only displays a recording: leave out --set, --source-frame, --rate, "
                 "--for and --json. 'tftool play' plays it."
             )
-        _show_recording(
-            connection, options.scenario, ascii_only=options.ascii_only, light=options.light
-        )
+        _show_recording(connection, options, options.scenario)
         return ExitStatus.DONE
     chosen = scenario_named(options.scenario or HOME, arguments)
     lacking = screen_lacks()
     if options.for_programs or lacking:
-        if connection.needs_link:
-            raise UsageError(
-                "Without a terminal the demo plays on simulated time, which cannot be "
-                "shared. 'tftool monitor' and 'tftool view' share a session without a "
-                "terminal."
-            )
-        refuse_long_simulation(options.lasting)
-        if not options.for_programs and sys.stdout.isatty():
-            # Who looks on expects a screen.
-            notice(f"The demo's screen needs a terminal, and {lacking}: playing without it.")
-        defaults = (
-            scenario_named(options.scenario or HOME).arguments if arguments else chosen.arguments
-        )
-        if options.recording is None:
-            played = play_through(chosen, defaults, options.lasting)
-        else:
-            watch = partial(recorded, path=options.recording)
-            played = play_through(chosen, defaults, options.lasting, watch=watch)
-        typer.echo(as_json(played) if options.for_programs else written(played))
-        return ExitStatus.DONE if played.verdict.ok else ExitStatus.FAILED
-
-    show = _Showing(
-        connection,
-        options.rate,
-        options.lasting,
-        options.recording,
-        options.still,
-        options.ascii_only,
-        options.light,
-    )
+        return _play(connection, options, chosen, lacking)
     # Without a wish of the user's, what runs here already is shown.
     wanted = options.scenario or (HOME if arguments or options.rate != 1.0 else None)
-    other = show.scenario(chosen, wanted)
+    other = _show(connection, options, chosen, wanted)
     while other is not None:
-        other = show.scenario(scenario_named(other), other)
+        other = _show(connection, options, scenario_named(other), other)
     return ExitStatus.DONE
+
+
+def _play(
+    connection: Connection, options: DemoOptions, chosen: Scenario, lacking: str
+) -> ExitStatus:
+    """Play a scenario on simulated time, and print what came of it."""
+    if connection.needs_link:
+        raise UsageError(
+            "Without a terminal the demo plays on simulated time, which cannot be "
+            "shared. 'tftool monitor' and 'tftool view' share a session without a "
+            "terminal."
+        )
+    refuse_long_simulation(options.lasting)
+    if not options.for_programs and sys.stdout.isatty():
+        # Who looks on expects a screen.
+        notice(f"The demo's screen needs a terminal, and {lacking}: playing without it.")
+    defaults = scenario_named(options.scenario or HOME, expects=False).arguments
+    around: Watch = nullcontext
+    if options.recording is not None:
+        around = partial(recorded, path=options.recording)
+    played = play_through(chosen, defaults, options.lasting, watch=around)
+    typer.echo(as_json(played) if options.for_programs else written(played))
+    return ExitStatus.DONE if played.verdict.ok else ExitStatus.FAILED

@@ -1,8 +1,6 @@
 """Compare two sets of frames, and print what differs."""
 
-import json
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 from tftool.base.errors import LinkError, UsageError
@@ -15,7 +13,7 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import WHOLE, listen_from, open_from
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import pairs_and_place
-from tftool.commands.shared.printer import line_width
+from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import difference_view as view
 from tftool.drawing import figure
 from tftool.drawing import trajectory_error_view as error_view
@@ -26,7 +24,7 @@ from tftool.frames.diff import side_of
 from tftool.frames.differences import Allowance, Side, compare
 from tftool.frames.export.trajectory_files import whole_file
 from tftool.frames.pair_samples import only_chain, sample
-from tftool.frames.trajectory_errors import Fit, Match, Pair, PieceLength, trajectory_errors
+from tftool.frames.trajectory_errors import Pair, PieceLength, trajectory_errors
 from tftool.recordings.target import refuse_existing
 from tftool.world.link.heard_frames import NOTHING_RUNS
 
@@ -36,6 +34,36 @@ SESSION = "session"
 
 def run(connection: Connection, options: DiffOptions) -> ExitStatus:
     """Run `tftool diff`."""
+    _refuse_contradictions(options)
+    pairs, step = _pairs(options.pairs or []), PieceLength.read(options.per)
+    words = options.first, options.second
+    first, second = (_side(connection, word, options.lasting) for word in words)
+    if options.clock_offset:
+        return _measure_clocks(options, (first, second), pairs)
+    if options.ape or options.rpe:
+        _measure_errors(options, (first, second), pairs, step)
+        return ExitStatus.DONE
+    allowed = Allowance(options.millimetres, options.degrees, options.rate_percent)
+    found = compare(first, second, allowed, align_starts=options.align == "start")
+    for note in found.notes:
+        notice(visible(note))
+    if options.for_programs:
+        write_json(view.as_object(found))
+    elif options.markdown:
+        sys.stdout.write(view.as_markdown(found))
+    else:
+        sys.stdout.write(view.lines(found, line_width(), everything=options.everything))
+    return ExitStatus.FAILED if found else ExitStatus.DONE
+
+
+def _refuse_contradictions(options: DiffOptions) -> None:
+    """Refuse contradicting options, and an output that cannot be written.
+
+    Raises:
+        UsageError: If two were given.
+    """
+    output, measures = options.output, options.ape or options.rpe
+    is_chosen = (options.fit, options.match, options.per) != ("none", "nearest", "1")
     refuse(
         (
             options.for_programs and options.markdown,
@@ -45,81 +73,85 @@ def run(connection: Connection, options: DiffOptions) -> ExitStatus:
             options.first == options.second == SESSION,
             "The session that runs is one: name what it is compared with.",
         ),
+        (options.clock_offset and measures, "--clock-offset goes without --ape and --rpe."),
+        (
+            options.clock_offset and (options.markdown or output is not None),
+            "--clock-offset goes without --markdown and -o.",
+        ),
+        (
+            not (options.clock_offset or measures)
+            and (options.pairs or output or options.force or is_chosen),
+            "--pair, --fit, --match, --per, -o and --force go with --ape or --rpe: add one.",
+        ),
+        (
+            measures and options.markdown,
+            "--markdown does not go with --ape and --rpe: --json does.",
+        ),
+        (measures and options.align is not None, "--align does not go with --ape and --rpe."),
+        (
+            output is not None and _form(output) not in figure.FORMATS,
+            f"cannot draw to '{output}': end it in .svg, .pdf or .png.",
+        ),
     )
-    if options.clock_offset:
-        refuse(
-            (options.ape or options.rpe, "--clock-offset goes without --ape and --rpe."),
-            (
-                options.markdown or options.output is not None,
-                "--clock-offset goes without --markdown and -o.",
-            ),
-        )
-        sides = (
-            _side(connection, options.first, options.lasting),
-            _side(connection, options.second, options.lasting),
-        )
-        return _measure_clocks(*sides, options.pairs or [], for_programs=options.for_programs)
-    errors = ErrorOptions.of(
-        options.ape,
-        options.rpe,
-        options.pairs,
-        options.fit,
-        options.match,
-        options.per,
-        options.output,
-        options.force,
-    )
-    if errors is not None:
-        refuse(
-            (options.markdown, "--markdown does not go with --ape and --rpe: --json does."),
-            (options.align is not None, "--align does not go with --ape and --rpe."),
-        )
-        sides = (
-            _side(connection, options.first, options.lasting),
-            _side(connection, options.second, options.lasting),
-        )
-        errors.measure(*sides, for_programs=options.for_programs)
-        return ExitStatus.DONE
-    found = compare(
-        _side(connection, options.first, options.lasting),
-        _side(connection, options.second, options.lasting),
-        Allowance(options.millimetres, options.degrees, options.rate_percent),
-        align_starts=options.align == "start",
-    )
-    for note in found.notes:
-        notice(visible(note))
-    if options.for_programs:
-        sys.stdout.write(json.dumps(view.as_object(found), indent=2, allow_nan=False) + "\n")
-    elif options.markdown:
-        sys.stdout.write(view.as_markdown(found))
-    else:
-        sys.stdout.write(view.lines(found, line_width(), everything=options.everything))
-    return ExitStatus.FAILED if found else ExitStatus.DONE
+    if output is not None:
+        refuse_existing(output, force=options.force)
+
+
+def _form(output: Path) -> str:
+    return output.suffix.lower().removeprefix(".")
 
 
 def _measure_clocks(
-    first: Side, second: Side, words: list[str], *, for_programs: bool
+    options: DiffOptions, sides: tuple[Side, Side], pairs: tuple[Pair | None, Pair | None]
 ) -> ExitStatus:
-    pairs = pairs_of_sides(words)
     paths = [
         sample(side.buffer, *(only_chain(side.buffer) if pair is None else pair)).answered()
-        for side, pair in zip((first, second), pairs, strict=True)
+        for side, pair in zip(sides, pairs, strict=True)
     ]
     try:
         found = clock_offset(*paths)
     except CalibrationRefused as refusal:
-        if for_programs:
-            sys.stdout.write(json.dumps({"clock_offset": None, "why": str(refusal)}) + "\n")
+        if options.for_programs:
+            write_json({"clock_offset": None, "why": str(refusal)}, indent=None)
         notice(visible(f"{refusal} To record next: {refusal.next_motion}."))
         return ExitStatus.FAILED
-    if for_programs:
-        sys.stdout.write(json.dumps({"clock_offset": clock_object(found)}) + "\n")
+    if options.for_programs:
+        write_json({"clock_offset": clock_object(found)}, indent=None)
     else:
         sys.stdout.write(
             f"t_A = t_B {found.seconds:+.6f} s ± {found.interval95 * 1e3:.1f} ms "
             f"(correlation {found.correlation:.3f}, next peak {found.second:.3f})\n"
         )
     return ExitStatus.DONE
+
+
+def _measure_errors(
+    options: DiffOptions,
+    sides: tuple[Side, Side],
+    pairs: tuple[Pair | None, Pair | None],
+    step: PieceLength,
+) -> None:
+    """Measure the errors of --ape and --rpe, print them, and draw them on request."""
+    first, second = sides
+    found = trajectory_errors(
+        first.buffer,
+        second.buffer,
+        pairs,
+        kinds=tuple(name for name in ("ape", "rpe") if getattr(options, name)),
+        fit=options.fit,
+        match=options.match,
+        step=step,
+    )
+    names = first.name, second.name
+    if options.output is not None:
+        title = f"errors of {second.name} against {first.name}"
+        with whole_file(options.output, force=options.force) as file:
+            figure.write_panels(error_view.panels(found), title, file, _form(options.output))
+        notice(visible(f"Drew {found.matched} matched poses to {options.output}."))
+    if options.for_programs:
+        write_json(error_view.as_object(found, names))
+    else:
+        sys.stdout.write(error_view.lines(found, names, line_width()))
 
 
 def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
@@ -137,7 +169,7 @@ def _side(connection: Connection, word: str, lasting: Duration | None) -> Side:
     return side_of(frames, word)
 
 
-def pairs_of_sides(words: list[str]) -> tuple[Pair | None, Pair | None]:
+def _pairs(words: list[str]) -> tuple[Pair | None, Pair | None]:
     """Return the pairs of A and of B named by --pair; without it, the only chain of each.
 
     Raises:
@@ -147,83 +179,3 @@ def pairs_of_sides(words: list[str]) -> tuple[Pair | None, Pair | None]:
     if len(pairs) > 2:
         raise UsageError("--pair is given once for both files, or twice: for A, then for B.")
     return (pairs[0], pairs[-1]) if pairs else (None, None)
-
-
-@dataclass(frozen=True, slots=True)
-class ErrorOptions:
-    """Options of --ape and --rpe.
-
-    Attributes:
-        kinds: "ape", "rpe", or both.
-        pairs: Target and source in A, and in B; None for the only chain.
-        fit: Alignment of B with A.
-        match: Rule by which poses are matched.
-        step: Length of the pieces of the relative error.
-        output: Picture to write; None for none.
-        force: Whether it may replace a file.
-    """
-
-    kinds: tuple[str, ...]
-    pairs: tuple[Pair | None, Pair | None]
-    fit: Fit
-    match: Match
-    step: PieceLength
-    output: Path | None
-    force: bool
-
-    @classmethod
-    def of(
-        cls,
-        ape: bool,
-        rpe: bool,
-        words: list[str] | None,
-        fit: Fit,
-        match: Match,
-        per: str,
-        output: Path | None,
-        force: bool,
-    ) -> "ErrorOptions | None":
-        """Check the options; return None if neither --ape nor --rpe is given.
-
-        Raises:
-            UsageError: If one is given that they do not use, or is no such value.
-        """
-        if not ape and not rpe:
-            used = words or output or force or (fit, match, per) != ("none", "nearest", "1")
-            if used:
-                raise UsageError(
-                    "--pair, --fit, --match, --per, -o and --force go with --ape or --rpe: add one."
-                )
-            return None
-        if output is not None:
-            if output.suffix.lower().removeprefix(".") not in figure.FORMATS:
-                raise UsageError(f"cannot draw to '{output}': end it in .svg, .pdf or .png.")
-            refuse_existing(output, force=force)
-        kinds = tuple(name for name, wanted in (("ape", ape), ("rpe", rpe)) if wanted)
-        return cls(
-            kinds, pairs_of_sides(words or []), fit, match, PieceLength.read(per), output, force
-        )
-
-    def measure(self, first: Side, second: Side, *, for_programs: bool) -> None:
-        """Measure the errors, print them, and draw them on request."""
-        found = trajectory_errors(
-            first.buffer,
-            second.buffer,
-            self.pairs,
-            kinds=self.kinds,
-            fit=self.fit,
-            match=self.match,
-            step=self.step,
-        )
-        names = first.name, second.name
-        if self.output is not None:
-            form = self.output.suffix.lower().removeprefix(".")
-            title = f"errors of {second.name} against {first.name}"
-            with whole_file(self.output, force=self.force) as file:
-                figure.write_panels(error_view.panels(found), title, file, form)
-            notice(visible(f"Drew {found.matched} matched poses to {self.output}."))
-        if for_programs:
-            written = json.dumps(error_view.as_object(found, names), indent=2, allow_nan=False)
-            sys.stdout.write(written + "\n")
-        else:
-            sys.stdout.write(error_view.lines(found, names, line_width()))

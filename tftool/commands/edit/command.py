@@ -1,6 +1,5 @@
 """`tftool edit`: change the frames of recordings; repair, join and cut."""
 
-import json
 import math
 import sys
 from pathlib import Path
@@ -12,6 +11,7 @@ from tftool.buffer.forest import stripped
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.edit import EditOptions
 from tftool.commands.shared.notices import notice
+from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.frames.moment import At
 from tftool.geometry.conversions import quaternion_from_rpy
@@ -36,7 +36,7 @@ def _tell(report: EditReport, output: Path, *, dry_run: bool, for_programs: bool
             "changes": dict(report.counts),
             "notes": report.notes,
         }
-        sys.stdout.write(json.dumps(document, indent=2) + "\n")
+        write_json(document)
         return
     for note in report.notes:
         notice(visible(note))

@@ -1,7 +1,5 @@
 """Explain one lookup: in a description joint by joint, else link by link over time."""
 
-import json
-import sys
 from typing import TYPE_CHECKING, Any
 
 from tftool.base.errors import UsageError
@@ -15,7 +13,7 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.options import moment
 from tftool.commands.shared.pairs import refuse_file_as_frame
-from tftool.commands.shared.printer import write
+from tftool.commands.shared.printer import write, write_json
 from tftool.doctor.evidence import LIVE, Evidence
 from tftool.doctor.explanation import over_time, traced
 from tftool.doctor.joint_chain import chained
@@ -88,6 +86,6 @@ def _explain_joints(
 
 def _print(view: Any, found: Any, *, for_programs: bool) -> None:
     if for_programs:
-        sys.stdout.write(json.dumps(view.as_object(found), indent=2, allow_nan=False) + "\n")
+        write_json(view.as_object(found))
     else:
         write(view.render(found))

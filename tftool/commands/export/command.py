@@ -1,7 +1,5 @@
 """Write the frames of FROM to files of other tools."""
 
-import json
-import sys
 from dataclasses import replace
 
 from tftool.base.errors import UsageError
@@ -15,6 +13,7 @@ from tftool.commands.shared.notices import name_frames, notice
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import MomentOptions, pairs_and_place, refuse_several_choices
+from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.frames.export.export import (
     Exported,
@@ -63,7 +62,7 @@ def run(connection: Connection, options: ExportOptions) -> ExitStatus:
     finally:
         bar.stop()
     if options.as_json:
-        sys.stdout.write(json.dumps(_as_object(done), indent=2) + "\n")
+        write_json(_as_object(done))
     else:
         _tell(done)
     return ExitStatus.DONE

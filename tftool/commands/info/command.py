@@ -1,6 +1,5 @@
 """Print the contents of recordings and robot descriptions."""
 
-import json
 import sys
 from pathlib import Path
 
@@ -12,7 +11,7 @@ from tftool.commands.info import InfoOptions
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import complain, notice
 from tftool.commands.shared.open_from import open_from
-from tftool.commands.shared.printer import line_width
+from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import recording_view
 from tftool.frames.notes import odometry_notes
 from tftool.frames.source_options import RobotOptions
@@ -48,7 +47,7 @@ def run(connection: Connection, options: InfoOptions) -> ExitStatus:
     else:
         counts, rows = fleet.sweep(fleet.expanded(options.places), None, workers, task)
         if options.for_programs:
-            sys.stdout.write(json.dumps(rows, indent=2) + "\n")
+            write_json(rows)
         else:
             sys.stdout.write(recording_view.as_lines(rows, line_width()))
     return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
@@ -90,7 +89,7 @@ def _list_texts(connection: Connection, places: list[str], *, for_programs: bool
         for mistake in mistakes:
             complain("tftool info", mistake)
     if for_programs:
-        sys.stdout.write(json.dumps(rows, indent=2) + "\n")
+        write_json(rows)
     return ExitStatus.UNREADABLE if any(row["mistakes"] for row in rows) else ExitStatus.DONE
 
 
@@ -119,7 +118,7 @@ def _show(connection: Connection, place: str, name: str, *, for_programs: bool) 
     for sentence in (*notes, *odometry_notes(recording)):
         notice(visible(sentence))
     if for_programs:
-        sys.stdout.write(json.dumps(recording_view.as_object(recording, name), indent=2) + "\n")
+        write_json(recording_view.as_object(recording, name))
     else:
         _print(recording, name, has_urdf=connection.robot.urdf is not None)
     return ExitStatus.DONE
@@ -147,6 +146,6 @@ def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: 
     )
     robot = load_urdf(path, connection.robot.arguments)
     if for_programs:
-        sys.stdout.write(json.dumps(view.as_object(name, robot), indent=2) + "\n")
+        write_json(view.as_object(name, robot))
     else:
         sys.stdout.write(view.as_text(name, robot, line_width()))

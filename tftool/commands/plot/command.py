@@ -1,6 +1,5 @@
 """Plot pairs of frames: of a file as a whole, of a session live."""
 
-import json
 import math
 import sys
 from collections.abc import Sequence
@@ -23,6 +22,7 @@ from tftool.commands.shared.notices import name_frames, notice
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.pairs import MomentOptions, pairs_and_place
+from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import interruptible
 from tftool.drawing import figure
 from tftool.drawing import line_plot as view
@@ -138,7 +138,7 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
     if options.output is not None and form is not None:
         _write(found, options.output, form, start, style, force=options.force)
     elif options.as_json:
-        sys.stdout.write(json.dumps(_as_object(found, start, style), allow_nan=False) + "\n")
+        write_json(_as_object(found, start, style), indent=None)
     else:
         _print(found, start, style)
     return ExitStatus.DONE

@@ -1,5 +1,6 @@
 """Results: on stdout, at the terminal's width or a line each without one; and in files."""
 
+import json
 import shutil
 import sys
 from pathlib import Path
@@ -38,6 +39,12 @@ def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> N
         console.print(what, end=end)
     for line in captured.get().splitlines():
         sys.stdout.write(f"{line.rstrip()}\n")
+
+
+def write_json(content: object, *, indent: int | None = 2) -> None:
+    """Print a value as JSON; numbers that JSON does not have are refused."""
+    text = json.dumps(content, indent=indent, allow_nan=False, default=str)
+    sys.stdout.write(f"{text}\n")
 
 
 def write_file(path: Path, content: str | bytes) -> None:
