@@ -8,8 +8,8 @@ in `units`.
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
-from typing import Any, TypeAlias, TypeVar, dataclass_transform
+from dataclasses import FrozenInstanceError, dataclass
+from typing import Any, ClassVar, NamedTuple, TypeAlias, TypeVar, dataclass_transform
 
 from tftool.base.errors import Mistake
 from tftool.base.escaping import visible
@@ -181,8 +181,17 @@ class Reading:
         return found
 
 
+class DeclaredField(NamedTuple):
+    """A field that is read from a scenario; see `reads`."""
+
+    read: Reader
+    default: Any
+    key: str | None
+    beside: bool
+
+
 def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = False) -> Any:
-    """Declare a dataclass field that is read from a scenario.
+    """Declare a field that is read from a scenario.
 
     Args:
         read: Reader of its value.
@@ -190,15 +199,45 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
         key: Its key, where that is not a name in Python.
         beside: Whether the key is a sibling of the one that names the kind, not inside it.
     """
-    metadata: dict[str, Any] = {"read": read, "beside": beside}
-    if key is not None:
-        metadata["key"] = key
-    return field(default=default[0], metadata=metadata) if default else field(metadata=metadata)
+    return DeclaredField(read, default[0] if default else REQUIRED, key, beside)
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(reads,))
+class Declared:
+    """Base of kinds with fields that a scenario gives: frozen, and equal if their fields are.
+
+    Not a dataclass, whose generated code took a sixth of the start of a scenario.
+    """
+
+    declared: ClassVar[Mapping[str, DeclaredField]] = {}
+
+    def __init_subclass__(cls) -> None:
+        own = {name: one for name, one in vars(cls).items() if isinstance(one, DeclaredField)}
+        cls.declared = {**cls.declared, **own}
+
+    def __init__(self, **given: Any) -> None:
+        values = {name: given.pop(name, one.default) for name, one in self.declared.items()}
+        missing = [name for name, value in values.items() if value is REQUIRED]
+        if missing or given:
+            raise TypeError(f"{type(self).__name__}: fields missing {missing}, unknown {[*given]}")
+        vars(self).update(values)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __eq__(self, other: object) -> bool:
+        return type(self) is type(other) and vars(self) == vars(other)
+
+    def __hash__(self) -> int:
+        return hash((type(self), *vars(self).values()))
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value!r}" for name, value in vars(self).items())
+        return f"{type(self).__name__}({values})"
+
+
 def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[[type[T]], type[T]]:
-    """Make a class the frozen dataclass of one kind, and enter it in the table of the kinds.
+    """Enter a class in the table of its kinds.
 
     Args:
         kinds: Table of all kinds, by their keys.
@@ -209,27 +248,23 @@ def declare(kinds: dict[str, type[Any]], key: str, **facts: object) -> Callable[
     def enter(kind: type[T]) -> type[T]:
         for name, value in {"key": key, **facts}.items():
             setattr(kind, name, value)
-        # With slots this is another class than `kind`: only this one may be entered.
-        kinds[key] = made = dataclass(frozen=True, slots=True, kw_only=True)(kind)
-        return made
+        kinds[key] = kind
+        return kind
 
     return enter
 
 
-def parts_of(kind: type) -> dict[str, tuple[Key, bool]]:
-    """Return the keys that a dataclass reads, and whether each is written beside the main value."""
-    parts = {}
-    for one in fields(kind):
-        if "read" in one.metadata:
-            default = REQUIRED if one.default is MISSING else one.default
-            key = one.metadata.get("key", one.name)
-            parts[key] = Key(one.metadata["read"], default), one.metadata["beside"]
-    return parts
+def parts_of(kind: type[Declared]) -> dict[str, tuple[Key, bool]]:
+    """Return the keys that a kind reads, and whether each is written beside the main value."""
+    return {
+        one.key or name: (Key(one.read, one.default), one.beside)
+        for name, one in kind.declared.items()
+    }
 
 
-def attribute_names(kind: type) -> dict[str, str]:
-    """Return the dataclass attribute for each of its keys."""
-    return {one.metadata.get("key", one.name): one.name for one in fields(kind)}
+def attribute_names(kind: type[Declared]) -> dict[str, str]:
+    """Return the attribute for each of a kind's keys."""
+    return {one.key or name: name for name, one in kind.declared.items()}
 
 
 def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
@@ -268,10 +303,10 @@ def tagged(
         what: Noun for messages, with its article.
         kinds: Dataclass of each such key.
         common: Keys allowed beside all of them.
-        beside: Keys allowed beside each, besides the dataclass's own.
+        beside: Keys allowed beside each, besides its own.
 
     Returns:
-        The key, its dataclass, and the values beside it.
+        The key, the object of its kind, and the values beside it.
     """
     entries = reading.entries(node, f"{listed(common)} and what it is about")
     tag = _tag(node, reading, what, kinds, common, beside)

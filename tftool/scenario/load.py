@@ -354,8 +354,7 @@ class _ScenarioReader:
             )
         name, question, given = tagged(node, reading, "an expectation", SUBJECTS, common, beside)
         whens = reading.try_read(lambda _, r: self.whens(node.place, given, r), node)
-        own = {field: getattr(question, field) for field in question.__dataclass_fields__}
-        check = SUBJECTS[name].form.make({**own, **given}, reading, node.place)
+        check = SUBJECTS[name].form.make({**vars(question), **given}, reading, node.place)
         if whens is UNREAD:
             raise Unreadable
         line = node.place.line + 1

@@ -1,12 +1,11 @@
 """Questions about a scenario: the subjects of expectations, with their answers.
 
-A subject is a dataclass: each field names the reader of its value, and `answer` finds the answer.
+Each field of a subject names the reader of its value, and `answer` finds the answer.
 `declare` enters it in `SUBJECTS`, with its name in a scenario and the form of its expected answer.
 """
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from tftool.base.errors import LookupException
@@ -30,7 +29,7 @@ from tftool.scenario.answer_checks import (
     range_form,
 )
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, check_or_area
-from tftool.scenario.fields import declare, reads
+from tftool.scenario.fields import Declared, declare, reads
 from tftool.scenario.units import (
     ANGLE,
     DURATION,
@@ -100,15 +99,13 @@ SUBJECTS: Final[dict[str, type["Subject"]]] = {}
 """Every subject, by its key."""
 
 
-class Subject:
+class Subject(Declared):
     """Something that can be asked about a scenario at some time.
 
     Attributes:
         key: Its key in a scenario.
         form: Form of its expected answer.
     """
-
-    __slots__ = ()
 
     key: ClassVar[str]
     form: ClassVar[Form]
@@ -178,7 +175,6 @@ class Lookup(Subject):
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Between(Subject):
     """Two frames, the second one relative to the first; see `Lookup` for the times."""
 
@@ -253,7 +249,6 @@ class PointOf(Subject):
         return f"point ({self.x:g}, {self.y:g}, {self.z:g}) of {self.frame} in {self.target}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Motion(Subject):
     """Motion of one frame in another, averaged over a duration."""
 
@@ -292,7 +287,6 @@ class TurnRateOf(Motion):
         return f"turn rate of {self.frame} in {self.target}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class OfFrame(Subject):
     """A number measured for one frame."""
 

@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, ClassVar, Final
 
 from tftool.base.errors import TftoolError
@@ -24,7 +23,7 @@ from tftool.messages.turtle_messages import (
     twist,
 )
 from tftool.scenario import units as values
-from tftool.scenario.fields import declare, reads
+from tftool.scenario.fields import Declared, declare, reads
 from tftool.scenario.scenario import Outcome, Step
 from tftool.scenario.units import RelativeMoment
 from tftool.world.node import PATIENCE, Node
@@ -117,14 +116,12 @@ ACTIONS: Final[dict[str, type["Action"]]] = {}
 """Every action, by its key."""
 
 
-class Action:
+class Action(Declared):
     """Something that happens at a time of a scenario.
 
     Attributes:
         key: Its key in a scenario.
     """
-
-    __slots__ = ()
 
     key: ClassVar[str]
 
@@ -286,7 +283,6 @@ class ResetField(ClearField):
     """Reset the field to one turtle in the centre."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class FrameAction(Action):
     """Pose of a child in its parent."""
 
