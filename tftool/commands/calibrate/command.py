@@ -3,20 +3,24 @@
 import json
 import math
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, NoReturn
 
 import numpy as np
 
-from tftool.base.errors import InputError, LookupException, TransformException, UsageError
+from tftool.base.errors import InputError, TransformException, UsageError
 from tftool.base.escaping import visible
 from tftool.base.exit_status import ExitStatus
 from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import Buffer
 from tftool.commands.calibrate import CalibrateOptions
 from tftool.commands.calibrate.calibration_report import page
-from tftool.commands.calibrate.mount_files import MOUNT_FILES, joint_to_change, write_mount
+from tftool.commands.calibrate.mount_files import (
+    MOUNT_FILES,
+    PublishedMount,
+    joint_to_change,
+    write_mount,
+)
 from tftool.commands.shared.notices import notice
 from tftool.commands.shared.options import refuse
 from tftool.commands.shared.printer import line_width, write_file, write_json
@@ -33,11 +37,10 @@ from tftool.frames.calibration.motion import (
 )
 from tftool.frames.frames import Frames
 from tftool.frames.pair_samples import links_between, sample
-from tftool.geometry.rigid import Transform
 from tftool.opener import open_frames
 from tftool.recordings.target import refuse_existing
 from tftool.recordings.tf_topics import implying
-from tftool.robots.robot_model import Robot, load_urdf
+from tftool.robots.robot_model import load_urdf
 
 
 def run(options: CalibrateOptions) -> ExitStatus:
@@ -76,7 +79,7 @@ def run(options: CalibrateOptions) -> ExitStatus:
                 "--frames PARENT:CHILD behind each pose file."
             )
         robot = None if options.urdf is None else load_urdf(options.urdf)
-        published = _Published.of(robot, opened[0], paths, options.mounted)
+        published = PublishedMount.of(robot, opened[0], paths, options.mounted)
         if options.check:
             published.refuse_without_mount()
         chosen = (
@@ -125,7 +128,7 @@ def _refuse_outputs(
         raise UsageError("-o robot.urdf changes a description: name it with --urdf FILE.")
 
 
-def _print(found: Calibration, checked: "_Published | None", *, for_programs: bool) -> bool:
+def _print(found: Calibration, checked: PublishedMount | None, *, for_programs: bool) -> bool:
     """Print a calibration; return whether the mount to check is outside of its interval."""
     outside, compared = ((), None) if checked is None else _compared(found, checked)
     if for_programs:
@@ -272,63 +275,12 @@ def _print_clocks(paths: list[TransformArray], *, for_programs: bool) -> ExitSta
 # The published mount
 
 
-@dataclass(frozen=True, slots=True)
-class _Published:
-    """Mount as tf or a description has it.
-
-    Attributes:
-        mount: The mounted frame in moving_a; None where none is published.
-        name: The mounted frame's name there.
-        parent: moving_a.
-        robot: The description; None without one.
-        buffer: Frames to look up the links between.
-    """
-
-    mount: Transform | None
-    name: str
-    parent: str
-    robot: Robot | None
-    buffer: Buffer
-
-    @classmethod
-    def of(
-        cls, robot: Robot | None, frames: Frames, paths: list[TransformArray], mounted: str | None
-    ) -> "_Published":
-        parent, name = paths[0].child_frame_id, mounted or paths[1].child_frame_id
-        buffer = frames.buffer if robot is None else robot.buffer()
-        try:
-            mount = buffer.lookup_transform(parent, name).transform
-        except TransformException:
-            if mounted is not None:
-                known = buffer.frame_exists(mounted)
-                reason = f"is not joined with '{parent}'" if known else "is no frame"
-                label = frames.label if robot is None else robot.name
-                raise LookupException(
-                    f"--mounted {mounted}: '{mounted}' {reason} in {visible(label)}.",
-                    frame=mounted,
-                ) from None
-            mount = None
-        return cls(mount, name, parent, robot, buffer)
-
-    def refuse_without_mount(self) -> None:
-        """Refuse to compare with a mount that nobody published.
-
-        Raises:
-            UsageError: If none is.
-        """
-        if self.mount is None:
-            raise UsageError(
-                f"No mount of '{self.name}' on '{self.parent}' is published: give a "
-                "description with --urdf FILE, or the frame with --mounted NAME."
-            )
-
-
 LEAST_DIFFERENCE: Final = (0.001, 0.1)
 """Metres and degrees by which a mount may differ however small its interval is, as for `diff`."""
 
 
 def _compared(
-    found: Calibration, published: _Published
+    found: Calibration, published: PublishedMount
 ) -> tuple[list[str], dict[str, object] | None]:
     """Compare the published mount with the estimated one."""
     if published.mount is None or found.mount is None or found.interval95 is None:

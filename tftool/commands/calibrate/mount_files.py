@@ -1,16 +1,21 @@
 """Writing a mount: as one origin of a description, or as a static transform publisher."""
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, Protocol
+from typing import Final
 from xml.parsers import expat
 
-from tftool.base.errors import InputError, UsageError
+from tftool.base.errors import InputError, LookupException, TransformException, UsageError
+from tftool.base.escaping import visible
+from tftool.buffer.batch.transform_array import TransformArray
 from tftool.buffer.buffer import NO_LIMIT, Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.shared.printer import write_file
 from tftool.frames.calibration.calibrate import Calibration
 from tftool.frames.export.export import export
+from tftool.frames.frames import Frames
 from tftool.geometry.notation.text import publisher_words, urdf_origin
+from tftool.geometry.rigid import Transform
 from tftool.robots.description import RobotJoint
 from tftool.robots.robot_model import Robot
 from tftool.robots.urdf import is_xacro
@@ -19,24 +24,60 @@ MOUNT_FILES: Final = (".urdf", ".launch.py", ".launch.yaml", ".launch.xml", ".sh
 """Ends of the names of files that a mount is written to."""
 
 
-class PublishedMount(Protocol):
-    """Mount as tf or a description has it."""
+@dataclass(frozen=True, slots=True)
+class PublishedMount:
+    """Mount as tf or a description has it.
 
-    @property
-    def name(self) -> str:
-        """Name of the mounted frame."""
+    Attributes:
+        mount: The mounted frame in moving_a; None where none is published.
+        name: The mounted frame's name there.
+        parent: moving_a.
+        robot: The description; None without one.
+        buffer: Frames to look up the links between.
+    """
 
-    @property
-    def parent(self) -> str:
-        """Frame it is mounted on."""
+    mount: Transform | None
+    name: str
+    parent: str
+    robot: Robot | None
+    buffer: Buffer
 
-    @property
-    def robot(self) -> Robot | None:
-        """Robot description; None without one."""
+    @classmethod
+    def of(
+        cls, robot: Robot | None, frames: Frames, paths: list[TransformArray], mounted: str | None
+    ) -> "PublishedMount":
+        """Find the mount in a description, else in tf.
 
-    @property
-    def buffer(self) -> Buffer:
-        """Frames of the description or of tf."""
+        Raises:
+            LookupException: If `mounted` is no frame that is joined with moving_a.
+        """
+        parent, name = paths[0].child_frame_id, mounted or paths[1].child_frame_id
+        buffer = frames.buffer if robot is None else robot.buffer()
+        try:
+            mount = buffer.lookup_transform(parent, name).transform
+        except TransformException:
+            if mounted is not None:
+                known = buffer.frame_exists(mounted)
+                reason = f"is not joined with '{parent}'" if known else "is no frame"
+                label = frames.label if robot is None else robot.name
+                raise LookupException(
+                    f"--mounted {mounted}: '{mounted}' {reason} in {visible(label)}.",
+                    frame=mounted,
+                ) from None
+            mount = None
+        return cls(mount, name, parent, robot, buffer)
+
+    def refuse_without_mount(self) -> None:
+        """Refuse to compare with a mount that nobody published.
+
+        Raises:
+            UsageError: If none is.
+        """
+        if self.mount is None:
+            raise UsageError(
+                f"No mount of '{self.name}' on '{self.parent}' is published: give a "
+                "description with --urdf FILE, or the frame with --mounted NAME."
+            )
 
 
 def write_mount(
@@ -67,7 +108,7 @@ def write_mount(
     if output.suffix != ".urdf":
         buffer = Buffer(NO_LIMIT)
         buffer.set_transform_static(TransformStamped(0, parent, child, pose), "calibrate")
-        _publish(output, buffer)
+        export(buffer, path=output, force=True)
         words = " ".join(publisher_words(pose))
         return [f"Wrote {output}: {words} --frame-id {parent} --child-frame-id {child}"]
     assert urdf is not None
@@ -82,10 +123,6 @@ def write_mount(
         )
     write_file(output, with_origin(text, chosen.name, origin))
     return [f"Wrote {output}: joint '{chosen.name}' has {origin}"]
-
-
-def _publish(output: Path, buffer: Buffer) -> None:
-    export(buffer, path=output, force=True)
 
 
 def joint_to_change(output: Path, published: PublishedMount, name: str | None) -> RobotJoint | None:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from tftool.base.errors import TransformException, UsageError
 from tftool.base.exit_status import ExitStatus
-from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.base.stamps import Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
 from tftool.commands.echo import EchoOptions
@@ -19,7 +19,6 @@ from tftool.commands.shared.pairs import IDENTITY, FramePair, refuse_file_as_fra
 from tftool.drawing import echo_view as view
 from tftool.drawing.echo_view import in_words
 from tftool.frames.frames import Frames
-from tftool.frames.moment import At
 from tftool.geometry.rigid import Transform
 from tftool.opener import named
 from tftool.recordings.find import Kind
@@ -71,9 +70,25 @@ class Printer:
 def run(connection: Connection, options: EchoOptions) -> ExitStatus:
     """Run `tftool echo`."""
     frames = options.target, options.source
-    place, rate = _place_or_rate(options.place, options.rate)
-    _refuse_contradictions(
-        options.once, options.count, options.at, options.offset, options.fixed_frame
+    options.place, options.rate = _place_or_rate(options.place, options.rate)
+    place = options.place
+    refuse(
+        (
+            options.once and options.count not in (None, 1),
+            f"--once and --count {options.count} contradict each other.",
+        ),
+        (
+            options.at is not None and options.count not in (None, 1),
+            f"--at asks about one moment, and has one answer, not {options.count}.",
+        ),
+        (
+            options.fixed_frame is not None and options.offset is None,
+            "--fixed-frame needs --offset: it carries SOURCE over that time.",
+        ),
+        (
+            options.at is not None and options.offset is not None,
+            "--at and --offset both choose the moment: leave one out.",
+        ),
     )
     refuse_file_as_frame(*frames, place)
     _check_names(*frames, *([] if options.fixed_frame is None else [options.fixed_frame]))
@@ -92,64 +107,22 @@ def run(connection: Connection, options: EchoOptions) -> ExitStatus:
         connection.refuse_to_share(place)
         notice(f"{in_words(*frames)}:")
         opened = open_from(connection, place, cache_time=options.cache_time)
-        print_span(opened, frames, printer, rate=rate, topic=options.stamps_of, most=options.count)
+        print_span(opened, options, printer)
     elif is_file or options.at is not None:
-        _print_moment(connection, place, pair, printer, options.at, options.cache_time)
+        _print_moment(connection, options, pair, printer)
     else:
         from tftool.commands.echo.echo_loop import print_live
 
-        print_live(
-            connection,
-            place,
-            pair,
-            printer,
-            period=seconds(1.0 / (rate or 1.0)),
-            count=1 if options.once else options.count,
-            patience=options.timeout,
-            cache_time=options.cache_time,
-        )
+        print_live(connection, options, pair, printer)
     return ExitStatus.DONE
 
 
-def _refuse_contradictions(
-    once: bool,
-    count: int | None,
-    at: At | None,
-    offset: Duration | None,
-    fixed_frame: str | None,
-) -> None:
-    """Refuse contradicting options.
-
-    Raises:
-        UsageError: If two were given.
-    """
-    refuse(
-        (once and count not in (None, 1), f"--once and --count {count} contradict each other."),
-        (
-            at is not None and count not in (None, 1),
-            f"--at asks about one moment, and has one answer, not {count}.",
-        ),
-        (
-            fixed_frame is not None and offset is None,
-            "--fixed-frame needs --offset: it carries SOURCE over that time.",
-        ),
-        (
-            at is not None and offset is not None,
-            "--at and --offset both choose the moment: leave one out.",
-        ),
-    )
-
-
 def _print_moment(
-    connection: Connection,
-    place: str | None,
-    pair: FramePair,
-    printer: Printer,
-    at: At | None,
-    cache_time: Duration | None,
+    connection: Connection, options: EchoOptions, pair: FramePair, printer: Printer
 ) -> None:
     """Print one answer from complete frames."""
-    frames = open_from(connection, place, until=at, cache_time=cache_time)
+    at = options.at
+    frames = open_from(connection, options.place, until=at, cache_time=options.cache_time)
     heading = in_words(pair.target, pair.source)
     if at is not None:
         pair = replace(pair, at=frames.moment(at))
@@ -195,30 +168,17 @@ def _check_names(*frames: str) -> None:
             )
 
 
-def print_span(
-    frames: Frames,
-    pair: tuple[str, str],
-    printer: Printer,
-    *,
-    rate: float | None,
-    topic: str | None,
-    most: int | None,
-) -> None:
-    """Print a pair at many times; report on stderr at how many there is no answer.
+def print_span(frames: Frames, options: EchoOptions, printer: Printer) -> None:
+    """Print a pair at many moments; report on stderr at how many there is no answer.
 
-    Args:
-        frames: The recording.
-        pair: Target and source.
-        printer: How an answer is printed.
-        rate: Moments a second, from the first stamp on; once a second if None.
-        topic: Ask at the stamps of its messages instead.
-        most: How many to print; all if None.
+    The moments are those of --at-stamps-of, else --rate a second, from the first stamp on.
 
     Raises:
         InputError: If it has no such topic.
         UsageError: If there are more moments than can be asked for at once.
         TransformException: If the pair cannot be looked up at any of them.
     """
+    pair, topic = (options.target, options.source), options.stamps_of
     # Needs numpy, which an answer about one moment does without.
     from tftool.frames.pair_samples import evenly
 
@@ -227,13 +187,13 @@ def print_span(
     if topic is not None and frames.recording is not None:
         stamps = frames.recording.headers(topic).stamps
     else:
-        stamps = evenly(*frames.span, seconds(1.0 / (rate or 1.0)))
+        stamps = evenly(*frames.span, seconds(1.0 / (options.rate or 1.0)))
     path = buffer.lookup_transforms(*pair, stamps, missing="nan")
     rows = path.valid.nonzero()[0]
     if len(stamps) and not len(rows):
         # Says why, of the first.
         buffer.lookup_transform(*pair, int(stamps[0]))
-    for row in rows[:most].tolist():
+    for row in rows[: options.count].tolist():
         x, y, z = path.translations[row].tolist()
         qx, qy, qz, qw = path.rotations[row].tolist()
         pose = Transform((x, y, z), (qx, qy, qz, qw))

@@ -7,9 +7,10 @@ from collections.abc import Callable
 from rich.text import Text
 
 from tftool.base.errors import TransformException
-from tftool.base.stamps import Duration, Stamp
+from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import TransformStamped
+from tftool.commands.echo import EchoOptions
 from tftool.commands.echo.command import Printer
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
@@ -24,18 +25,11 @@ from tftool.world.world import World
 
 
 def print_live(
-    connection: Connection,
-    place: str | None,
-    pair: FramePair,
-    printer: Printer,
-    *,
-    period: Duration,
-    count: int | None,
-    patience: Duration | None,
-    cache_time: Duration | None,
+    connection: Connection, options: EchoOptions, pair: FramePair, printer: Printer
 ) -> None:
     """Look up a pair of a session repeatedly; print each answer, or replace the last one."""
-    session = open_session(connection, place, cache_time=cache_time)
+    session = open_session(connection, options.place, cache_time=options.cache_time)
+    count = 1 if options.once else options.count
     redraws = count is None and not printer.for_programs and can_redraw()
     if not redraws:
         notice(f"{view.in_words(pair.target, pair.source)}:")
@@ -50,9 +44,9 @@ def print_live(
             session.world,
             pair,
             shown,
-            period=period,
+            period=seconds(1.0 / (options.rate or 1.0)),
             count=count,
-            patience=patience,
+            patience=options.timeout,
             departures=session.departures,
         )
         session.run(echoing.run())

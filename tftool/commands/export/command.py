@@ -12,7 +12,7 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import name_frames, notice
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.options import refuse
-from tftool.commands.shared.pairs import MomentOptions, pairs_and_place, refuse_several_choices
+from tftool.commands.shared.pairs import is_chosen, moments_of, pairs_and_place
 from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import Bar, interruptible
 from tftool.frames.export.export import (
@@ -22,16 +22,12 @@ from tftool.frames.export.export import (
     write_trajectories,
 )
 from tftool.frames.export.export_formats import Format, Style, format_of
-from tftool.frames.moment import At
 from tftool.frames.pair_samples import sample
 from tftool.recordings.target import refuse_existing
 
 
 def run(connection: Connection, options: ExportOptions) -> ExitStatus:
     """Run `tftool export`."""
-    when = MomentOptions(
-        options.first, options.last, options.every, options.rate, options.stamps_of
-    )
     style = Style(
         options.precision, options.rpy, options.foxglove, options.with_moving, options.root
     )
@@ -39,7 +35,7 @@ def run(connection: Connection, options: ExportOptions) -> ExitStatus:
         raise UsageError("Say where to write it: -o FILE.")
     asked, place = pairs_and_place(options.words or [], options.pairs or [])
     form = options.form or format_of(options.output)
-    _refuse_misfits(form, asked, when, options.at, style)
+    _refuse_misfits(form, asked, options)
     refuse_existing(options.output, force=options.force)
     frames = open_from(connection, place, options.lasting, until=WHOLE)
     refuse_input(frames, options.output)
@@ -49,7 +45,7 @@ def run(connection: Connection, options: ExportOptions) -> ExitStatus:
     try:
         with interruptible():
             if form.is_trajectory:
-                moments = when.moments(frames)
+                moments = moments_of(options, frames)
                 name_frames(frames.buffer.frames(), (frame for pair in asked for frame in pair))
                 found = [sample(frames.buffer, *pair, moments) for pair in asked]
                 done = write_trajectories(
@@ -68,20 +64,14 @@ def run(connection: Connection, options: ExportOptions) -> ExitStatus:
     return ExitStatus.DONE
 
 
-def _refuse_misfits(
-    form: Format,
-    pairs: list[tuple[str, str]],
-    when: MomentOptions,
-    at: At | None,
-    style: Style,
-) -> None:
+def _refuse_misfits(form: Format, pairs: list[tuple[str, str]], options: ExportOptions) -> None:
     """Refuse options that contradict the output.
 
     Raises:
         UsageError: If one does.
     """
-    has_root = style.root is not None
-    has_at = at is not None and not style.with_moving
+    has_root = options.root is not None
+    has_at = options.at is not None and not options.with_moving
     refuse(
         (
             form.is_trajectory and not pairs,
@@ -99,10 +89,11 @@ def _refuse_misfits(
             not form.is_trajectory and has_at,
             "Static transforms have no moment: --at goes with --with-moving.",
         ),
+        (
+            is_chosen(options) and not form.is_trajectory,
+            f"{form} holds links without times: leave out the options of time.",
+        ),
     )
-    refuse_several_choices(*when.choices)
-    if any(one is not None for one in when.choices) and not form.is_trajectory:
-        raise UsageError(f"{form} holds links without times: leave out the options of time.")
 
 
 def _as_object(done: Exported) -> dict[str, object]:

@@ -3,9 +3,7 @@
 import math
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Self
 
 import numpy as np
 from rich.console import Console
@@ -21,7 +19,7 @@ from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.notices import name_frames, notice
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.commands.shared.options import refuse
-from tftool.commands.shared.pairs import MomentOptions, pairs_and_place
+from tftool.commands.shared.pairs import is_chosen, moments_of, pairs_and_place
 from tftool.commands.shared.printer import write_json
 from tftool.commands.shared.progress_bars import interruptible
 from tftool.drawing import figure
@@ -32,66 +30,44 @@ from tftool.frames.pair_series import PlotCurve, chosen, panels, shades
 from tftool.recordings.target import refuse_existing
 
 
-@dataclass(frozen=True, slots=True)
-class PlotStyle:
-    """Quantities and appearance of a plot.
+def drawn(
+    options: PlotOptions,
+    found: list[Trajectory],
+    start: Stamp,
+    console: Console,
+    *,
+    height: int | None = None,
+    span: tuple[float, float] | None = None,
+    hidden: frozenset[int] | None = None,
+) -> Text:
+    """Draw pairs at the width of a console.
 
-    Attributes:
-        quantities: Quantities to draw over time.
-        from_above: Draw the path from above instead.
-        ascii_only: With plain characters.
-        light: For a terminal with a light ground.
-        dark: A picture on a dark ground.
+    Args:
+        options: The command's options.
+        found: The pairs.
+        start: The moment that is 0 on the axis.
+        console: The console to print on; 80 columns wide unless it is a terminal.
+        height: Lines there are; as many as are good if None.
+        span: Seconds since `start` that the axis covers; from data to data if None.
+        hidden: Numbers of the curves that keys have hidden; None where there are no keys.
     """
+    width = console.width if console.is_terminal else 80
+    ascii_only = options.ascii_only or console.options.ascii_only
+    look = view.PlotLook(
+        width, height, ascii_only, options.light, hidden is not None, hidden or frozenset()
+    )
+    if options.from_above:
+        return view.from_above(found, look)
+    return view.over_time(found, start, _quantities(options), look, span=span)
 
-    quantities: Sequence[str]
-    from_above: bool
-    ascii_only: bool
-    light: bool
-    dark: bool
 
-    @classmethod
-    def of(
-        cls, only: list[str], from_above: bool, ascii_only: bool, light: bool, dark: bool
-    ) -> Self:
-        """Parse --only.
+def _quantities(options: PlotOptions) -> Sequence[str]:
+    """Return what --only names.
 
-        Raises:
-            UsageError: If it names no quantity, or goes with --xy.
-        """
-        quantities = chosen([one for text in only for one in text.split(",") if one.strip()])
-        if from_above and only:
-            raise UsageError("--xy draws the path, and --only values over time: leave one out.")
-        return cls(quantities, from_above, ascii_only, light, dark)
-
-    def text(
-        self,
-        found: list[Trajectory],
-        start: Stamp,
-        console: Console,
-        *,
-        height: int | None = None,
-        span: tuple[float, float] | None = None,
-        hidden: frozenset[int] | None = None,
-    ) -> Text:
-        """Draw pairs at the width of a console.
-
-        Args:
-            found: The pairs.
-            start: The moment that is 0 on the axis.
-            console: The console to print on; 80 columns wide unless it is a terminal.
-            height: Lines there are; as many as are good if None.
-            span: Seconds since `start` that the axis covers; from data to data if None.
-            hidden: Numbers of the curves that keys have hidden; None where there are no keys.
-        """
-        width = console.width if console.is_terminal else 80
-        ascii_only = self.ascii_only or console.options.ascii_only
-        look = view.PlotLook(
-            width, height, ascii_only, self.light, hidden is not None, hidden or frozenset()
-        )
-        if self.from_above:
-            return view.from_above(found, look)
-        return view.over_time(found, start, self.quantities, look, span=span)
+    Raises:
+        UsageError: If it names no quantity.
+    """
+    return chosen([one for text in options.only or () for one in text.split(",") if one.strip()])
 
 
 def run(connection: Connection, options: PlotOptions) -> ExitStatus:
@@ -99,16 +75,15 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
     asked, place = pairs_and_place(options.words or [], options.pairs or [])
     if not asked:
         raise UsageError("Name what to plot: tftool plot TARGET SOURCE [FROM].")
-    style = PlotStyle.of(
-        options.only or [], options.from_above, options.ascii_only, options.light, options.dark
-    )
-    when = MomentOptions(
-        options.first, options.last, options.every, options.rate, options.stamps_of
-    )
+    _quantities(options)
     is_live = (
         options.output is None and place is None and sys.stdout.isatty() and not options.as_json
     )
     refuse(
+        (
+            options.from_above and options.only,
+            "--xy draws the path, and --only values over time: leave one out.",
+        ),
         (
             options.output is None and (options.dark or options.force),
             "--dark and --force go with -o FILE.",
@@ -119,7 +94,7 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
         ),
         (options.as_json and options.from_above, "--json prints values over time: leave out --xy."),
         (
-            is_live and when != MomentOptions(),
+            is_live and (is_chosen(options) or options.first or options.last),
             "A live plot shows the last --window of time: leave out the other moments, or name a "
             "FROM.",
         ),
@@ -127,20 +102,21 @@ def run(connection: Connection, options: PlotOptions) -> ExitStatus:
     if is_live:
         from tftool.commands.plot.plot_live import plot_live
 
-        plot_live(connection, asked, style, options.window, options.lasting)
+        plot_live(connection, options, asked)
         return ExitStatus.DONE
-    form = None if options.output is None else _form_of(options.output, options.force)
+    if options.output is not None:
+        _refuse_output(options.output, force=options.force)
     frames = open_from(connection, place, options.lasting, until=WHOLE)
-    moments = when.moments(frames)
+    moments = moments_of(options, frames)
     name_frames(frames.buffer.frames(), (frame for pair in asked for frame in pair))
     found = [sample(frames.buffer, *pair, moments) for pair in asked]
     start = frames.start or min(int(one.path.stamps[0]) for one in found)
-    if options.output is not None and form is not None:
-        _write(found, options.output, form, start, style, force=options.force)
+    if options.output is not None:
+        _write(options, options.output, found, start)
     elif options.as_json:
-        write_json(_as_object(found, start, style), indent=None)
+        write_json(_as_object(found, start, _quantities(options)), indent=None)
     else:
-        _print(found, start, style)
+        _print(options, found, start)
     return ExitStatus.DONE
 
 
@@ -158,7 +134,9 @@ def _curve(curve: PlotCurve, pair: Trajectory) -> dict[str, object]:
     }
 
 
-def _as_object(found: list[Trajectory], start: Stamp, style: PlotStyle) -> dict[str, object]:
+def _as_object(
+    found: list[Trajectory], start: Stamp, quantities: Sequence[str]
+) -> dict[str, object]:
     """Return the curves for --json; null where a curve is interrupted."""
     return {
         "schema": "tftool.plot/1",
@@ -169,7 +147,7 @@ def _as_object(found: list[Trajectory], start: Stamp, style: PlotStyle) -> dict[
                 "unit": panel.unit,
                 "curves": [_curve(one, found[one.place]) for one in panel.curves],
             }
-            for panel in panels(found, start, style.quantities)
+            for panel in panels(found, start, quantities)
         ],
         "refused": [
             {"first_s": one.first, "last_s": one.last, "reason": one.reason.strip()}
@@ -178,44 +156,36 @@ def _as_object(found: list[Trajectory], start: Stamp, style: PlotStyle) -> dict[
     }
 
 
-def _form_of(output: Path, force: bool) -> str:
+def _form(output: Path) -> str:
+    return output.suffix.lower().removeprefix(".")
 
-    form = output.suffix.lower().removeprefix(".")
-    if form not in figure.FORMATS:
+
+def _refuse_output(output: Path, *, force: bool) -> None:
+    if _form(output) not in figure.FORMATS:
         raise UsageError(f"'{output}' has no known suffix: end it in .svg, .pdf or .png.")
     refuse_existing(output, force=force)
-    return form
 
 
-def _write(
-    found: list[Trajectory],
-    output: Path,
-    form: str,
-    start: Stamp,
-    style: PlotStyle,
-    *,
-    force: bool,
-) -> None:
-
-    with interruptible(), whole_file(output, force=force) as file:
+def _write(options: PlotOptions, output: Path, found: list[Trajectory], start: Stamp) -> None:
+    with interruptible(), whole_file(output, force=options.force) as file:
         figure.write(
             found,
             file,
-            form,
+            _form(output),
             start=start,
-            quantities=style.quantities,
-            xy=style.from_above,
-            dark=style.dark,
+            quantities=_quantities(options),
+            xy=options.from_above,
+            dark=options.dark,
         )
     moments = count(sum(len(one.path) for one in found), "moment")
     notice(visible(f"Drew {moments} to {output}."))
 
 
-def _print(found: list[Trajectory], start: Stamp, style: PlotStyle) -> None:
+def _print(options: PlotOptions, found: list[Trajectory], start: Stamp) -> None:
     console = Console()
     # The last line is the prompt's.
     height = console.height - 1 if console.is_terminal else None
-    text = style.text(found, start, console, height=height)
+    text = drawn(options, found, start, console, height=height)
     if not console.is_terminal:
         sys.stdout.write(text.plain)
         return

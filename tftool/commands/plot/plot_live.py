@@ -6,7 +6,8 @@ from rich.text import Text
 
 from tftool.base.errors import InputError, TransformException, UsageError
 from tftool.base.stamps import Duration, Stamp, as_seconds, seconds
-from tftool.commands.plot.command import PlotStyle
+from tftool.commands.plot import PlotOptions
+from tftool.commands.plot.command import drawn
 from tftool.commands.shared.connection import Connection
 from tftool.commands.shared.hosting import open_session
 from tftool.commands.shared.terminal import keyboard, left_while_stopped
@@ -72,21 +73,15 @@ class PlotSight:
         return f"{back}q quit  + - zoom  left right time  0 all  1-9 hide a curve"
 
 
-def plot_live(
-    connection: Connection,
-    pairs: list[tuple[str, str]],
-    style: PlotStyle,
-    window: Duration,
-    lasting: Duration | None,
-) -> None:
+def plot_live(connection: Connection, options: PlotOptions, pairs: list[tuple[str, str]]) -> None:
     """Draw a session's plot until q is pressed or the command is stopped."""
     console = Console()
-    session = open_session(connection, None, cache_time=FARTHEST_BACK * window + seconds(1))
+    session = open_session(connection, None, cache_time=FARTHEST_BACK * options.window + seconds(1))
     world = session.world
     world.clock.when_killed.add(leave_screen, "screen")
     start = min(world.clock.now(), world.clock.epoch) or world.clock.now()
 
-    sight = PlotSight(window)
+    sight = PlotSight(options.window)
 
     async def draw() -> None:
         with (
@@ -95,11 +90,11 @@ def plot_live(
             left_while_stopped(live.stop, live.start),
         ):
             due = world.clock.now()
-            end = None if lasting is None else due + lasting
+            end = None if options.lasting is None else due + options.lasting
             world.clock.limit(end)
             while not sight.ended and (end is None or due <= end):
                 height = console.height - takes_keys
-                text = _newest(world, pairs, style, start, sight, console, height)
+                text = _newest(world, options, pairs, start, sight, console, height)
                 if takes_keys:
                     hint = sight.hint[: console.width - 1]
                     text.append(hint, "yellow" if sight.span(due)[1] < due else "dim")
@@ -112,8 +107,8 @@ def plot_live(
 
 def _newest(
     world: World,
+    options: PlotOptions,
     pairs: list[tuple[str, str]],
-    style: PlotStyle,
     start: Stamp,
     sight: PlotSight,
     console: Console,
@@ -137,4 +132,4 @@ def _newest(
     except (TransformException, UsageError, InputError) as refusal:
         return Text(f"Waiting: {refusal}\n", style="yellow", overflow="fold")
     span = as_seconds(begin - start), as_seconds(now - start)
-    return style.text(found, start, console, height=height, span=span, hidden=sight.hidden)
+    return drawn(options, found, start, console, height=height, span=span, hidden=sight.hidden)

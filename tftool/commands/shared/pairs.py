@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from tftool.base.errors import LookupException, UsageError
 from tftool.base.escaping import visible
@@ -124,57 +124,46 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
     return pairs, words[0] if words else None
 
 
-def refuse_several_choices(*given: object) -> None:
-    """Refuse more than one of --every, --rate and --at-stamps-of; None means not given.
+class SpanOptions(Protocol):
+    """Options of a command that choose times within a span."""
+
+    first: At | None
+    last: At | None
+    every: Duration | None
+    rate: float | None
+    stamps_of: str | None
+
+
+def is_chosen(options: SpanOptions) -> bool:
+    """Whether an option chooses the times; refuse more than one way to do it.
 
     Raises:
         UsageError: If there are more.
     """
-    if sum(one is not None for one in given) > 1:
+    given = [one for one in (options.every, options.rate, options.stamps_of) if one is not None]
+    if len(given) > 1:
         raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
+    return bool(given)
 
 
-@dataclass(frozen=True, slots=True)
-class MomentOptions:
-    """Options that choose times within a span.
+def moments_of(options: SpanOptions, frames: Frames) -> "Moments":
+    """Return the times at which a pair is looked up.
 
-    Attributes:
-        first: The first one; None for the beginning.
-        last: The last one; None for the end.
-        every: The period, nanoseconds.
-        rate: The same, hertz.
-        stamps_of: Ask at the stamps of this topic's messages instead.
+    Raises:
+        InputError: If there is no such topic.
+        UsageError: If several ways to choose are given, or a topic where nothing is recorded,
+            or the span does not fit.
     """
+    from tftool.frames.pair_samples import Moments
 
-    first: At | None = None
-    last: At | None = None
-    every: Duration | None = None
-    rate: float | None = None
-    stamps_of: str | None = None
-
-    @property
-    def choices(self) -> tuple[object, ...]:
-        """Return the options that choose times within the span; None if not given."""
-        return self.every, self.rate, self.stamps_of
-
-    def moments(self, frames: Frames) -> "Moments":
-        """Return the times at which a pair is looked up.
-
-        Raises:
-            InputError: If there is no such topic.
-            UsageError: If several ways to choose are given, or a topic where nothing is recorded,
-                or the span does not fit.
-        """
-        from tftool.frames.pair_samples import Moments
-
-        ends = _span(frames, self.first, self.last)
-        refuse_several_choices(*self.choices)
-        if self.stamps_of is not None:
-            if frames.recording is None:
-                raise UsageError("--at-stamps-of goes with a recording.")
-            stamps = frames.recording.headers(self.stamps_of).stamps
-            return Moments(*ends, stamps=stamps, words=f"at the stamps of '{self.stamps_of}'")
-        return Moments(*ends, self.every if self.rate is None else seconds(1.0 / self.rate))
+    ends = _span(frames, options.first, options.last)
+    is_chosen(options)
+    if options.stamps_of is not None:
+        if frames.recording is None:
+            raise UsageError("--at-stamps-of goes with a recording.")
+        stamps = frames.recording.headers(options.stamps_of).stamps
+        return Moments(*ends, stamps=stamps, words=f"at the stamps of '{options.stamps_of}'")
+    return Moments(*ends, options.every if options.rate is None else seconds(1.0 / options.rate))
 
 
 def _span(frames: Frames, first: At | None, last: At | None) -> tuple[Stamp | None, Stamp | None]:
