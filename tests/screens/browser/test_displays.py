@@ -94,7 +94,7 @@ def marker_of(recording, number, kind, *, at=0.0, frame="world", x=0.0, color=(1
 
 
 def markers_of(recording, *several):
-    message = recording.new_message(markers.TYPE)
+    message = recording.new_message(markers.TYPES[0])
     message.markers = list(several)
     return message
 
@@ -241,7 +241,7 @@ def test_no_marker_of_a_session_is_lost_between_two_rounds():
     world = World(SimClock())
     displays = LiveDisplays(world)
     world.broadcast([TransformStamped(0, "world", "robot", Transform())], "test", static=True)
-    publisher = world.publisher("test", "marks", INTERFACES.message(markers.TYPE))
+    publisher = world.publisher("test", "marks", INTERFACES.message(markers.TYPES[0]))
     for number in range(3):
         one = marker_of(CLASSES, number, CUBE, x=float(number))
         one.header.stamp.sec = one.header.stamp.nanosec = 0
@@ -395,7 +395,7 @@ def test_the_last_message_of_a_topic_is_sent_within_the_bytes_of_a_round():
     for x in range(3):
         place.point.x = float(x)
         goal.publish(place)
-    kind = INTERFACES.message(cloud.TYPE)
+    kind = INTERFACES.message(cloud.TYPES[0])
     large = cloud_of(CLASSES, np.random.default_rng(1).normal(size=(200_000, 3)), frame="lidar")
     world.broadcast([TransformStamped(0, "world", "lidar", Transform())], "test", static=True)
     for topic in ("a", "b", "c"):
@@ -454,7 +454,7 @@ def test_a_topic_of_another_type_is_left_alone_and_a_changed_quality_followed():
     world = World(SimClock())
     displays = LiveDisplays(world)
     world.topic("odd", INTERFACES.message("std_msgs/msg/String"))
-    odd = Endpoint(PUBLISHER, "other", "odd", point.TYPE, Quality(), is_remote=True)
+    odd = Endpoint(PUBLISHER, "other", "odd", point.TYPES[0], Quality(), is_remote=True)
     world.endpoints.add(odd)
     first = world.publisher("first", "goal", PointStamped, Quality(is_latched=True))
     second = world.publisher("second", "goal", PointStamped, Quality(is_reliable=False))

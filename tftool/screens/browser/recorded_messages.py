@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from importlib import import_module
+from pkgutil import iter_modules
 from typing import Any, Final
 
 import numpy as np
@@ -10,7 +12,8 @@ from tftool.base.errors import InputError, TransformException
 from tftool.base.stamps import Stamp
 from tftool.buffer.buffer import Buffer
 from tftool.recordings.recording import Recording, open_recording
-from tftool.screens.browser.displays import cloud, markers, path, point, scan
+from tftool.screens.browser import displays
+from tftool.screens.browser.displays import markers
 from tftool.screens.browser.displays.shapes import MOST_POINTS, Arrival, DrawnMessage, Shape
 from tftool.screens.browser.packing import PackedBlock
 from tftool.screens.browser.protocol import since
@@ -18,11 +21,14 @@ from tftool.screens.browser.protocol import since
 Draw = Callable[[Any, Arrival], DrawnMessage]
 
 DISPLAYS: Final[dict[str, Draw]] = {
-    one.TYPE: one.draw for one in (point, path, cloud, scan, markers)
-} | {markers.SINGLE: markers.draw}
-"""By the type of a message: how it is drawn."""
+    name: one.draw
+    for module in iter_modules(displays.__path__, f"{displays.__name__}.")
+    for one in [import_module(module.name)]
+    for name in getattr(one, "TYPES", ())
+}
+"""By the type of a message: how it is drawn, by the file in `displays/` that names the type."""
 
-ACCUMULATED: Final = {markers.TYPE, markers.SINGLE}
+ACCUMULATED: Final = frozenset(markers.TYPES)
 """Types whose messages change what the ones before them showed: every message is drawn."""
 
 MOST_TOPICS: Final = 40

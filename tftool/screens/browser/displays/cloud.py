@@ -7,7 +7,7 @@ import numpy as np
 from tftool.base.errors import InputError
 from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, drawn
 
-TYPE: Final = "sensor_msgs/msg/PointCloud2"
+TYPES: Final = ("sensor_msgs/msg/PointCloud2",)
 
 _FORMATS: Final = {7: "f4", 8: "f8"}
 

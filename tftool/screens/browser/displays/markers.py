@@ -22,8 +22,7 @@ from tftool.screens.browser.displays.shapes import (
     stamp_of,
 )
 
-TYPE: Final = "visualization_msgs/msg/MarkerArray"
-SINGLE: Final = "visualization_msgs/msg/Marker"
+TYPES: Final = ("visualization_msgs/msg/MarkerArray", "visualization_msgs/msg/Marker")
 
 DELETE, DELETE_ALL = 2, 3
 

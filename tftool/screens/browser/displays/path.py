@@ -6,7 +6,7 @@ import numpy as np
 
 from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, drawn
 
-TYPE: Final = "nav_msgs/msg/Path"
+TYPES: Final = ("nav_msgs/msg/Path",)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:

@@ -6,7 +6,7 @@ import numpy as np
 
 from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, drawn
 
-TYPE: Final = "geometry_msgs/msg/PointStamped"
+TYPES: Final = ("geometry_msgs/msg/PointStamped",)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:

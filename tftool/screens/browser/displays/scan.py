@@ -6,7 +6,7 @@ import numpy as np
 
 from tftool.screens.browser.displays.shapes import Arrival, DrawnMessage, drawn
 
-TYPE: Final = "sensor_msgs/msg/LaserScan"
+TYPES: Final = ("sensor_msgs/msg/LaserScan",)
 
 
 def draw(message: Any, arrival: Arrival) -> DrawnMessage:
