@@ -11,7 +11,7 @@ from tftool.buffer.sample import TransformStamped
 from tftool.world.clock import Clock, Phase
 from tftool.world.endpoints import TF, TF_STATIC, USUAL, Quality
 from tftool.world.node_parameters import Parameters, Value
-from tftool.world.registry import Resident
+from tftool.world.supervisor import Resident
 from tftool.world.world import TopicPublisher, TransformMessage, World
 
 T = TypeVar("T")

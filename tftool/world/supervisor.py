@@ -2,18 +2,39 @@
 
 import asyncio
 from collections.abc import Callable, Coroutine
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from tftool.base.errors import NodeFailed, TftoolError, line_of
 from tftool.base.stamps import Stamp, as_seconds
 from tftool.world.clock import Clock, Phase, SimClock
-from tftool.world.registry import Resident
 from tftool.world.stopper import PATIENCE, Overdue, abandon, line_of_task, node_task_name
 
 if TYPE_CHECKING:
     from tftool.world.world import World
 
 T = TypeVar("T")
+
+
+class Resident:
+    """Something named that runs in a world: a node, or a program with nodes.
+
+    Nodes know their world; the world knows them only as residents.
+
+    Attributes:
+        name: Its name; no two residents of a world share one.
+        rank: Its place among them: within a phase the one that joined first goes first.
+        is_shown: Whether lists of nodes name it; a program that only carries nodes stays out.
+    """
+
+    name: str
+    rank: int
+    is_shown: ClassVar[bool] = True
+
+    async def run(self) -> None:
+        """Run it; it ends when this returns."""
+
+    def close(self) -> None:
+        """Close everything it offers; called at its end."""
 
 
 async def live(world: "World", *, until: Stamp | None = None) -> None:

@@ -1,4 +1,4 @@
-"""Typed topics within one process, and goals of actions.
+"""Typed topics within one process, goals of actions, and servers by name.
 
 Delivery is a direct call: `publish` calls every subscriber, in the order of subscription, before it
 returns.
@@ -7,10 +7,12 @@ returns.
 import asyncio
 import itertools
 from collections import deque
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, Generic, Literal, TypeVar
 
+from tftool.base.errors import TftoolError
 from tftool.base.listeners import Listeners, Report
 from tftool.world.endpoints import Endpoint
 
@@ -260,3 +262,85 @@ class GoalHandle:
 
 Acceptor = Callable[[Any], None]
 """Takes a goal over; it ends it with `finish`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Offer(Generic[T]):
+    """A service or an action.
+
+    Attributes:
+        take: Function that answers requests or takes goals.
+        kind: The ROS class of the service or action. None where it is not stated; it stays inside
+            the process then, and takes anything.
+        node: The node that answers, "" where it is not stated.
+        is_remote: Whether another process answers; a server here takes its place.
+    """
+
+    take: T
+    kind: Any = None
+    node: str = ""
+    is_remote: bool = False
+
+
+class NamedOffers(Generic[T]):
+    """Services or actions by name, with their servers in order of succession.
+
+    Attributes:
+        by_name: Offers by name, read-only.
+    """
+
+    def __init__(self, what: str, changed: Callable[[], object]) -> None:
+        """Start empty.
+
+        Args:
+            what: Their kind: "service", "action".
+            changed: Called when an offer is added or removed.
+        """
+        self._what = what
+        self._changed = changed
+        self._first: dict[str, Offer[T]] = {}
+        self._next: dict[str, list[Offer[T]]] = {}
+        self.by_name: Mapping[str, Offer[T]] = MappingProxyType(self._first)
+
+    def add(self, name: str, offer: Offer[T], *, shares: bool) -> Callable[[], None]:
+        """Add a server; call the returned function to remove it.
+
+        Args:
+            name: Its name.
+            offer: The offer.
+            shares: Whether another of this process may have that name already.
+
+        Raises:
+            TftoolError: If another has, and it may not.
+        """
+        name = name.removeprefix("/")
+        if name in self._first and not self._first[name].is_remote:
+            if not shares:
+                raise TftoolError(f"{self._what} '{name}' already has a server")
+            self._next.setdefault(name, []).append(offer)
+        else:
+            self._first[name] = offer
+            self._changed()
+
+        def stop() -> None:
+            later = [one for one in self._next.pop(name, ()) if one is not offer]
+            leads = self._first.get(name) is offer
+            if leads:
+                del self._first[name]
+                if later:
+                    self._first[name] = later.pop(0)
+            if later:
+                self._next[name] = later
+            if leads:
+                self._changed()
+
+        return stop
+
+    def get(self, name: str) -> Offer[T] | None:
+        """Return the active server; None if there is none."""
+        return self._first.get(name.removeprefix("/"))
+
+    def count(self, name: str) -> int:
+        """Return the number of servers."""
+        plain = name.removeprefix("/")
+        return (plain in self._first) + len(self._next.get(plain, ()))

@@ -26,9 +26,8 @@ from tftool.world.endpoints import (
 )
 from tftool.world.log import Log, Repeats
 from tftool.world.memory_limit import MemoryBound, allowed
-from tftool.world.registry import NamedOffers, Offer, Resident
-from tftool.world.supervisor import Supervisor, live
-from tftool.world.topics import Acceptor, GoalHandle, Handler, Topic
+from tftool.world.supervisor import Resident, Supervisor, live
+from tftool.world.topics import Acceptor, GoalHandle, Handler, NamedOffers, Offer, Topic
 
 T = TypeVar("T")
 

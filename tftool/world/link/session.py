@@ -26,7 +26,7 @@ from tftool.world.link.service_bridges import (
     serve_service,
 )
 from tftool.world.link.topic_bridges import StaticBridge, TopicBridge, TransformBridge
-from tftool.world.registry import Offer
+from tftool.world.topics import Offer
 from tftool.world.world import TransformMessage, World
 
 _NAMED: Final = (

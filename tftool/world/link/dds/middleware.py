@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from tftool.base.errors import InputError, LinkError
-from tftool.base.stamps import Stamp, seconds
+from tftool.base.stamps import seconds
 from tftool.messages.classes import INTERFACES
 from tftool.messages.hashes import type_hash
 from tftool.world.clock import WallClock
@@ -190,7 +190,7 @@ class DdsMiddleware(Middleware):
 
     # Topics
 
-    def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> "DdsPublisher":
+    def publisher(self, node: str, name: str, ros_type: str, quality: Quality) -> TopicWriter:
         """Publish a topic as a node of this process."""
         kind = self._kind(ros_type)
         if self._options.read_only:
@@ -198,8 +198,8 @@ class DdsMiddleware(Middleware):
         # ROS 2 looks for the hash in the writer's user data, and warns where it differs.
         beside = f"typehash={type_hash(INTERFACES, ros_type)};".encode()
         writer = self._participant.writer(names.TOPIC + name, kind, quality, beside)
-        hide = self._discovery.show_endpoint(node_name(node), PUBLISHER, writer.gid)
-        return DdsPublisher(writer, hide)
+        writer.hide = self._discovery.show_endpoint(node_name(node), PUBLISHER, writer.gid)
+        return writer
 
     def listen(
         self,
@@ -403,29 +403,6 @@ class _Listening:
         if not self._is_closed:
             # It may have waited in the inbox while the reader was closed.
             self._on_message(Arrived(sample.payload, self._middleware.sender(sample)))
-
-
-class DdsPublisher:
-    """Publisher: a writer, which others see as belonging to a node."""
-
-    def __init__(self, writer: TopicWriter, hide: Callable[[], None]) -> None:
-        self._writer = writer
-        self._hide = hide
-
-    @property
-    def is_wanted(self) -> bool:
-        """Whether a message would reach a subscription, or be kept for later ones."""
-        return self._writer.is_wanted
-
-    def put(self, payload: bytes, stamp: Stamp) -> None:
-        """Send one message."""
-        self._writer.put(payload)
-
-    def close(self) -> None:
-        """Close the publisher."""
-        self._hide()
-        # Hidden first: the announcement must not list a writer that is gone.
-        self._writer.close()
 
 
 def _listed(domains: list[int]) -> str:

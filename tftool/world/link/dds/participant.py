@@ -19,12 +19,14 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
 from tftool.base.errors import LinkError
+from tftool.base.stamps import Stamp
 from tftool.world.endpoints import Quality
 from tftool.world.link.dds.dds_types import Raw
 from tftool.world.link.dds.library_log import LIBRARY_LOG
 from tftool.world.link.dds.settings import MOST_PARTICIPANTS, Network
 from tftool.world.link.inbox import Inbox
 from tftool.world.link.outbox import Outbox
+from tftool.world.link.seam import nothing
 
 LARGEST: Final = 64 * 1024 * 1024
 """Bytes of the largest message that is taken in."""
@@ -284,7 +286,12 @@ class TopicReader:
 
 
 class TopicWriter:
-    """A writer, until it is closed."""
+    """A writer, until it is closed; as a publisher see `seam.WirePublisher`.
+
+    Attributes:
+        gid: Its GUID, 16 bytes.
+        hide: Withdraws the announcement of the node that it belongs to.
+    """
 
     def __init__(self, made: Any, kind: type[Raw], outbox: Outbox, *, keeps: bool) -> None:
         self._made = made
@@ -292,6 +299,7 @@ class TopicWriter:
         self._outbox = outbox
         self._keeps = keeps
         self.gid: bytes = made.guid.bytes
+        self.hide: Callable[[], None] = nothing
 
     @property
     def is_wanted(self) -> bool:
@@ -303,8 +311,8 @@ class TopicWriter:
         """Return the number of matched readers."""
         return int(self._made.get_publication_matched_status().current_count)
 
-    def put(self, payload: bytes) -> None:
-        """Queue a message for writing.
+    def put(self, payload: bytes, stamp: Stamp = 0) -> None:
+        """Queue a message for writing; DDS stamps it by its own clock.
 
         Raises:
             LinkError: If the participant is closed.
@@ -318,6 +326,8 @@ class TopicWriter:
         made, self._made = self._made, None
         if made is None:
             return
+        # Hidden first: the announcement must not list a writer that is gone.
+        self.hide()
         try:
             self._outbox.put(lambda: _end(made))
         except LinkError:
