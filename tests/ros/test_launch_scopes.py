@@ -452,6 +452,12 @@ asyncio.run(beside())
 begin()
 threading.Timer(0.5, from_a_thread).start()
 print('run', service.run())
+begin()
+loop = asyncio.new_event_loop()
+running = loop.create_task(service.run_async())
+loop.run_until_complete(asyncio.sleep(0.5))
+loop.create_task(service.shutdown())
+print('between', loop.run_until_complete(running))
 """
 
 
@@ -471,6 +477,7 @@ def test_a_services_shutdown_is_awaited_in_its_loop_and_done_elsewhere(
         "ended 0 None",
         "thread None",
         "run 0",
+        "between 0",
     ]
     assert "too late" not in captured.err
     assert program.status == 0

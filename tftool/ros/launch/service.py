@@ -2,6 +2,7 @@
 
 import asyncio
 import sys
+import threading
 from collections.abc import Coroutine
 from typing import Any
 
@@ -28,7 +29,7 @@ class LaunchService:
         self._entities: list[Any] = []
         self._launch: Launch | None = None
         self._owner: program.Program | None = None
-        self._loops: set[asyncio.AbstractEventLoop] = set()
+        self._threads: set[int] = set()  # whose callers may await
         self.errors: list[str] = []
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
@@ -81,7 +82,7 @@ class LaunchService:
                 contained=True,
                 keep_alive=keep_alive,
             )
-            self._loops = {asyncio.get_running_loop()}
+            self._threads = {threading.get_ident()}
             return [made]
 
         (self._launch,) = owner.ask(start)
@@ -90,7 +91,7 @@ class LaunchService:
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
         """Run it beside other coroutines; a cancellation ends the launch."""
         launch = self.begin(keep_alive=not shutdown_when_idle)
-        self._loops.add(asyncio.get_running_loop())
+        self._threads.add(threading.get_ident())
         try:
             while not launch.ended.is_set():
                 # The loop is the user's, and its time the world's.
@@ -118,25 +119,19 @@ class LaunchService:
             force_sync: Whether there is to be nothing to await.
 
         Returns:
-            An awaitable, as in ROS 2, inside the launch's own loop; None elsewhere.
+            A coroutine, as in ROS 2, in the thread of the launch's loop; None elsewhere.
         """
         launch = self._launch
         if launch is None or launch.ended.is_set():
             return None
         self._end(launch)
-        return None if force_sync or _loop() not in self._loops else _nothing()
+        awaits = not force_sync and threading.get_ident() in self._threads
+        return _nothing() if awaits else None
 
     def _end(self, launch: Launch) -> None:
         # A launch file's own functions run on the loop's thread, which is no program's.
         if self._owner is not None:
             self._owner.ask(lambda: launch.shut_down("the program asked for it"))
-
-
-def _loop() -> asyncio.AbstractEventLoop | None:
-    try:
-        return asyncio.get_running_loop()
-    except RuntimeError:
-        return None
 
 
 async def _nothing() -> None:
