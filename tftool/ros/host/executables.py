@@ -125,11 +125,8 @@ def _broadcaster(asked: Asked) -> Node:
     return Broadcaster(asked.world, asked.name, turtle=turtle)
 
 
-def _follower(parameter: str) -> Callable[[Asked], Node]:
-    def make(asked: Asked) -> Node:
-        return Follower(asked.world, asked.name, leader=asked.text(parameter, "turtle1"))
-
-    return make
+def _follower(asked: Asked) -> Node:
+    return Follower(asked.world, asked.name, leader=asked.text("target_frame", "turtle1"))
 
 
 def _static_turtle(asked: Asked) -> Node:
@@ -220,10 +217,31 @@ def _joint_state_publisher(asked: Asked) -> Node:
 TURTLE_TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
 """ROS's packages of the tf2 tutorials with turtles."""
 
+
+def _plain(kind: Callable[[World, str], Node]) -> Callable[[Asked], Node]:
+    return lambda asked: kind(asked.world, asked.name)
+
+
+_TURTLE_TF: dict[str, tuple[str, Callable[[Asked], Node]]] = {
+    "turtle_tf2_broadcaster": ("turtle_tf2_frame_publisher", _broadcaster),
+    "turtle_tf2_listener": ("turtle_tf2_frame_listener", _follower),
+    "fixed_frame_tf2_broadcaster": ("fixed_frame_tf2_broadcaster", _plain(FixedCarrot)),
+    "dynamic_frame_tf2_broadcaster": ("dynamic_frame_tf2_broadcaster", _plain(DynamicCarrot)),
+    "static_turtle_tf2_broadcaster": ("static_turtle_tf2_broadcaster", _static_turtle),
+    "turtle_tf2_message_broadcaster": (
+        "turtle_tf2_message_broadcaster",
+        _plain(MessageBroadcaster),
+    ),
+    "turtle_tf2_message_filter": (
+        "turtle_tf2_pose_drawer",
+        lambda a: PointDrawer(a.world, a.name, target_frame=a.text("target_frame", "turtle1")),
+    ),
+}
+
 # package, executable: the node's name unless told, and what makes it.
 _OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
     ("turtlesim", "turtlesim_node"): ("turtlesim", _turtlesim),
-    ("turtlesim", "draw_square"): ("draw_square", lambda a: DrawSquare(a.world, a.name)),
+    ("turtlesim", "draw_square"): ("draw_square", _plain(DrawSquare)),
     ("turtlesim", "mimic"): ("turtle_mimic", _mimic),
     ("robot_state_publisher", "robot_state_publisher"): (
         "robot_state_publisher",
@@ -234,35 +252,8 @@ _OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
         _joint_state_publisher,
     ),
     ("tf2_ros", "static_transform_publisher"): ("static_transform_publisher", _static_publisher),
+    **{(one, name): made for one in TURTLE_TF_PACKAGES for name, made in _TURTLE_TF.items()},
 }
-for _package in TURTLE_TF_PACKAGES:
-    _OURS |= {
-        (_package, "turtle_tf2_broadcaster"): ("turtle_tf2_frame_publisher", _broadcaster),
-        (_package, "turtle_tf2_listener"): (
-            "turtle_tf2_frame_listener",
-            _follower("target_frame"),
-        ),
-        (_package, "fixed_frame_tf2_broadcaster"): (
-            "fixed_frame_tf2_broadcaster",
-            lambda a: FixedCarrot(a.world, a.name),
-        ),
-        (_package, "dynamic_frame_tf2_broadcaster"): (
-            "dynamic_frame_tf2_broadcaster",
-            lambda a: DynamicCarrot(a.world, a.name),
-        ),
-        (_package, "static_turtle_tf2_broadcaster"): (
-            "static_turtle_tf2_broadcaster",
-            _static_turtle,
-        ),
-        (_package, "turtle_tf2_message_broadcaster"): (
-            "turtle_tf2_message_broadcaster",
-            lambda a: MessageBroadcaster(a.world, a.name),
-        ),
-        (_package, "turtle_tf2_message_filter"): (
-            "turtle_tf2_pose_drawer",
-            lambda a: PointDrawer(a.world, a.name, target_frame=a.text("target_frame", "turtle1")),
-        ),
-    }
 
 COMMANDS = {
     ("tf2_ros", "tf2_echo"): ("echo",),
