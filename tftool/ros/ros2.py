@@ -396,7 +396,7 @@ def _topic_pub(node: Node, asked: argparse.Namespace, show: Print) -> None:
         publisher.publish(asked.message)
 
     publish()
-    rate = node.create_rate(asked.rate)
+    rate = node.create_rate(asked.rate or 1.0)
     while core.ok() and not (times and sent >= times):
         rate.sleep()
         publish()

@@ -4,12 +4,108 @@ import argparse
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from typing import Any, NoReturn, TypeAlias
+from typing import Any, NoReturn
 
 from tftool.base.errors import UsageError
 
-PROFILES = ("default", "system_default", "sensor_data", "services_default", "parameters")
-"""Names that `--qos-profile` takes; each is a member of rclpy's QoSPresetProfiles."""
+SESSIONLESS = ("interface", "pkg")
+"""Commands that files answer: no session is asked."""
+
+_QUALITY = "--qos-profile --qos-depth --qos-history --qos-reliability --qos-durability"
+
+_COMMANDS = f"""
+topic list: -t/--show-types -c/--count-topics -v/--verbose --include-hidden-topics
+topic echo: topic [type] --once --field --filter --csv --flow-style --no-arr --no-str
+    -l/--truncate-length -f/--full-length {_QUALITY}
+topic find: type
+topic hz: topic --filter -w/--window
+topic bw: topic --filter -w/--window
+topic delay: topic --filter -w/--window
+topic info: topic -v/--verbose
+topic type: topic
+topic pub: topic type [values] -r/--rate -t/--times -w/--wait-matching-subscriptions -1/--once
+    -p/--print --keep-alive {_QUALITY}
+service list: -t/--show-types -c/--count-services --include-hidden-services
+service type: service
+service info: service
+service find: type
+service call: service type [values] -r/--rate
+param list: [node] --param-type
+param get: node name --hide-type
+param set: node name value
+param delete: node name
+param dump: node
+param describe: node names
+param load: node file --no-use-wildcard
+node list: -a/--all -c/--count-nodes
+node info: node --include-hidden
+action list: -t/--show-types -c/--count-actions
+action type: action
+action info: action -t/--show-types
+action send_goal: action type values -f/--feedback
+interface show: type
+interface list: -m/--only-msgs -s/--only-srvs -a/--only-actions
+interface package: package
+interface packages:
+interface proto: type --no-quotes
+pkg list:
+pkg executables: [package] --full-path
+pkg prefix: package --share
+pkg xml: package -t
+"""
+"""The words of each command: its arguments, in brackets if they may be left out, and options."""
+
+_ASKING = ("--no-daemon", "-s/--use-sim-time", "--spin-time")
+"""Options about how a graph is asked, which make no difference here."""
+
+
+def _rate(text: str) -> float:
+    with suppress(ValueError):
+        if 0.0 < (rate := float(text)) < math.inf:
+            return rate
+    raise argparse.ArgumentTypeError(f"{text} is no number of Hz above 0")
+
+
+def _count(text: str) -> int:
+    if text.isdecimal() and int(text) > 0:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{text} is no whole number above 0")
+
+
+def _expression(text: str) -> Callable[[Any], bool]:
+    """Return the function of a message `m` that an expression describes."""
+    try:
+        code = compile(text, "--filter", "eval")
+    except SyntaxError as error:
+        raise argparse.ArgumentTypeError(f"'{text}' is no expression: {error.msg}") from None
+    # As in ROS 2, the person who types it runs their own code.
+    return lambda message: bool(eval(code, {"m": message}))
+
+
+_VALUES: dict[str, dict[str, Any]] = {
+    "[values]": {"nargs": "?", "default": "{}"},
+    "names": {"nargs": "+"},
+    "--field": {},
+    "--filter": {"dest": "wanted", "metavar": "EXPRESSION", "type": _expression},
+    "--keep-alive": {"type": float, "default": 0.5},
+    "--qos-profile": {
+        # Each is a member of rclpy's QoSPresetProfiles.
+        "choices": ("default", "system_default", "sensor_data", "services_default", "parameters")
+    },
+    "--qos-depth": {"type": _count},
+    "--qos-history": {"choices": ("keep_last", "keep_all")},
+    "--qos-reliability": {"choices": ("reliable", "best_effort")},
+    "--qos-durability": {"choices": ("volatile", "transient_local")},
+    "--spin-time": {"type": float},
+    "-l/--truncate-length": {"type": _count, "default": 128},
+    "-p/--print": {"type": _count, "default": 1, "dest": "each"},
+    "-r/--rate": {"type": _rate},
+    "-t": {"dest": "tag"},
+    "-t/--times": {"type": int, "default": 0},
+    "-w/--wait-matching-subscriptions": {"type": int},
+    "-w/--window": {"type": _count, "default": 10_000},
+}
+"""How argparse takes options that have a value, and two arguments; other options are flags."""
 
 
 class _Parser(argparse.ArgumentParser):
@@ -38,155 +134,21 @@ def verbs() -> dict[str, list[str]]:
 def _parser() -> tuple[_Parser, dict[str, list[str]]]:
     parser = _Parser(prog="ros2", add_help=False)
     nouns = parser.add_subparsers(dest="noun", required=True, metavar="COMMAND")
+    below: dict[str, Any] = {}
     listed: dict[str, list[str]] = {}
-    for noun, verbs in _arguments().items():
-        below = nouns.add_parser(noun).add_subparsers(dest="verb", required=True, metavar="VERB")
-        for verb, arguments in verbs.items():
-            one = below.add_parser(verb)
-            for names, how in (*arguments, *(_ASKING if noun not in SESSIONLESS else ())):
-                one.add_argument(*names, **how)
-        listed[noun] = list(verbs)
-        below.help = ", ".join(verbs)
+    for line in _COMMANDS.replace("\n    ", " ").strip().splitlines():
+        command, _, words = line.partition(":")
+        noun, verb = command.split()
+        if noun not in below:
+            made = nouns.add_parser(noun)
+            below[noun] = made.add_subparsers(dest="verb", required=True, metavar="VERB")
+        listed.setdefault(noun, []).append(verb)
+        one = below[noun].add_parser(verb)
+        for word in (*words.split(), *(() if noun in SESSIONLESS else _ASKING)):
+            otherwise = {"action": "store_true"} if word.startswith("-") else {}
+            otherwise |= {"nargs": "?"} if word.startswith("[") else {}
+            one.add_argument(*word.strip("[]").split("/"), **_VALUES.get(word, otherwise))
+    for noun, known in listed.items():
+        below[noun].help = ", ".join(known)
     nouns.help = ", ".join(listed)
     return parser, listed
-
-
-_Argument: TypeAlias = tuple[tuple[str, ...], dict[str, Any]]
-
-SESSIONLESS = ("interface", "pkg")
-"""Commands that files answer: no session is asked."""
-
-_ASKING: tuple[_Argument, ...] = (
-    (("--no-daemon",), {"action": "store_true"}),
-    (("-s", "--use-sim-time"), {"action": "store_true"}),
-    (("--spin-time",), {"type": float}),
-)
-"""Options about how a graph is asked, which make no difference here."""
-
-
-def _arguments() -> dict[str, dict[str, list[_Argument]]]:
-    """Return the arguments of each command's verbs, as for argparse's `add_argument`."""
-
-    def flag(*names: str) -> _Argument:
-        return names, {"action": "store_true"}
-
-    def word(name: str, **how: Any) -> _Argument:
-        return (name,), how
-
-    types, values = flag("-t", "--show-types"), word("values", nargs="?", default="{}")
-    filtered = word("--filter", dest="wanted", metavar="EXPRESSION", type=_expression)
-    topic, service, node, kind = word("topic"), word("service"), word("node"), word("type")
-    measured = [topic, filtered, (("-w", "--window"), {"type": _count, "default": 10_000})]
-    quality = [
-        word("--qos-profile", choices=PROFILES),
-        word("--qos-depth", type=_count),
-        word("--qos-history", choices=("keep_last", "keep_all")),
-        word("--qos-reliability", choices=("reliable", "best_effort")),
-        word("--qos-durability", choices=("volatile", "transient_local")),
-    ]
-    return {
-        "topic": {
-            "list": [
-                types,
-                flag("-c", "--count-topics"),
-                flag("-v", "--verbose"),
-                flag("--include-hidden-topics"),
-            ],
-            "echo": [
-                *(topic, word("type", nargs="?"), flag("--once"), word("--field"), filtered),
-                *(flag("--csv"), flag("--flow-style"), flag("--no-arr"), flag("--no-str")),
-                (("-l", "--truncate-length"), {"type": _count, "default": 128}),
-                flag("-f", "--full-length"),
-                *quality,
-            ],
-            "find": [kind],
-            "hz": measured,
-            "bw": measured,
-            "delay": measured,
-            "info": [topic, flag("-v", "--verbose")],
-            "type": [topic],
-            "pub": [*_publishing(topic, kind, values), *quality],
-        },
-        "service": {
-            "list": [types, flag("-c", "--count-services"), flag("--include-hidden-services")],
-            "type": [service],
-            "info": [service],
-            "find": [kind],
-            "call": [service, kind, values, (("-r", "--rate"), {"type": _rate})],
-        },
-        "param": {
-            "list": [word("node", nargs="?"), flag("--param-type")],
-            "get": [node, word("name"), flag("--hide-type")],
-            "set": [node, word("name"), word("value")],
-            "delete": [node, word("name")],
-            "dump": [node],
-            "describe": [node, word("names", nargs="+")],
-            "load": [node, word("file"), flag("--no-use-wildcard")],
-        },
-        "node": {
-            "list": [flag("-a", "--all"), flag("-c", "--count-nodes")],
-            "info": [node, flag("--include-hidden")],
-        },
-        "action": {
-            "list": [types, flag("-c", "--count-actions")],
-            "type": [word("action")],
-            "info": [word("action"), types],
-            "send_goal": [word("action"), kind, word("values"), flag("-f", "--feedback")],
-        },
-        "interface": _of_interfaces(flag, kind),
-        "pkg": {
-            "list": [],
-            "executables": [word("package", nargs="?"), flag("--full-path")],
-            "prefix": [word("package"), flag("--share")],
-            "xml": [word("package"), word("-t", dest="tag")],
-        },
-    }
-
-
-def _publishing(*words: _Argument) -> list[_Argument]:
-    return [
-        *words,
-        (("-r", "--rate"), {"type": _rate, "default": 1.0}),
-        (("-t", "--times"), {"type": int, "default": 0}),
-        (("-w", "--wait-matching-subscriptions"), {"type": int}),
-        (("-1", "--once"), {"action": "store_true"}),
-        (("-p", "--print"), {"type": _count, "default": 1, "dest": "each"}),
-        (("--keep-alive",), {"type": float, "default": 0.5}),
-    ]
-
-
-def _of_interfaces(flag: Callable[..., _Argument], kind: _Argument) -> dict[str, list[_Argument]]:
-    return {
-        "show": [kind],
-        "list": [
-            flag("-m", "--only-msgs"),
-            flag("-s", "--only-srvs"),
-            flag("-a", "--only-actions"),
-        ],
-        "package": [(("package",), {})],
-        "packages": [],
-        "proto": [kind, flag("--no-quotes")],
-    }
-
-
-def _rate(text: str) -> float:
-    with suppress(ValueError):
-        if 0.0 < (rate := float(text)) < math.inf:
-            return rate
-    raise argparse.ArgumentTypeError(f"{text} is no number of Hz above 0")
-
-
-def _count(text: str) -> int:
-    if text.isdecimal() and int(text) > 0:
-        return int(text)
-    raise argparse.ArgumentTypeError(f"{text} is no whole number above 0")
-
-
-def _expression(text: str) -> Callable[[Any], bool]:
-    """Return the function of a message `m` that an expression describes."""
-    try:
-        code = compile(text, "--filter", "eval")
-    except SyntaxError as error:
-        raise argparse.ArgumentTypeError(f"'{text}' is no expression: {error.msg}") from None
-    # As in ROS 2, the person who types it runs their own code.
-    return lambda message: bool(eval(code, {"m": message}))
