@@ -86,40 +86,39 @@ def parameter_services(
         listed: Returns the ListParametersResult of some prefixes and a depth.
         change: Sets all of some Parameters, or none; returns a SetParametersResult.
     """
+    return answered(
+        "rcl_interfaces",
+        ("get_parameters", "values", lambda asked: values(asked.names)),
+        ("get_parameter_types", "types", lambda asked: [one.type for one in values(asked.names)]),
+        ("set_parameters", "results", lambda asked: [change([one]) for one in asked.parameters]),
+        ("set_parameters_atomically", "result", lambda asked: change(asked.parameters)),
+        ("list_parameters", "result", lambda asked: listed(asked.prefixes, asked.depth)),
+        ("describe_parameters", "descriptors", lambda asked: descriptors(asked.names)),
+    )
 
-    def get(request: Any, response: Any) -> Any:
-        response.values = values(request.names)
-        return response
 
-    def types(request: Any, response: Any) -> Any:
-        response.types = [value.type for value in values(request.names)]
-        return response
+def answered(
+    package: str, *rows: tuple[str, str, Callable[[Any], Any]]
+) -> Iterator[tuple[str, Any, Answer]]:
+    """Yield services' names below a node, their types, and their handlers.
 
-    def set_each(request: Any, response: Any) -> Any:
-        response.results = [change([one]) for one in request.parameters]
-        return response
+    Args:
+        package: The package of the types.
+        rows: Each service's name, with its type after a colon unless "get_state" is of GetState;
+            the field of its response; and what a request fills that with.
+    """
 
-    def set_together(request: Any, response: Any) -> Any:
-        response.result = change(request.parameters)
-        return response
+    def handler(field: str, find: Callable[[Any], Any]) -> Answer:
+        def answer(request: Any, response: Any) -> Any:
+            setattr(response, field, find(request))
+            return response
 
-    def list_(request: Any, response: Any) -> Any:
-        response.result = listed(request.prefixes, request.depth)
-        return response
+        return answer
 
-    def describe(request: Any, response: Any) -> Any:
-        response.descriptors = descriptors(request.names)
-        return response
-
-    for name, kind, answer in (
-        ("get_parameters", "GetParameters", get),
-        ("get_parameter_types", "GetParameterTypes", types),
-        ("set_parameters", "SetParameters", set_each),
-        ("set_parameters_atomically", "SetParametersAtomically", set_together),
-        ("list_parameters", "ListParameters", list_),
-        ("describe_parameters", "DescribeParameters", describe),
-    ):
-        yield name, INTERFACES.find("rcl_interfaces", "srv", kind), answer
+    for row, field, find in rows:
+        name, _, kind = row.partition(":")
+        kind = kind or name.title().replace("_", "")
+        yield name, INTERFACES.find(package, "srv", kind), handler(field, find)
 
 
 def serve_parameters(node: "Node") -> None:

@@ -1,6 +1,6 @@
 """rclpy's lifecycle nodes, whose states change by calls or services, as in design.ros2.org."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from enum import IntEnum
 from functools import wraps
 from typing import Any, NamedTuple, TypeVar
@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, TypeVar
 from tftool.messages.classes import INTERFACES
 from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.topics import Publisher
+from tftool.world.node_parameters import answered
 
 
 class TransitionCallbackReturn(IntEnum):
@@ -319,46 +320,39 @@ def _serve(node: Any, callback_group: Any) -> None:
     described = INTERFACES.message("lifecycle_msgs/TransitionDescription")
     state_kind = INTERFACES.message("lifecycle_msgs/State")
 
-    def change_state(request: Any, response: Any) -> Any:
+    def change_state(asked: Any) -> bool:
         try:
-            said = change(node, request.transition.label or request.transition.id)
+            return change(node, asked.transition.label or asked.transition.id) is SUCCESS
         except RuntimeError as error:
             node.get_logger().warning(str(error))
-            return response
-        response.success = said is SUCCESS
-        return response
+            return False
 
-    def get_state(request: Any, response: Any) -> Any:
-        response.current_state.id, response.current_state.label = machine.current_state
-        return response
+    def state(label: str) -> Any:
+        return state_kind(id=STATES[label], label=label)
 
-    def get_states(request: Any, response: Any) -> Any:
-        response.available_states = [state_kind(id=STATES[one], label=one) for one in STATES]
-        return response
+    def shown(transitions: Iterable[Transition]) -> list[Any]:
+        return [_describe(described(), one) for one in transitions]
 
-    def get_transitions(request: Any, response: Any) -> Any:
-        response.available_transitions = [
-            _describe(described(), one) for one in machine.available_transitions
-        ]
-        return response
-
-    def get_graph(request: Any, response: Any) -> Any:
-        response.available_transitions = [_describe(described(), one) for one in GRAPH]
-        return response
-
-    services = (
-        ("change_state", "ChangeState", change_state),
-        ("get_state", "GetState", get_state),
-        ("get_available_states", "GetAvailableStates", get_states),
-        ("get_available_transitions", "GetAvailableTransitions", get_transitions),
-        ("get_transition_graph", "GetAvailableTransitions", get_graph),
-    )
-    node._serve_own(
+    services = answered(
+        "lifecycle_msgs",
+        ("change_state", "success", change_state),
+        ("get_state", "current_state", lambda _: state(machine.state.label)),
         (
-            (name, INTERFACES.find("lifecycle_msgs", "srv", kind), answer)
-            for name, kind, answer in services
+            "get_available_states",
+            "available_states",
+            lambda _: [state(one) for one in STATES],
         ),
-        callback_group,
+        (
+            "get_available_transitions",
+            "available_transitions",
+            lambda _: shown(machine.available_transitions),
+        ),
+        (
+            "get_transition_graph:GetAvailableTransitions",
+            "available_transitions",
+            lambda _: shown(GRAPH),
+        ),
     )
+    node._serve_own(services, callback_group)
     event = INTERFACES.message("lifecycle_msgs/TransitionEvent")
     node._transition_events = node.create_publisher(event, "~/transition_event", 1)

@@ -2,7 +2,7 @@
 
 import inspect
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from enum import IntEnum
 from pathlib import Path
 from types import CodeType, FrameType
@@ -12,6 +12,7 @@ from tftool.base.stamps import Duration, Stamp, seconds
 from tftool.messages.classes import INTERFACES
 from tftool.ros.host import program
 from tftool.world.log import Level
+from tftool.world.node_parameters import Answer, answered
 
 
 class LoggingSeverity(IntEnum):
@@ -265,18 +266,17 @@ def shutdown() -> None:
 _NO_LEVEL = "Failed reason: Invalid logger level."
 
 
-def logger_services() -> Iterator[tuple[str, Any, Callable[[Any, Any], Any]]]:
+def logger_services() -> Iterator[tuple[str, Any, Answer]]:
     """Yield each service's name below its node, its type, and its handler."""
     level_kind: Any = INTERFACES.message("rcl_interfaces/LoggerLevel")
     result_kind: Any = INTERFACES.message("rcl_interfaces/SetLoggerLevelsResult")
 
-    def get(request: Any, response: Any) -> Any:
+    def get(asked: Any) -> Any:
         levels = program.current().log_levels
-        response.levels = [
+        return [
             level_kind(name=name, level=levels.get(name, LoggingSeverity.UNSET))
-            for name in request.names
+            for name in asked.names
         ]
-        return response
 
     def change(wanted: Any) -> Any:
         try:
@@ -285,12 +285,8 @@ def logger_services() -> Iterator[tuple[str, Any, Callable[[Any, Any], Any]]]:
             return result_kind(successful=False, reason=_NO_LEVEL)
         return result_kind(successful=True)
 
-    def set_levels(request: Any, response: Any) -> Any:
-        response.results = [change(one) for one in request.levels]
-        return response
-
-    for name, kind, answer in (
-        ("get_logger_levels", "GetLoggerLevels", get),
-        ("set_logger_levels", "SetLoggerLevels", set_levels),
-    ):
-        yield name, INTERFACES.find("rcl_interfaces", "srv", kind), answer
+    return answered(
+        "rcl_interfaces",
+        ("get_logger_levels", "levels", get),
+        ("set_logger_levels", "results", lambda asked: [change(one) for one in asked.levels]),
+    )
