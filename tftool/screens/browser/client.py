@@ -78,19 +78,18 @@ class PageClient:
         self._displays: dict[str, bytes] = {}
         self._wake = asyncio.Event()
 
-    def hear(
-        self, said: page_messages.Show | page_messages.PairRequest | page_messages.Got, epoch: Stamp
-    ) -> None:
-        """Handle a message from the page."""
-        if isinstance(said, page_messages.Got):
-            self._drawn = max(self._drawn, min(said.sequence, self.sent))
+    def hear(self, request: page_messages.Request, epoch: Stamp) -> None:
+        """Handle a request to show a moment or a pair, or an acknowledgement."""
+        if request.kind == "got":
+            self._drawn = max(self._drawn, min(request["sequence"], self.sent))
             self._wake.set()
-        elif isinstance(said, page_messages.PairRequest):
-            self.pair = said.frames
-            self._asked = True
+            return
+        if request.kind == "pair":
+            target, source = request["target"], request["source"]
+            self.pair = None if target is None else (target, source)
         else:
-            self.at = None if said.at is None else protocol.stamp_at(epoch, said.at)
-            self._asked = True
+            self.at = None if request["at"] is None else protocol.stamp_at(epoch, request["at"])
+        self._asked = True
 
     def wants(self) -> bool:
         """Whether the page needs new poses; a request about the past is answered once."""

@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 
 from tftool.base.errors import InputError
 
@@ -33,103 +33,20 @@ ARROWS: Final = ("up", "down", "left", "right")
 
 
 @dataclass(frozen=True, slots=True)
-class Show:
-    """Request to show a time: seconds since the epoch, or None for the present."""
+class Request:
+    """Message of a page.
 
-    at: float | None
+    Attributes:
+        kind: Its type, one of `REQUESTS`.
+        fields: Its checked values by name.
+    """
 
+    kind: str
+    fields: Mapping[str, Any]
 
-@dataclass(frozen=True, slots=True)
-class PairRequest:
-    """Request for a pair's transform from now on; None twice ends it."""
-
-    target: str | None
-    source: str | None
-
-    def __post_init__(self) -> None:
-        """Refuse half a pair."""
-        if (self.target is None) != (self.source is None):
-            raise InputError("a pair is two names of frames, or null twice")
-
-    @property
-    def frames(self) -> tuple[str, str] | None:
-        """Target and source."""
-        return None if self.target is None or self.source is None else (self.target, self.source)
-
-
-@dataclass(frozen=True, slots=True)
-class Got:
-    """Acknowledgement that the page has drawn the poses of this sequence number."""
-
-    sequence: int
-
-
-@dataclass(frozen=True, slots=True)
-class Move:
-    """Request to move a joint: radians or metres."""
-
-    joint: str
-    position: float
-
-
-@dataclass(frozen=True, slots=True)
-class KeyPressed:
-    """Key press that drives a turtle: one of `ARROWS`."""
-
-    key: str
-
-
-@dataclass(frozen=True, slots=True)
-class Past:
-    """Request for poses over the whole buffer, once: they have sequence number 0."""
-
-
-@dataclass(frozen=True, slots=True)
-class SeriesRequest:
-    """Request for a pair's transform at `count` times from `first` to `last`, in seconds."""
-
-    target: str
-    source: str
-    first: float
-    last: float
-    count: int
-
-    def __post_init__(self) -> None:
-        """Refuse an empty span."""
-        _refuse_empty(self.first, self.last)
-
-
-@dataclass(frozen=True, slots=True)
-class TrailsRequest:
-    """Request for frames' positions at `count` times from `first` to `last`, in seconds."""
-
-    fixed: str
-    frames: tuple[str, ...]
-    first: float
-    last: float
-    count: int
-
-    def __post_init__(self) -> None:
-        """Refuse an empty span."""
-        _refuse_empty(self.first, self.last)
-
-
-@dataclass(frozen=True, slots=True)
-class MarksRequest:
-    """Request for gaps and the doctor's findings, sent when they are known."""
-
-
-Request: TypeAlias = (
-    Show
-    | PairRequest
-    | Got
-    | Move
-    | KeyPressed
-    | Past
-    | SeriesRequest
-    | TrailsRequest
-    | MarksRequest
-)
+    def __getitem__(self, name: str) -> Any:
+        """Return the value of a field."""
+        return self.fields[name]
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,11 +62,6 @@ class FieldType:
     javascript: str
     words: str
     read: Callable[[Any], Any]
-
-
-def _refuse_empty(first: float, last: float) -> None:
-    if not first < last:
-        raise InputError("a series goes from one moment to a later one")
 
 
 def _checked(is_right: bool, value: Any) -> Any:
@@ -197,40 +109,37 @@ _SPAN = {
     ),
 }
 
-REQUESTS: Final[dict[str, tuple[Callable[..., Request], dict[str, FieldType]]]] = {
-    "show": (Show, {"at": _or_null(_MOMENT)}),
-    "pair": (PairRequest, {"target": _or_null(_FRAME), "source": _or_null(_FRAME)}),
-    "got": (
-        Got,
-        {"sequence": FieldType("number", "a whole number", _whole(-(1 << 63), 1 << 63))},
-    ),
-    "move": (
-        Move,
-        {"joint": _NAME, "position": FieldType("number", "a finite number", _number(1e9))},
-    ),
-    "key": (
-        KeyPressed,
-        {
-            "key": FieldType(
-                " | ".join(f'"{key}"' for key in ARROWS),
-                f"one of {', '.join(ARROWS)}",
-                lambda value: _checked(value in ARROWS, value),
-            )
-        },
-    ),
-    "past": (Past, {}),
-    "series": (SeriesRequest, {"target": _FRAME, "source": _FRAME, **_SPAN}),
-    "trails": (
-        TrailsRequest,
-        {
-            "fixed": _FRAME,
-            "frames": FieldType("string[]", f"a list of at most {MOST_TRAILS} names", _names),
-            **_SPAN,
-        },
-    ),
-    "marks": (MarksRequest, {}),
+REQUESTS: Final[dict[str, dict[str, FieldType]]] = {
+    # Show a moment from now on; null for the present.
+    "show": {"at": _or_null(_MOMENT)},
+    # Send a pair's transform with every picture from now on; null twice ends it.
+    "pair": {"target": _or_null(_FRAME), "source": _or_null(_FRAME)},
+    # The page has drawn the poses of this sequence number.
+    "got": {"sequence": FieldType("number", "a whole number", _whole(-(1 << 63), 1 << 63))},
+    # Move a joint: radians or metres.
+    "move": {"joint": _NAME, "position": FieldType("number", "a finite number", _number(1e9))},
+    # A key that drives a turtle.
+    "key": {
+        "key": FieldType(
+            " | ".join(f'"{key}"' for key in ARROWS),
+            f"one of {', '.join(ARROWS)}",
+            lambda value: _checked(value in ARROWS, value),
+        )
+    },
+    # Send poses over the whole buffer, once: they have sequence number 0.
+    "past": {},
+    # Send a pair's transform at evenly spread moments.
+    "series": {"target": _FRAME, "source": _FRAME, **_SPAN},
+    # Send frames' positions at evenly spread moments.
+    "trails": {
+        "fixed": _FRAME,
+        "frames": FieldType("string[]", f"a list of at most {MOST_TRAILS} names", _names),
+        **_SPAN,
+    },
+    # Send gaps and the doctor's findings, when they are known.
+    "marks": {},
 }
-"""Messages of the page by type: the class of each, and its fields in the order of the class."""
+"""Messages of the page by type, with their fields."""
 
 _POSITIONS = "(number | null)[]"
 
@@ -335,14 +244,17 @@ def parse(message: str | bytes) -> Request:
     if not isinstance(kind, str) or kind not in REQUESTS:
         *most, last = REQUESTS
         raise InputError(f'a message is an object whose "type" is {", ".join(most)} or {last}')
-    request, fields = REQUESTS[kind]
-    values = []
-    for name, field in fields.items():
+    fields = {}
+    for name, field in REQUESTS[kind].items():
         try:
-            values.append(field.read(given.get(name)))
+            fields[name] = field.read(given.get(name))
         except ValueError:
             raise InputError(f"'{name}' of a message '{kind}' is {field.words}") from None
-    return request(*values)
+    if kind == "pair" and (fields["target"] is None) != (fields["source"] is None):
+        raise InputError("a pair is two names of frames, or null twice")
+    if "from" in fields and not fields["from"] < fields["to"]:
+        raise InputError("a series goes from one moment to a later one")
+    return Request(kind, fields)
 
 
 def answer(kind: str, fields: Mapping[str, Any]) -> dict[str, Any]:
@@ -363,7 +275,7 @@ def as_javascript() -> str:
         "/**",
     ]
     for family, several in (
-        ("Request", {kind: _types(fields) for kind, (_, fields) in REQUESTS.items()}),
+        ("Request", {kind: _types(fields) for kind, fields in REQUESTS.items()}),
         ("Answer", ANSWERS),
     ):
         for kind, fields in several.items():

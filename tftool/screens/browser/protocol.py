@@ -15,13 +15,7 @@ from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing.drawn_forest import grow
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.screens.browser.page_messages import (
-    HEADER,
-    MAGIC,
-    SeriesRequest,
-    TrailsRequest,
-    answer,
-)
+from tftool.screens.browser.page_messages import HEADER, MAGIC, Request, answer
 
 HISTORY = 120
 """Moments that tell what the buffer remembers; fewer where there are many frames."""
@@ -180,18 +174,18 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
     return json.dumps(answer("pair", told))
 
 
-def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
+def encode_series(buffer: Buffer, epoch: Stamp, asked: Request) -> str:
     """Serialise a pair's transform at evenly spread times, null where there is none."""
     stamps = _stamps(epoch, asked)
     told: dict[str, Any] = {
-        "target": asked.target,
-        "source": asked.source,
+        "target": asked["target"],
+        "source": asked["source"],
         "times": [since(epoch, stamp) for stamp in stamps],
     }
-    columns: list[list[float | None]] = [[None] * asked.count for _ in SERIES]
+    columns: list[list[float | None]] = [[None] * asked["count"] for _ in SERIES]
     try:
         path = buffer.lookup_transforms(
-            asked.target, asked.source, np.array(stamps, dtype=np.int64), missing="nan"
+            asked["target"], asked["source"], np.array(stamps, dtype=np.int64), missing="nan"
         )
     except TransformException:
         pass
@@ -204,14 +198,14 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
     return json.dumps(answer("series", told | dict(zip(SERIES, columns, strict=True))))
 
 
-def encode_trails(buffer: Buffer, epoch: Stamp, asked: TrailsRequest) -> str:
+def encode_trails(buffer: Buffer, epoch: Stamp, asked: Request) -> str:
     """Serialise frames' positions at evenly spread times, null where unknown."""
     stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
     places: dict[str, list[list[float] | None]] = {}
-    for frame in asked.frames:
-        places[frame] = [None] * asked.count
+    for frame in asked["frames"]:
+        places[frame] = [None] * asked["count"]
         try:
-            path = buffer.lookup_transforms(asked.fixed, frame, stamps, missing="nan")
+            path = buffer.lookup_transforms(asked["fixed"], frame, stamps, missing="nan")
         except TransformException:
             continue
         # A place that is very far away has no digits behind the point to round to.
@@ -221,18 +215,18 @@ def encode_trails(buffer: Buffer, epoch: Stamp, asked: TrailsRequest) -> str:
         rows = rounded.tolist()
         for at in np.flatnonzero(known).tolist():
             places[frame][at] = rows[at]
-    told = {"fixed": asked.fixed, "from": asked.first, "to": asked.last, "places": places}
+    told = {**{name: asked[name] for name in ("fixed", "from", "to")}, "places": places}
     return json.dumps(answer("trails", told))
 
 
 _TRAIL_DIGITS = 5
 
 
-def _stamps(epoch: Stamp, asked: SeriesRequest | TrailsRequest) -> list[Stamp]:
+def _stamps(epoch: Stamp, asked: Request) -> list[Stamp]:
     """Return evenly spread times over the requested span."""
-    first, last = stamp_at(epoch, asked.first), stamp_at(epoch, asked.last)
-    steps = asked.count - 1
-    return [first + (last - first) * step // steps for step in range(asked.count)]
+    first, last = stamp_at(epoch, asked["from"]), stamp_at(epoch, asked["to"])
+    steps = asked["count"] - 1
+    return [first + (last - first) * step // steps for step in range(asked["count"])]
 
 
 SERIES = ("x", "y", "z", "roll", "pitch", "yaw")

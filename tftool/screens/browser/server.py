@@ -167,12 +167,12 @@ class PageServer:
             for client in self.clients:
                 client.show_robot(self._robot_text)
 
-    def _move(self, said: page_messages.Move) -> None:
+    def _move(self, joint: str, position: float) -> None:
         """Move a joint; ignore unknown names."""
         robot = self._robot
-        if robot is not None and robot.mover is not None and robot.robot.takes(said.joint):
-            lower, upper = slide_range(robot.robot.joints[said.joint])
-            robot.mover.move(said.joint, min(upper, max(lower, said.position)))
+        if robot is not None and robot.mover is not None and robot.robot.takes(joint):
+            lower, upper = slide_range(robot.robot.joints[joint])
+            robot.mover.move(joint, min(upper, max(lower, position)))
             # Pages that open later begin with it.
             self._robot_text = ""
 
@@ -464,25 +464,26 @@ class PageServer:
         judging: asyncio.Future[None] | None = None
         try:
             async for message in socket:
-                said = page_messages.parse(message)
-                if isinstance(said, page_messages.Move):
-                    self._move(said)
-                elif isinstance(said, page_messages.KeyPressed):
-                    if self._press is not None:
-                        self._press(said.key)
-                elif isinstance(said, page_messages.SeriesRequest):
-                    buffer, epoch = self.source.buffer, self.source.clock.epoch
-                    await socket.send(protocol.encode_series(buffer, epoch, said))
-                elif isinstance(said, page_messages.TrailsRequest):
-                    buffer, epoch = self.source.buffer, self.source.clock.epoch
-                    await socket.send(protocol.encode_trails(buffer, epoch, said))
-                elif isinstance(said, page_messages.MarksRequest):
-                    if judging is None or judging.done():
-                        judging = asyncio.ensure_future(self._tell_marks(socket))
-                elif not isinstance(said, page_messages.Past):
-                    client.hear(said, self.source.clock.epoch)
-                elif telling is None or telling.done():
-                    telling = asyncio.ensure_future(self._tell_past(socket))
+                request = page_messages.parse(message)
+                buffer, epoch = self.source.buffer, self.source.clock.epoch
+                match request.kind:
+                    case "move":
+                        self._move(request["joint"], request["position"])
+                    case "key":
+                        if self._press is not None:
+                            self._press(request["key"])
+                    case "series":
+                        await socket.send(protocol.encode_series(buffer, epoch, request))
+                    case "trails":
+                        await socket.send(protocol.encode_trails(buffer, epoch, request))
+                    case "marks":
+                        if judging is None or judging.done():
+                            judging = asyncio.ensure_future(self._tell_marks(socket))
+                    case "past":
+                        if telling is None or telling.done():
+                            telling = asyncio.ensure_future(self._tell_past(socket))
+                    case _:
+                        client.hear(request, epoch)
         except InputError as error:
             await socket.close(1008, str(error))
         except ConnectionClosed:
