@@ -141,6 +141,20 @@ def follows(value, javascript):
     return isinstance(value, (list, dict))
 
 
+@pytest.mark.parametrize(
+    ("moving", "marked"), [("base_link", [EPOCH + seconds(5)]), ("turtle1", [])]
+)
+def test_a_jump_is_marked_where_there_is_a_robot_and_not_among_turtles(moving, marked):
+    filled = Buffer(seconds(60))
+    for tick in range(100):
+        # A metre a second along x, and half a metre aside from the fifth second on.
+        pose = Transform((tick / 10, 0.5 if tick >= 50 else 0.0, 0.0))
+        stamp = EPOCH + seconds(tick / 10)
+        filled.set_transform(TransformStamped(stamp, "map", moving, pose), "driver")
+    steps = [one for one in marks_of(filled, EPOCH)["findings"] if one["id"] == "step"]
+    assert [EPOCH + seconds(one["since"]) for one in steps] == marked
+
+
 def test_every_field_of_an_answer_has_the_type_of_the_table():
     filled = buffer()
     snapshot = filled.snapshot(seconds(1004))

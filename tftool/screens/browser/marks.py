@@ -9,6 +9,7 @@ from tftool.doctor.coverage_checks import gap, holes
 from tftool.doctor.evidence import evidence_of_buffer
 from tftool.doctor.judge import judge
 from tftool.doctor.localisation_steps import LocalisationStep, steps_of
+from tftool.doctor.missing_joins import base_of
 from tftool.doctor.model import Settings
 from tftool.screens.browser.page_messages import answer
 from tftool.screens.browser.protocol import since
@@ -37,6 +38,9 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
         for low, high in holes(track, gap.limits)
     ]
     gaps = sorted(gaps, key=lambda hole: hole[1] - hole[2])[:MOST_GAPS]
+    # A robot's localiser jumps; turtles, which have no base, turn sharply.
+    robots = any(base_of(tree) for tree in diagnosis.model.trees)
+    steps = steps_of(diagnosis.model) if robots else ()
     found = [one for one in diagnosis.findings if one.since is not None]
     found.sort(key=lambda one: one.severity.rank)
     return answer(
@@ -53,7 +57,7 @@ def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
                 }
                 for one in found[:MOST_FINDINGS]
             ]
-            + [_step(step, epoch) for step in steps_of(diagnosis.model)[:MOST_FINDINGS]],
+            + [_step(step, epoch) for step in steps[:MOST_FINDINGS]],
         },
     )
 
