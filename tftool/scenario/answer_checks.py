@@ -344,36 +344,39 @@ class RefusalCheck(AnswerCheck):
         return f"raises {self.raises}{says}"
 
 
+_ANGLES = ("theta", "angular")
+
+
 @dataclass(frozen=True, slots=True)
 class PoseCheck(AnswerCheck):
-    """Expected parts of a transform; None means unchecked."""
+    """Expected parts of a frame's or a turtle's pose, by name; others are unchecked."""
 
-    x: float | None
-    y: float | None
-    z: float | None
-    rotation: Quaternion | None
-    rotation_words: str
+    wanted: Mapping[str, float]
     tolerance: Tolerance
+    rotation: Quaternion | None = None
+    rotation_words: str = ""
 
     def judge(self, answer: Transform) -> Judged:
         """Compare an answer."""
-        wanted = (self.x, self.y, self.z)
-        ok = all(
-            want is None or abs(want - have) <= self.tolerance.position
-            for want, have in zip(wanted, answer.translation, strict=True)
-        )
+        ok = self._fits(answer.translation._asdict())
         if self.rotation is not None:
             ok = ok and angle_between(self.rotation, answer.rotation) <= self.tolerance.angle
         return Judged(ok, _pose_text(answer))
 
+    def _fits(self, have: Mapping[str, float]) -> bool:
+        off = {key: abs(have[key] - want) for key, want in self.wanted.items()}
+        if "theta" in off:
+            off["theta"] = abs(wrap(have["theta"] - self.wanted["theta"]))
+        return all(
+            error <= (self.tolerance.angle if key in _ANGLES else self.tolerance.position)
+            for key, error in off.items()
+        )
+
     def __str__(self) -> str:
-        parts = [
-            f"{name} {want:.6g}"
-            for name, want in (("x", self.x), ("y", self.y), ("z", self.z))
-            if want is not None
-        ]
-        moved, turned = bool(parts), self.rotation is not None
-        if turned:
+        parts = [f"{key} {want:.6g}" for key, want in self.wanted.items()]
+        turned = self.rotation is not None or any(key in _ANGLES for key in self.wanted)
+        moved = any(key not in _ANGLES for key in self.wanted)
+        if self.rotation is not None:
             parts.append(self.rotation_words)
         if not parts:
             return "can be looked up"
@@ -412,11 +415,11 @@ def _pose_check(given: Mapping[str, Any], reading: Reading, place: TextPlace) ->
     if given["says"] is not None:
         raise reading.refuse(place, "'says' goes with 'raises'")
     if value is None:
-        return PoseCheck(None, None, None, None, "", Tolerance())
+        return PoseCheck({}, Tolerance())
     place, parts = value
     rotation, words = _rotation(parts, reading, place)
-    tolerance = given["tolerance"] or Tolerance()
-    return PoseCheck(parts["x"], parts["y"], parts["z"], rotation, words, tolerance)
+    wanted = {key: parts[key] for key in ("x", "y", "z") if parts[key] is not None}
+    return PoseCheck(wanted, given["tolerance"] or Tolerance(), rotation, words)
 
 
 POSE_FORM = Form(
@@ -452,12 +455,10 @@ def _rotation(
     return quaternion_from_rpy(roll, pitch, yaw), words
 
 
-@dataclass(frozen=True, slots=True)
-class TurtlePoseCheck(AnswerCheck):
+class TurtlePoseCheck(PoseCheck):
     """Expected parts of a turtle's published pose; others are unchecked."""
 
-    wanted: Mapping[str, float]
-    tolerance: Tolerance
+    __slots__ = ()
 
     def judge(self, answer: Any) -> Judged:
         """Compare an answer."""
@@ -470,20 +471,8 @@ class TurtlePoseCheck(AnswerCheck):
             "linear": answer.linear_velocity,
             "angular": answer.angular_velocity,
         }
-        off = {key: abs(have[key] - want) for key, want in self.wanted.items()}
-        if "theta" in off:
-            off["theta"] = abs(wrap(have["theta"] - self.wanted["theta"]))
-        ok = all(
-            error <= (self.tolerance.angle if key in _ANGLES else self.tolerance.position)
-            for key, error in off.items()
-        )
+        ok = self._fits(have)
         return Judged(ok, ", ".join(f"{key} {value:.6g}" for key, value in have.items()))
-
-    def __str__(self) -> str:
-        parts = ", ".join(f"{key} {want:.6g}" for key, want in self.wanted.items())
-        turned = any(key in _ANGLES for key in self.wanted)
-        moved = any(key not in _ANGLES for key in self.wanted)
-        return f"is {parts}{self.tolerance.words(position=moved, angle=turned)}"
 
 
 _TURTLE_PARTS = {
@@ -493,9 +482,6 @@ _TURTLE_PARTS = {
     "linear": Key(values.speed, None),
     "angular": Key(values.turn_rate, None),
 }
-
-
-_ANGLES = ("theta", "angular")
 
 
 def _turtle_pose_check(

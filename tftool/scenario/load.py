@@ -7,6 +7,7 @@ The kinds of nodes, actions and subjects are in `kinds.KINDS`, `actions.ACTIONS`
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from operator import attrgetter
 from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
@@ -86,11 +87,8 @@ def parse(
         reading.mistakes.extend(source.mistakes)
         return _ScenarioReader(arguments, expects).scenario(root, reading, name)
     except Unreadable as error:
-        raise ScenarioError(name, sorted(reading.mistakes, key=_place)) from error
-
-
-def _place(mistake: Any) -> tuple[int, int]:
-    return mistake.line, mistake.column
+        by_place = attrgetter("line", "column")
+        raise ScenarioError(name, sorted(reading.mistakes, key=by_place)) from error
 
 
 class _ScenarioReader:
@@ -263,7 +261,7 @@ class _ScenarioReader:
         """Split one node: its kind ("" if unknown), its name if given, the rest."""
         if isinstance(item, Scalar) and not item.is_nothing:
             # Just the kind: `- turtlesim`.
-            entries: Mapping[str, tuple[Scalar, Node]] = {item.text: (item, _nothing_at(item))}
+            entries: Mapping[str, tuple[Scalar, Node]] = {item.text: (item, Scalar(item.place, ""))}
         else:
             read = reading.try_read(lambda node, r: r.entries(node, "a node's kind"), item)
             if read is UNREAD:
@@ -397,7 +395,3 @@ class _ScenarioReader:
                 place, f"that is more than {MOST_LOOKS:,} checks; give 'every' a longer time"
             )
         return (When("by" if said == ["by"] else "during", first, last, every),)
-
-
-def _nothing_at(node: Scalar) -> Scalar:
-    return Scalar(node.place, "")

@@ -16,11 +16,11 @@ from tftool.messages.turtle_messages import (
     Twist,
     twist,
 )
-from tftool.world.link.graph import Role, hosts
+from tftool.world.link.graph import GraphEntity, Role, hosts
 from tftool.world.link.link_options import Options
 from tftool.world.link.session import Link
 from tftool.world.link.topic_bridges import TF, TRANSFORMS
-from tftool.world.link.zenoh.keys import Token, quality
+from tftool.world.link.zenoh.keys import token_key
 from tftool.world.node import Node
 from tftool.world.nodes.remote_turtles import FarTurtles
 from tftool.world.nodes.turtlesim import Turtlesim
@@ -239,11 +239,9 @@ def test_a_process_departs_once_however_many_of_its_nodes_sent_transforms():
 def test_a_process_that_is_no_tftool_departs_with_the_last_that_sent_transforms():
     async def leave():
         async with Two() as two:
-            tokens = [
-                Token(0, "ab", 1, number, "publisher", "ros", "tf", TRANSFORMS, quality=quality(TF))
-                for number in (1, 2)
-            ]
-            hide = [two.host.middleware.wire.token(token.key()) for token in tokens]
+            sender = GraphEntity("publisher", 0, "ab", "ros", "tf", TRANSFORMS, TF)
+            tokens = [token_key(sender, 1, number) for number in (1, 2)]
+            hide = [two.host.middleware.wire.token(token) for token in tokens]
             await until(lambda: len(two.guest.graph.entities("publisher", name="tf")) == 2)
             hide[0]()
             await until(lambda: len(two.guest.graph.entities("publisher", name="tf")) == 1)

@@ -9,7 +9,7 @@ from tftool.base.errors import MalformedMessage
 from tftool.world.endpoints import Quality
 from tftool.world.link.graph import GraphEntity, Process, Role
 from tftool.world.link.zenoh import keys
-from tftool.world.link.zenoh.keys import Attachment, Token
+from tftool.world.link.zenoh.keys import Attachment
 
 TF_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 POSE_HASH = "RIHS01_739beba26bcba6920404ba722b7b8321348512f92ea5be235c47251940dd8aa9"
@@ -57,19 +57,17 @@ def test_a_topic_travels_under_the_key_that_rmw_zenoh_gives_it():
 
 
 def test_a_publisher_token_reads_like_one_of_rmw_zenoh():
-    token = Token(
+    publisher = GraphEntity(
+        "publisher",
         2,
         "aac3178e146ba6f1fc6e6a4085e77f21",
-        0,
-        10,
-        "publisher",
         "turtlesim",
         "turtle1/pose",
         "turtlesim/msg/Pose",
-        quality=keys.quality(Quality(depth=7)),
+        Quality(depth=7),
     )
 
-    assert token.key() == (
+    assert keys.token_key(publisher, 0, 10) == (
         "@ros2_lv/2/aac3178e146ba6f1fc6e6a4085e77f21/0/10/MP/%/%/turtlesim/%turtle1%pose/"
         f"turtlesim::msg::dds_::Pose_/{POSE_HASH}/::,7:,:,:,,"
     )
@@ -95,24 +93,20 @@ def test_a_quality_that_is_unheard_of_counts_as_default(text):
 
 
 @pytest.mark.parametrize(
-    ("token", "shown"),
+    "shown",
     [
-        (Token(0, "ab12", 0, 0, "node", "turtlesim"), GraphEntity("node", 0, "ab12", "turtlesim")),
-        (
-            Token(0, "ab12", 3, 3, "node", "robot1/arm/planner"),
-            GraphEntity("node", 0, "ab12", "robot1/arm/planner"),
-        ),
-        (
-            Token(5, "ab12", 1, 7, "server", "sim", "a/set_pen", "turtlesim/srv/SetPen", "h", "2"),
-            GraphEntity(
-                "server", 5, "ab12", "sim", "a/set_pen", "turtlesim/srv/SetPen",
-                Quality(is_reliable=False), type_hash="h",
-            ),
+        GraphEntity("node", 0, "ab12", "turtlesim"),
+        GraphEntity("node", 0, "ab12", "robot1/arm/planner"),
+        GraphEntity(
+            "server", 5, "ab12", "sim", "a/set_pen", "turtlesim/srv/SetPen",
+            Quality(is_reliable=False), type_hash="h",
         ),
     ],
 )  # fmt: skip
-def test_a_token_tells_what_it_was_made_from(token, shown):
-    assert keys.parse_token(token.key()) == replace(shown, gid=keys.gid_of(token.key()))
+def test_a_token_tells_what_it_was_made_from(shown):
+    key = keys.token_key(shown, 1, 7)
+
+    assert keys.parse_token(key) == replace(shown, gid=keys.gid_of(key))
 
 
 def test_a_process_comes_back_from_its_token_and_names_are_made_plain():

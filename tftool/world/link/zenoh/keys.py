@@ -103,56 +103,25 @@ def read_quality(text: str) -> Quality:
 # Tokens
 
 
-@dataclass(frozen=True, slots=True)
-class Token:
-    """A liveliness token of rmw_zenoh, which announces one entity of the graph.
+def token_key(entity: GraphEntity, node_id: int, entity_id: int) -> str:
+    """Return the key of the liveliness token with which rmw_zenoh announces an entity.
 
-    Attributes:
-        domain: Number of the ROS domain.
-        session: Id of the zenoh session, in hexadecimal.
-        node_id: Number of the node within the session.
-        entity_id: Number of this thing within the session; of a node, its own.
-        kind: Its kind, one of `graph.KINDS`.
-        node: The node's name, with its namespace, without the leading slash.
-        name: The topic's or service's name without the leading slash; of a node, "".
-        ros_type: Its type, "tf2_msgs/msg/TFMessage"; of a node, "".
-        type_hash: The hash of the type; "" for ours, and of a node.
-        quality: Its quality of service as written; of a node, "".
+    Args:
+        entity: The entity; without a type hash it has ours.
+        node_id: Number of its node within the session.
+        entity_id: Its own number within the session; of a node, the same.
     """
-
-    domain: int
-    session: str
-    node_id: int
-    entity_id: int
-    kind: str
-    node: str
-    name: str = ""
-    ros_type: str = ""
-    type_hash: str = ""
-    quality: str = ""
-
-    def key(self) -> str:
-        """Return the announced key."""
-        namespace, _, node = self.node.rpartition("/")
-        parts = [
-            LIVELINESS,
-            str(self.domain),
-            self.session,
-            str(self.node_id),
-            str(self.entity_id),
-            _CODES[self.kind],
-            "%",
-            _mangle("/" + namespace),
-            node,
+    namespace, _, node = entity.node.rpartition("/")
+    parts = [LIVELINESS, str(entity.domain), entity.session, str(node_id), str(entity_id)]
+    parts += [_CODES[entity.kind], "%", _mangle("/" + namespace), node]
+    if entity.kind != NODE:
+        parts += [
+            _mangle("/" + entity.name),
+            dds_name(entity.ros_type),
+            entity.type_hash or type_hash(entity.ros_type),
+            quality(entity.quality),
         ]
-        if self.kind != NODE:
-            parts += [
-                _mangle("/" + self.name),
-                dds_name(self.ros_type),
-                self.type_hash or type_hash(self.ros_type),
-                self.quality,
-            ]
-        return "/".join(parts)
+    return "/".join(parts)
 
 
 def parse_token(key: str) -> GraphEntity | Process | None:

@@ -10,11 +10,19 @@ from tftool.base.errors import LinkError, MalformedMessage
 from tftool.base.stamps import Stamp, seconds
 from tftool.world.clock import WallClock
 from tftool.world.endpoints import PUBLISHER, SUBSCRIPTION, Quality
-from tftool.world.link.graph import CLIENT, NODE, SERVER, Graph, Process, node_name
+from tftool.world.link.graph import (
+    CLIENT,
+    NODE,
+    SERVER,
+    Graph,
+    GraphEntity,
+    Process,
+    node_name,
+)
 from tftool.world.link.link_options import Options
 from tftool.world.link.seam import Arrived, Middleware, Watcher, WireRequest, nothing
 from tftool.world.link.zenoh import keys, rendezvous
-from tftool.world.link.zenoh.keys import Attachment, Token
+from tftool.world.link.zenoh.keys import Attachment
 from tftool.world.link.zenoh.reach import SECURED, ZenohReach, protocol_of
 from tftool.world.link.zenoh.rendezvous import Rendezvous
 from tftool.world.link.zenoh.transport import KeyPublisher, Query, Sample, Wire
@@ -171,9 +179,8 @@ class ZenohMiddleware(Middleware):
     def node(self, name: str) -> Callable[[], None]:
         """Announce a node."""
         number = self._nodes[name] = self._number()
-        hide = self.show(
-            Token(self._options.domain, self.session, number, number, NODE, node_name(name)).key()
-        )
+        entity = GraphEntity(NODE, self._options.domain, self.session, node_name(name))
+        hide = self.show(keys.token_key(entity, number, number))
 
         def leave() -> None:
             self._nodes.pop(name, None)
@@ -258,17 +265,9 @@ class ZenohMiddleware(Middleware):
 
     def _token(self, kind: str, node: str, name: str, ros_type: str, quality: Quality) -> str:
         """Return the key of a new token."""
-        return Token(
-            self._options.domain,
-            self.session,
-            self._nodes.get(node, 0),
-            self._number(),
-            kind,
-            node_name(node),
-            name,
-            ros_type,
-            quality=keys.quality(quality),
-        ).key()
+        domain, session = self._options.domain, self.session
+        entity = GraphEntity(kind, domain, session, node_name(node), name, ros_type, quality)
+        return keys.token_key(entity, self._nodes.get(node, 0), self._number())
 
     def _number(self) -> int:
         self._numbers += 1
