@@ -256,6 +256,24 @@ def arm(shown):
     return show
 
 
+@pytest.fixture
+def long_names():
+    """The screen of 80 × 24 for an arm with a joint of 19 letters."""
+    robot = Robot(parse_description(ARM.replace('"turn"', '"shoulder_lift_joint"')))
+    app = RobotApp(new_world(), Sliders(robot, Mover(robot)), setting=Setting())
+    lines = []
+
+    async def main():
+        async with app.run_test(size=(80, 24)) as pilot:
+            await pilot.pause()
+            app.redraw()
+            await pilot.pause()
+            lines.extend(strip.text for strip in app.screen._compositor.render_strips(app.size))
+
+    asyncio.run(main())
+    return lines
+
+
 def solid_cells(lines):
     return sum(line.count(sign) for line in lines for sign in "░▒▓█")
 
@@ -263,6 +281,18 @@ def solid_cells(lines):
 def test_the_robot_is_drawn_beside_its_joints(arm):
     assert solid_cells(arm()) > 40
     assert solid_cells(arm("p")) == 0
+
+
+def test_rows_below_the_joints_say_where_every_link_is(arm):
+    lines = arm(at=0.0)
+
+    assert any("base" in line and line.count("0.000") == 3 for line in lines)
+    (rod,) = [line for line in lines if "│rod  " in line]
+    assert rod.split("│")[1].split() == ["rod", "0.000", "0.000", "0.000"]
+
+
+def test_joints_have_their_whole_names_beside_the_picture(long_names):
+    assert "shoulder_lift_joint ├" in "\n".join(long_names)
 
 
 def test_a_small_terminal_has_joints_alone(arm):

@@ -75,7 +75,8 @@ def test_what_does_not_fit_is_counted():
     assert "link_20" not in "".join(lines)
     # 61 frames, of which 21 have room between the heading and the two lines at the bottom.
     assert lines[-2] == "↓ 40 more"
-    assert lines[-1].startswith("q quit  s sort: tree  / filter")
+    assert lines[-1].startswith(" s sort: tree  / filter")
+    assert lines[-1].endswith("q quit")
 
 
 def test_all_of_it_needs_no_count():
@@ -113,7 +114,7 @@ def test_s_sorts_by_name_rate_age_and_broadcaster():
 def test_letters_behind_a_slash_filter_and_escape_shows_all():
     lines = shown("slash", *"K_5")
 
-    assert lines[-1] == "filter: K_5_"
+    assert lines[-1] == " filter: K_5_"
     assert first_words(lines[:-1]) == ["at", "world", *["├──"] * 9, "└──"]
     assert all(f"link_5{n}" in line for n, line in enumerate(lines[2:12]))
     assert "filter: K_5  Esc all frames" in shown("slash", *"K_5", "enter")[-1]
@@ -164,6 +165,16 @@ def test_a_key_shows_the_frames_in_space_and_back():
     assert any("link_02" in line for line in lines)
     assert "broadcaster" in shown("p", "p", frames=3)[0]
     assert lines != shown("p", "w", frames=3)
+
+
+def test_a_tree_that_leaves_rows_free_has_the_picture_below_it():
+    lines = shown(frames=3)
+
+    assert "broadcaster" in lines[0]
+    assert "grid " in lines[-2]
+    assert any("link_02" in line for line in lines[8:])
+    assert lines != shown("w", frames=3)
+    assert not any("grid " in line for line in shown(frames=60))
 
 
 def test_keys_are_told_and_closed():

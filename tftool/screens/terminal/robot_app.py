@@ -26,16 +26,22 @@ from tftool.screens.terminal.space_panel import (
     frames_in_space,
 )
 from tftool.screens.terminal.text_style import Look, wrapped
-from tftool.screens.terminal.world_app import Panel, PanelApp
+from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
 from tftool.world.world import World
 
 LOOKS_PER_SECOND = 15
+
+LEAST_BAR = 7
+"""Cells of a slider's bar for which names are cut."""
 
 SMALLEST = (40, 8)
 """Columns and rows below which nothing useful is to be seen."""
 
 BESIDE = 76
 """Columns from which the picture has room beside the joints."""
+
+WITH_LINKS = 9
+"""Rows that the link's pose gets below the joints where it takes all that is left."""
 
 BELOW = 26
 """Rows from which it has room below them."""
@@ -69,22 +75,9 @@ class RobotApp(PanelApp):
         missing: Why some of them are not, a sentence each.
     """
 
-    CSS = """
-    Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
-    Screen { layers: default above; }
-    Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
-    .ascii Panel { border: ascii $secondary; }
-    #header, #footer { border: none; height: 1; background: $background; }
-    #body { height: 1fr; layout: horizontal; overflow: hidden; }
-    .portrait #body { layout: vertical; }
-    #side { width: 1fr; height: 1fr; layout: vertical; overflow: hidden; }
-    #space { width: 1fr; height: 1fr; display: none; }
-    #joints { height: 1fr; }
-    #pose { height: 4; }
-    #keys { layer: above; dock: top; width: 68; display: none; border: round $accent; }
-    .ascii #keys { border: ascii $accent; }
+    CSS = f"""{FRAME_CSS}
+    #space {{ width: 1fr; height: 1fr; display: none; }}
     """
-    KEYS_WIDTH = 68
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up,k", "choose(-1)", show=False, priority=True),
         Binding("down,j", "choose(1)", show=False, priority=True),
@@ -162,7 +155,10 @@ class RobotApp(PanelApp):
         self.query_one("#side").styles.width = (
             max(44, min(76, width * 2 // 5)) if is_beside else "1fr"
         )
-        self.panel("pose").styles.height = 6 if height >= 16 else 4
+        joints = len(self.sliders.sliders) + 2
+        fits = joints + WITH_LINKS <= height - 2
+        self.panel("joints").styles.height = joints if fits else "1fr"
+        self.panel("pose").styles.height = "1fr" if fits else 6 if height >= 16 else 4
 
     # Looking
 
@@ -217,10 +213,11 @@ class RobotApp(PanelApp):
     def _rows(self, shown: Sequence[Slider], width: int) -> list[Text]:
         look = self.look
         names = max((len(one.joint.name) for one in shown), default=0)
-        name_width = min(names, max(10, width // 3, width - 28))
         limits = width >= 72
-        bar_width = width - name_width - 18 - (20 if limits else 0)
-        return [self._row(one, name_width, bar_width, limits, look) for one in shown]
+        room = width - (36 if limits else 16)
+        # A name is whole where the bar keeps some cells.
+        name_width = min(names, max(10, room - LEAST_BAR))
+        return [self._row(one, name_width, room - name_width, limits, look) for one in shown]
 
     def _row(self, one: Slider, name_width: int, bar_width: int, limits: bool, look: Look) -> Text:
         palette = look.palette
@@ -234,7 +231,7 @@ class RobotApp(PanelApp):
             value = "?" if one.position is None else f"{one.position:.4f}"
         line = Text.assemble((f"{mark} {name} ", weak if one.follows else ink))
         line.append(_bar(one, bar_width, look), weak if one.follows else ink)
-        line.append(f" {value:>9} {one.joint.unit:<3}", weak if one.follows else ink)
+        line.append(f" {value:>8} {one.joint.unit:<3}", weak if one.follows else ink)
         if limits:
             lower, upper = one.range
             dots = ".." if look.ascii_only else "…"
@@ -265,7 +262,23 @@ class RobotApp(PanelApp):
         turn = f"rpy {roll:.4f} {pitch:.4f} {yaw:.4f} rad"
         if height < 4:
             return [heading, Text(f"{place}   {turn}")]
-        return [heading, Text(place), Text(turn), self._joint(width)]
+        return [heading, Text(place), Text(turn), self._joint(width), *self._others(width)][:height]
+
+    def _others(self, width: int) -> list[Text]:
+        """Return where every link is, a line each below a heading."""
+        look, root = self.look, self.prefix + self.sliders.robot.root
+        name_width = max(8, width - 30)
+        lines = [Text(), Text(f"{'':{name_width}}         x         y         z", "dim")]
+        for link in self._links:
+            try:
+                place = self.world.buffer.lookup_transform(root, self.prefix + link)
+            except TransformException:
+                continue
+            name = padded(self.prefix + link, name_width, more=look.more)
+            numbers = "".join(f" {value:9.3f}" for value in place.transform.translation)
+            color = look.palette.accent if link == self.link else look.of_name(self.prefix + link)
+            lines.append(Text.assemble((name, look.ink(color)), numbers))
+        return lines
 
     def _joint(self, width: int) -> Text:
         """Describe the joint under the cursor and its limits."""

@@ -31,7 +31,7 @@ _MOVES: Mapping[str, Callable[[OrbitCamera], None]] = {
 """Keys of every screen that has this panel; none of them means anything else there."""
 
 SPACE_KEYS = """\
- p            the frames in space, or as before
+ p            the picture, or as before
  Shift+Arrow  turn around them (or drag with the mouse)
  < >          farther, nearer (also the wheel)
  w            another view: orbit, top, front, side
@@ -76,6 +76,11 @@ class SpacePanel(Panel):
         """Show a picture from now on."""
         self._picture, self._look = picture, look
         self._paint()
+
+    def on_resize(self) -> None:
+        """Draw the picture in the new size."""
+        if self.in_space:
+            self._paint()
 
     def _paint(self) -> None:
         width, height = self.size

@@ -19,14 +19,20 @@ from tftool.drawing.solids import Solids
 from tftool.drawing.space import SpacePicture
 from tftool.drawing.sparklines import NO_HISTORY, TrafficHistory
 from tftool.screens.terminal.frames_picture import natural_fixed
-from tftool.screens.terminal.panel_text import title_bar
+from tftool.screens.terminal.panel_text import Hint, footer, title_bar
 from tftool.screens.terminal.screen_options import Setting
 from tftool.screens.terminal.space_panel import SPACE_KEYS, SpacePanel, frames_in_space
 from tftool.screens.terminal.text_style import wrapped
-from tftool.screens.terminal.world_app import Panel, PanelApp, WorldApp
+from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp, WorldApp
 from tftool.world.world import TransformMessage, World
 
 LOOKS_PER_SECOND = 2
+
+HEADINGS = 2
+"""Lines above the frames, at most."""
+
+WITH_SPACE, LEAST_SPACE = 60, 14
+"""Columns from which the picture stands below the tree, and the rows it needs there."""
 
 Marks = Mapping[str, Sequence[str]]
 
@@ -119,18 +125,10 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         solids: The shapes of a robot among the frames, once its description is known.
     """
 
-    CSS = """
-    Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
-    Screen { layers: default above; }
-    Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
-    .ascii Panel { border: ascii $secondary; }
-    #header, #footer { border: none; height: 1; background: $background; }
-    #rows { height: 1fr; }
-    .tiny #rows { border: none; }
-    #keys { layer: above; dock: top; width: 68; display: none; border: round $accent; }
-    .ascii #keys { border: ascii $accent; }
+    CSS = f"""{FRAME_CSS}
+    #rows, #space {{ height: 1fr; }}
+    .tiny #rows {{ border: none; }}
     """
-    KEYS_WIDTH = 68
     # Every other key is a letter while a filter is typed.
     BINDINGS: ClassVar[list[BindingType]] = WorldApp.BINDINGS
 
@@ -145,6 +143,7 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         self.window = TreeWindow()
         self.news = ""
         self._types = False
+        self._is_alone = False
         self._seen: tuple[Snapshot, Marks] | None = None
         self.solids: Solids | None = None
         self._traffic = Traffic()
@@ -170,7 +169,8 @@ class TreeWatch(PanelApp, inherit_bindings=False):
     def compose(self) -> ComposeResult:
         """Create the panels."""
         yield Panel("header", can_focus=False)
-        yield SpacePanel("rows", "Frames", can_focus=False)
+        yield Panel("rows", "Frames", can_focus=False)
+        yield SpacePanel("space", "In space", can_focus=False)
         yield Panel("footer", can_focus=False)
         yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
@@ -184,7 +184,23 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         is_tiny = event.size.height < 8 or event.size.width < 30
         self.screen.set_class(is_tiny, "tiny")
         self.panel("header").display = not is_tiny
+        self._arrange()
         self.call_after_refresh(self.redraw)
+
+    def _arrange(self) -> None:
+        """Show the tree, the picture, or the picture below a tree that leaves room for it."""
+        rows, space = self.panel("rows"), self.space
+        height = self.size.height - 2
+        needs = 0 if self._seen is None else len(self._seen[0].frames) + HEADINGS + 2
+        has_room = 0 < needs <= height - LEAST_SPACE and self.size.width >= WITH_SPACE
+        rows.display = not self._is_alone
+        rows.styles.height = needs if has_room else "1fr"
+        space.display = space.in_space = self._is_alone or has_room
+
+    @property
+    def space(self) -> SpacePanel:
+        """Return the panel of the picture."""
+        return self.query_one(SpacePanel)
 
     # Looking
 
@@ -204,77 +220,58 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         now = self.world.clock.now()
         snapshot = self.world.buffer.snapshot(now)
         self._history.look(now, self._traffic)
-        self._seen = (snapshot, self._marks_now(snapshot))
+        before, self._seen = self._seen, (snapshot, self._marks_now(snapshot))
+        if before is None or len(before[0].frames) != len(snapshot.frames):
+            self._arrange()
+            self.call_after_refresh(self.redraw)
         self._draw()
 
     def _draw(self) -> None:
         if self._seen is None:
             return
         snapshot, marks = self._seen
-        rows = self.query_one("#rows", SpacePanel)
-        width, height = rows.size
-        if rows.in_space:
+        rows, space = self.panel("rows"), self.space
+        if space.in_space:
             fixed = natural_fixed(snapshot, ("", ""))
             frames = frames_in_space(snapshot, fixed)
-            picture = SpacePicture(fixed, frames, self.solids, chosen=rows.camera.follows)
-            rows.draw(picture, self.look)
-        else:
-            rows.border_subtitle = ""
+            space.draw(
+                SpacePicture(fixed, frames, self.solids, chosen=space.camera.follows), self.look
+            )
+        if rows.display:
+            ascii_only, history = self.setting.ascii_only, self._history
             rows.show(
                 self.window.lines(
-                    snapshot,
-                    marks,
-                    width,
-                    height,
-                    ascii_only=self.setting.ascii_only,
-                    history=self._history,
+                    snapshot, marks, *rows.size, ascii_only=ascii_only, history=history
                 )
             )
-        self.panel("header").show([self._header(snapshot)])
-        self.panel("footer").show([self._footer(self.size.width)])
-
-    def _header(self, snapshot: Snapshot) -> Text:
         words = f"{self.title}: {count(len(snapshot.frames), 'frame')}"
         elapsed = as_seconds(self.world.clock.now() - self._began)
-        return title_bar(words, elapsed, self.size.width, self.look)
+        self.panel("header").show([title_bar(words, elapsed, self.size.width, self.look)])
+        self.panel("footer").show([self._footer(self.size.width)])
 
     def _footer(self, width: int) -> Text:
-        more = "~" if self.setting.ascii_only else "…"
-        if self._types:
-            told = fitted(f"filter: {plain(self.window.wanted)}", max(1, width - 1), more=more)
-            return Text(told, style="bold").append("_", style="blink")
         look = self.look
+        if self._types:
+            words = f" filter: {plain(self.window.wanted)}"
+            told = fitted(words, max(1, width - 1), more=look.more)
+            return Text(told, style="bold").append("_", style="blink")
         if self.news:
             return wrapped(self.news, width, look.ink(look.palette.warning))[0].copy()
-        line = Text()
-        strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
-        for keys, does in self._hints():
-            hint = Text.assemble((keys, strong), (f" {does}", weak))
-            if line.cell_len + hint.cell_len + 2 <= width:
-                line.append("  " if line.cell_len else "").append_text(hint)
-        return line
-
-    def _hints(self) -> list[tuple[str, str]]:
-        if self.query_one("#rows", SpacePanel).in_space:
-            hints = [("q", "quit"), ("p", "tree"), ("Shift+arrows", "turn"), ("< >", "zoom")]
-            return [*hints, ("w", "view"), ("y", "follow the next frame"), ("a", "show all")]
-        updown = "up/down" if self.setting.ascii_only else "↑↓"
-        kept = f"filter: {plain(self.window.wanted)}" if self.window.wanted else "filter"
+        orbit = [Hint("Shift+arrows", "turn"), Hint("< >", "zoom"), Hint("w", "view")]
+        orbit += [Hint("y", "follow the next frame"), Hint("a", "show all")]
+        end = [Hint("?", "keys"), Hint("q", "quit")]
+        if self._is_alone:
+            return footer([Hint("p", "tree"), *orbit, *end], width, look)
+        wanted = self.window.wanted
         hints = [
-            ("q", "quit"),
-            ("s", f"sort: {self.window.order.value}"),
-            ("/", kept),
+            Hint("s", f"sort: {self.window.order.value}"),
+            Hint("/", f"filter: {plain(wanted)}" if wanted else "filter"),
+            *([Hint("Esc", "all frames")] if wanted else []),
+            Hint("p", "3-D"),
+            Hint("up/down" if look.ascii_only else "↑↓", "scroll"),
         ]
-        if self.window.wanted:
-            hints.append(("Esc", "all frames"))
-        return [
-            *hints,
-            ("p", "3-D"),
-            (updown, "scroll"),
-            ("PgUp PgDn", "page"),
-            ("g G", "top, end"),
-            ("?", "keys"),
-        ]
+        more = [Hint("PgUp PgDn", "page"), Hint("g G", "top, end")]
+        return footer([*hints, *(orbit if self.space.in_space else more), *end], width, look)
 
     # Keys
 
@@ -282,7 +279,6 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         """Handle a key: scroll, sort, filter or leave."""
         event.stop()
         self.news = ""
-        rows = self.query_one("#rows", SpacePanel)
         if self._types:
             self._type(event)
         elif event.key in ("q", "Q"):
@@ -293,8 +289,10 @@ class TreeWatch(PanelApp, inherit_bindings=False):
         elif event.key == "m":
             self.action_shade()
         elif event.key == "p":
-            rows.in_space = not rows.in_space
-        elif rows.press(event.key, self._next_followed(rows)):
+            self._is_alone = not self._is_alone
+            self._arrange()
+            self.call_after_refresh(self.redraw)
+        elif self.space.press(event.key, self._next_followed()):
             return
         elif event.key == "s":
             self.window.sort()
@@ -307,11 +305,11 @@ class TreeWatch(PanelApp, inherit_bindings=False):
             self._scroll(event.key)
         self.redraw()
 
-    def _next_followed(self, rows: SpacePanel) -> str:
+    def _next_followed(self) -> str:
         """Return the frame after the followed one; none after the last."""
         names = [info.frame for info in self._seen[0].frames] if self._seen else []
         names.append("")
-        follows = rows.camera.follows
+        follows = self.space.camera.follows
         return names[(names.index(follows) + 1) % len(names) if follows in names[:-1] else 0]
 
     def _type(self, event: events.Key) -> None:

@@ -29,7 +29,7 @@ from tftool.screens.terminal.screen_options import SMALLEST, WITH_BANNER, Settin
 from tftool.screens.terminal.space_panel import SPACE_BINDINGS, SpacePanel
 from tftool.screens.terminal.space_scene import opens_in_space, space_picture
 from tftool.screens.terminal.text_style import wrapped
-from tftool.screens.terminal.world_app import Panel, PanelApp
+from tftool.screens.terminal.world_app import FRAME_CSS, Panel, PanelApp
 from tftool.world.nodes.turtle_drivers import IdleDrawing
 
 LOOKS_PER_SECOND = 20
@@ -62,29 +62,19 @@ class TurtleApp(PanelApp):
         press_key: Takes a key that drives; None where nothing can be driven.
     """
 
-    CSS = """
-    Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
-    Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
-    Panel:focus { border: round $accent; border-title-color: $accent; border-title-style: bold; }
-    .mono Panel:focus { border: heavy $accent; }
-    .ascii Panel { border: ascii $secondary; }
-    .ascii Panel:focus { border: ascii $accent; }
-    #header, #footer, #small { border: none; height: 1; background: $background; }
-    #small { height: 1fr; display: none; }
-    #banner { border: none; display: none; background: $background; }
-    #body { height: 1fr; layout: horizontal; overflow: hidden; }
-    #side { width: 1fr; height: 1fr; layout: vertical; overflow: hidden; }
-    #scenarios { layer: above; dock: top; display: none; border: round $accent; }
-    .ascii #scenarios { border: ascii $accent; }
-    #keys { layer: above; dock: top; width: 76; display: none; border: round $accent; }
-    .ascii #keys { border: ascii $accent; }
-    Screen { layers: default above; }
-    .portrait #body { layout: vertical; }
-    #log { border: none; height: 1; background: $background; }
-    #log:focus { border: round $accent; background: $surface; }
-    .mono #log:focus { border: heavy $accent; }
-    .ascii #log { border: none; }
-    .ascii #log:focus { border: ascii $accent; }
+    CSS = f"""{FRAME_CSS}
+    Panel:focus {{ border: round $accent; border-title-color: $accent; border-title-style: bold; }}
+    .mono Panel:focus {{ border: heavy $accent; }}
+    .ascii Panel:focus {{ border: ascii $accent; }}
+    #small {{ border: none; height: 1fr; display: none; background: $background; }}
+    #banner {{ border: none; display: none; background: $background; }}
+    #scenarios {{ layer: above; dock: top; display: none; border: round $accent; }}
+    .ascii #scenarios {{ border: ascii $accent; }}
+    #log {{ border: none; height: 1; background: $background; }}
+    #log:focus {{ border: round $accent; background: $surface; }}
+    .mono #log:focus {{ border: heavy $accent; }}
+    .ascii #log {{ border: none; }}
+    .ascii #log:focus {{ border: ascii $accent; }}
     """
     KEYS_WIDTH = 76
     BINDINGS: ClassVar[list[BindingType]] = [

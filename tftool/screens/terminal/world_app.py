@@ -196,11 +196,28 @@ class WorldApp(App[None]):
         self.exit()
 
 
+FRAME_CSS = """
+Screen { layout: vertical; background: $background; color: $foreground; overflow: hidden; }
+Screen { layers: default above; }
+Panel { background: $surface; border: round $secondary; border-title-color: $foreground; }
+.ascii Panel { border: ascii $secondary; }
+#header, #footer { border: none; height: 1; background: $background; }
+#body { height: 1fr; layout: horizontal; overflow: hidden; }
+.portrait #body { layout: vertical; }
+#side { width: 1fr; height: 1fr; layout: vertical; overflow: hidden; }
+#keys { layer: above; dock: top; display: none; border: round $accent; }
+.ascii #keys { border: ascii $accent; }
+"""
+"""Style of the panels that all screens have."""
+
+
 class PanelApp(WorldApp):
     """Screen of panels in tftool's colours, light or dark, with a panel of key help."""
 
-    KEYS_WIDTH: ClassVar[int]
+    KEYS_WIDTH: ClassVar[int] = 68
     """Cells that the panel of the keys takes."""
+
+    CSS = FRAME_CSS
 
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("q,Q", "leave", show=False, priority=True),
