@@ -18,7 +18,7 @@ def test_a_curve_goes_from_nothing_to_its_largest_value():
     assert sparkline([0.0, -1.0], 2) == "▁▁"
 
 
-@pytest.mark.parametrize(("width", "cells"), [(100, 12), (200, 30)])
+@pytest.mark.parametrize(("width", "cells"), [(100, 12), (200, 50)])
 def test_rate_and_delay_are_counted_from_look_to_look(width, cells):
     traffic, history = Traffic(), TrafficHistory()
     now = seconds(100)

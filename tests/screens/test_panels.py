@@ -328,9 +328,26 @@ def test_the_strip_is_the_newest_line_and_says_how_to_see_more():
 
     assert strip(3) == [f" 1.0 sim: early{'':17}  L log "]
     assert strip(9)[0] == " 5.0 sim: late late late late     L log "
-    assert strip(9)[1:] == ["   late late late late late late", "   late late late late late lat…"]
+    line = "   late late late late late late late"
+    assert strip(9)[1:] == [line, f"{line}…"]
     assert strip(9, most=1) == [" 5.0 sim: late late late late…    L log "]
     assert strip(0)[0].startswith(" Nothing was said yet.")
+
+
+def test_a_refused_lookup_is_read_to_its_end_on_80_columns():
+    told = (
+        "Could not transform turtle2 to turtle1: Lookup would require extrapolation into the past. "
+        " Requested time 1795693068.823222 but the earliest data is at time 1795693072.661122, "
+        "when looking up transform from frame [turtle1] to frame [turtle2]"
+    )
+    journal = Journal([LogRecord(seconds(1000 + n), "WARN", "follower", told) for n in range(5)])
+
+    lines = journal.strip(seconds(1009), seconds(1000), 80, PLAIN)
+
+    text = "\n".join(line.plain for line in lines)
+    assert "[turtle2] ×5" in " ".join(text.split())
+    assert "…" not in text
+    assert max(line.cell_len for line in lines) <= 80
 
 
 def test_the_scenarios_are_listed_round_the_cursor():
@@ -356,11 +373,12 @@ def test_the_log_of_an_earlier_moment_ends_there():
     assert log(journal, until=0) == ["Nothing was said yet."]
 
 
-def test_a_long_line_is_broken_at_blanks_and_cut_after_three():
+def test_a_long_line_is_broken_at_blanks_and_cut_after_four():
     journal = Journal([record(0, "word " * 60)])
 
     assert log(journal, width=30, height=9) == [
         "0.0 sim: word word word word",
+        "  word word word word word",
         "  word word word word word",
         "  word word word word word…",
     ]

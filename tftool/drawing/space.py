@@ -168,8 +168,10 @@ class OrbitCamera:
         reach = np.array([[x, y, z] for x in box[:, 0] for y in box[:, 1] for z in box[:, 2]])
         middle = 0.5 * (low + high)
         wide, tall = 2.0 * np.abs((reach - middle) @ axes[:2].T).max(0)
-        # Names need some room around the frames.
-        across, down = max(1, 2 * columns - 16), max(1, 4 * rows - 8)
+        # Axes and names need some room around the frames.
+        axis = 4.0 * max(1.2, rows / 10.0)
+        across = max(1.0, 2 * columns - max(16.0, 2.4 * axis))
+        down = max(1.0, 4 * rows - max(8.0, axis))
         self._scale = max(float(wide) / across, float(tall) / down, 1e-9) / self._factor
         for one in picture.frames:
             if one.name == self.follows:

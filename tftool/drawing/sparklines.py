@@ -64,13 +64,15 @@ class TrafficHistory:
             width: Cells of the table.
             ascii_only: Draw with ASCII characters alone.
         """
-        cells = 12 if width < 150 else 30
+        cells = max(12, min(LOOKS, (width - 100) // 2))
         names = list(frames)
         return [
             TableColumn(
                 heading,
                 [(sparkline(kept.get(name, ()), cells, ascii_only=ascii_only), style)
                  for name in names],
+                # The heading stands above the newest value.
+                stands_right=True,
                 # They leave before any number does.
                 goes=goes,
             )

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 from enum import Enum, auto
 
 from rich import box
-from rich.console import Console, RenderableType
+from rich.console import Console, Group, RenderableType
 from rich.panel import Panel
 from rich.text import Text
 
@@ -25,6 +25,8 @@ from tftool.drawing import theme
 from tftool.drawing import traffic_view as view
 from tftool.drawing.echo_view import in_words
 from tftool.drawing.sparklines import TrafficHistory
+from tftool.screens.terminal.panel_text import title_bar
+from tftool.screens.terminal.text_style import Look
 from tftool.world.clock import Phase, pace_of
 from tftool.world.supervisor import beside
 from tftool.world.topics import Topic
@@ -101,19 +103,23 @@ class TrafficReport:
             self.traffic,
             self.chain,
             width=console.width - 4 * is_framed,
-            height=console.height - 1 - 2 * is_framed,
+            height=console.height - 1 - 3 * is_framed,
             ascii_only=ascii_only,
             history=self.history,
         )
         if not is_framed:
             return shown
         palette = theme.LIGHT if theme.prefers_light(os.environ) else theme.DARK
-        return Panel(
+        look = Look(palette, ascii_only)
+        frame = Panel(
             shown,
-            title=Text(" tftool monitor ", theme.ink(palette.accent, bold=True)),
+            title=Text(" Frames ", theme.ink(palette.text)),
             title_align="left",
             border_style=theme.ink(palette.dim),
             box=box.ASCII if ascii_only else box.ROUNDED,
+        )
+        return Group(
+            title_bar("tftool monitor", as_seconds(now - began), console.width, look), frame
         )
 
     def write(self, now: Stamp) -> None:

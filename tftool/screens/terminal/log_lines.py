@@ -11,7 +11,7 @@ from tftool.base.stamps import Stamp, as_seconds
 from tftool.screens.terminal.text_style import Look, wrapped
 from tftool.world.log import PROBLEMS, LogRecord
 
-MOST_LINES = 3
+MOST_LINES = 4
 """Lines that one entry takes."""
 
 
@@ -108,10 +108,10 @@ class Journal:
         room = max(0, width - more.cell_len)
         lines = [Text("Nothing was said yet.", dim)]
         if told:
-            lines = self._entry(told[-1], until, start, max(room - 1, 1), look)
+            lines = self._entry(told[-1], until, start, max(width - 2, 1), look, first=room - 1)
         shown = [Text.assemble(" ", line) for line in lines[:most]]
         if len(lines) > most:
-            shown[-1].truncate(max(0, room - 1))
+            shown[-1].truncate(max(0, (room if most == 1 else width) - 1))
             shown[-1].append(look.more)
         shown[0].append(" " * max(0, room - shown[0].cell_len))
         shown[0].append_text(more)
@@ -125,7 +125,14 @@ class Journal:
         return sorted(told, key=lambda entry: entry.last(until))
 
     def _entry(
-        self, entry: _Entry, until: Stamp, start: Stamp, width: int, look: Look
+        self,
+        entry: _Entry,
+        until: Stamp,
+        start: Stamp,
+        width: int,
+        look: Look,
+        *,
+        first: int | None = None,
     ) -> list[Text]:
         palette, record = look.palette, entry.record
         colors = {"WARN": palette.warning, "ERROR": palette.error, "FATAL": palette.error}
@@ -139,9 +146,8 @@ class Journal:
         times = f" {'x' if look.ascii_only else '×'}{count}" if count > 1 else ""
         words = f"{record.node}: {record.text}"
         # The first line shares its place with the time, the others stand a little in.
-        lines = wrapped(
-            words, max(8, width - indent), look.ink(color), first=max(8, width - len(when))
-        )
+        room = max(8, (width if first is None else first) - len(when))
+        lines = wrapped(words, max(8, width - indent), look.ink(color), first=room)
         lines[0] = Text.assemble((when, look.ink(palette.dim)), lines[0])
         is_cut = len(lines) > MOST_LINES
         lines[1:] = [Text.assemble(" " * indent, line) for line in lines[1:MOST_LINES]]
