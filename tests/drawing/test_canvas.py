@@ -1,6 +1,7 @@
 import math
 from itertools import pairwise
 
+import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -10,6 +11,7 @@ from tftool.base.color import Color
 from tftool.drawing import sprites, theme
 from tftool.drawing.canvas import Canvas
 from tftool.drawing.plane import (
+    ColoredLines,
     Drawn,
     PlaneFrame,
     PlanePicture,
@@ -104,7 +106,11 @@ def test_whatever_there_is_every_line_is_exactly_as_wide_as_asked(
     )
     drawn = Drawn(tuple(stroke(*ends) for ends in trail))
     field = TurtleField(walls=frozenset({"left", "top"}))
-    picture = PlanePicture("f", frames, field=field, pen=drawn, trails=drawn)
+    ends = np.array([(x0, y0, 0.0, x1, y1, 0.0) for x0, y0, x1, y1 in trail], float)
+    # What is farther away has no trail.
+    ends = np.clip(np.nan_to_num(ends), -1e9, 1e9).reshape(-1, 2, 3)
+    trails = ColoredLines(ends, np.zeros(len(trail), int))
+    picture = PlanePicture("f", frames, field=field, pen=drawn, trails=trails)
 
     drawing = Canvas(columns, rows, ascii_only=ascii_only)
     lines = drawing.lines(picture, fitted_view(picture.bounds(), drawing.columns, drawing.rows))
@@ -434,7 +440,9 @@ def test_a_line_leads_from_every_frame_to_its_parent():
 
 def test_a_trail_has_the_colour_of_its_frame_and_lies_where_it_was():
     color = theme.of_name("drone")
-    picture = PlanePicture("m", trails=Drawn((stroke(1.0, 5.2, 10.0, 5.2, color, 0),)))
+    ends = np.array([[[1.0, 5.2, 0.0], [10.0, 5.2, 0.0]]])
+    ink = (color.r << 16) + (color.g << 8) + color.b
+    picture = PlanePicture("m", trails=ColoredLines(ends, np.array([ink])))
 
     lines = draw(picture)
 

@@ -266,13 +266,14 @@ def test_a_frame_that_moves_leaves_a_trail_by_lookup(turtles):
     earlier = scene.moment(scene.world.clock.now() - seconds(3), "map", "drone").picture.trails
     own = scene.moment(None, "map", "drone", "drone").picture
 
-    ends = [stroke[2:4] for stroke in live.strokes]
+    ends = live.ends[:, 1, :2].tolist()
     assert len(ends) > 50
     assert [math.hypot(x, y) for x, y in ends] == pytest.approx([2.0] * len(ends), abs=0.01)
-    assert live.box == pytest.approx((-2, -2, 2, 2), abs=0.02)
-    assert len(earlier.strokes) < len(ends) - 25
+    assert live.ends.min((0, 1)) == pytest.approx([-2, -2, 0], abs=0.02)
+    assert live.ends.max((0, 1)) == pytest.approx([2, 2, 0], abs=0.02)
+    assert len(earlier.ends) < len(ends) - 25
     # Seen from itself it stands still, and map goes round.
-    inks = [stroke[4] for stroke in own.trails.strokes]
+    inks = [(ink >> 16, ink >> 8 & 255, ink & 255) for ink in own.trails.colors.tolist()]
     away = [math.dist(ink, theme.of_name("map")) for ink in inks]
     # It fades with its age: the newest part has the frame's own colour.
     assert away[-1] < 10 < away[0]
@@ -292,7 +293,7 @@ def test_in_space_a_trail_is_as_high_as_its_frame_was(turtles):
     scene = turtles(3.0, (), followed=False, extra=lambda world: Climbing(world, "climbing"))
 
     moment = scene.moment(None, "map", "drone")
-    heights = [one.end[2] for one in space_picture(moment).lines]
+    heights = space_picture(moment).lines.ends[:, 1, 2].tolist()
 
     assert heights == sorted(heights)
     assert heights[-1] == pytest.approx(3.0, abs=0.11)

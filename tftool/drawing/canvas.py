@@ -53,11 +53,11 @@ THICK_FROM: Final = 26
 
 
 class _KeptDrawing:
-    """Dots of a drawing that grows: its key, and how many of its strokes are drawn."""
+    """Dots of a drawing: what it is of, and how many of its strokes are drawn."""
 
     key: object = None
     done = 0
-    dots: Dots
+    dots = Dots(0, 0)
 
 
 class Canvas:
@@ -118,8 +118,11 @@ class Canvas:
             sheet.grounds[self._inside] = packed(field.color)
             self._grow(self._pen, picture.pen, (field.x, field.y, field.theta), field)
             sheet.lay(self._pen.dots, ascii_only=self._ascii)
-        self._grow(self._trails, picture.trails, picture.fixed)
-        dots = self._trails.dots
+        trails, dots = picture.trails, self._trails.dots
+        if self._trails.key is not trails:
+            self._trails.key = trails
+            dots = self._trails.dots = Dots(self.columns, self.rows)
+            dots.draw(self._ends(trails.ends[..., :2]), trails.colors)
         sheet.lay(dots, self._faint(dots.colors, field), ascii_only=self._ascii)
         marked = self._mark(sheet, picture)
         self._sign(sheet, picture, marked)
@@ -134,7 +137,7 @@ class Canvas:
     # The ground and what is drawn on it
 
     def _ends(self, lines: Points) -> Points:
-        """Convert lines of the plane, shape (n, 4), to dots, shape (n, 2, 2)."""
+        """Convert lines of the plane, shape (n, 4) or (n, 2, 2), to dots, shape (n, 2, 2)."""
         view = self._view
         with np.errstate(all="ignore"):
             ends = (lines.reshape(-1, 2, 2) - (view.left, view.bottom)) * (4.0 / view.per_row)

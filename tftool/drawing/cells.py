@@ -55,10 +55,10 @@ def packed(color: Color | None) -> int:
     return NONE if color is None else (color.r << 16) + (color.g << 8) + color.b
 
 
-def blended(colors: Numbers, end: Color, share: float) -> Numbers:
-    """Mix packed colours with another one, as `theme.blend` does."""
+def blended(colors: Numbers, end: Color, share: float | Points) -> Numbers:
+    """Mix packed colours with another one, as `theme.blend` does; with one share, or one each."""
     parts = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], -1)
-    mixed = np.rint(parts + share * (np.array(end) - parts)).astype(np.int64)
+    mixed = np.rint(parts + np.asarray(share)[..., None] * (np.array(end) - parts)).astype(np.int64)
     return np.where(colors < 0, NONE, mixed @ np.array([1 << 16, 1 << 8, 1]))
 
 

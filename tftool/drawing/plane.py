@@ -5,7 +5,7 @@ Units are metres and radians in that frame. `drawing/canvas.py` draws the pictur
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
@@ -101,15 +101,24 @@ class Drawn:
         strokes: The newest of them, oldest first.
         forgotten: How many there were before the first of `strokes`.
         edition: A number that is another one for another drawing.
-        box: Their bounding box, where that is known.
-        heights: Above the ground, of both ends of each; empty where all are on it.
     """
 
     strokes: Sequence[Stroke] = ()
     forgotten: int = 0
     edition: int = 0
-    box: Box | None = None
-    heights: Sequence[tuple[float, float]] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ColoredLines:
+    """Straight lines, each with a colour.
+
+    Attributes:
+        ends: Both ends of each, metres, shape (n, 2, 3).
+        colors: Their packed colours, shape (n,).
+    """
+
+    ends: npt.NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 2, 3)))
+    colors: npt.NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +130,7 @@ class PlanePicture:
         frames: All frames of its tree, first come first.
         field: Field on which the turtles draw, if it can be placed.
         pen: Lines of their pens, in metres of the field.
-        trails: The ways of frames that move, in metres of the fixed frame.
+        trails: The ways of frames that move, in metres of the fixed frame, oldest first.
         pair: Target and source, which are joined by a line of their own.
         apart: The other trees, which nothing joins to this one; each in its own root.
         nowhere: Frames of this tree that have no pose at this moment.
@@ -131,7 +140,7 @@ class PlanePicture:
     frames: tuple[PlaneFrame, ...] = ()
     field: TurtleField | None = None
     pen: Drawn = Drawn()
-    trails: Drawn = Drawn()
+    trails: ColoredLines = ColoredLines()
     pair: tuple[str, str] = ("", "")
     apart: tuple["PlanePicture", ...] = ()
     nowhere: tuple[str, ...] = ()
@@ -140,9 +149,9 @@ class PlanePicture:
         """Return the box around everything, with room beside the field for what is outside it."""
         field = None if self.field is None else _box(self.field.corners())
         points = [(one.x, one.y) for one in self.frames]
-        if self.trails.box is not None:
-            left, bottom, right, top = self.trails.box
-            points += [(left, bottom), (right, top)]
+        if len(self.trails.ends):
+            ends = self.trails.ends[..., :2]
+            points += [tuple(ends.min((0, 1)).tolist()), tuple(ends.max((0, 1)).tolist())]
         if field is not None:
             points = [point for point in points if not _holds(field, point)]
             if not points:

@@ -1,15 +1,13 @@
 """Values for a 3-D picture of frames, and the orbiting camera."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from tftool.base.color import Color
-from tftool.drawing.plane import grid_step
+from tftool.drawing.plane import ColoredLines, grid_step
 from tftool.drawing.solids import Solids
 from tftool.geometry.rigid import Transform
 
@@ -49,14 +47,6 @@ class SpaceFrame:
     age: float = 0.0
 
 
-class Line3(NamedTuple):
-    """Straight line between two points, metres."""
-
-    start: tuple[float, float, float]
-    end: tuple[float, float, float]
-    color: Color
-
-
 @dataclass(frozen=True, slots=True)
 class SpacePicture:
     """Scene at one time in one fixed frame, in 3-D.
@@ -73,7 +63,7 @@ class SpacePicture:
     fixed: str = ""
     frames: tuple[SpaceFrame, ...] = ()
     solids: Solids | None = None
-    lines: Sequence[Line3] = ()
+    lines: ColoredLines = field(default_factory=ColoredLines)
     chosen: str = ""
     pair: tuple[str, str] = ("", "")
 

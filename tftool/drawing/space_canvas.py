@@ -251,11 +251,11 @@ def _layers(
     paper = theme.paper(palette)
     poses = {one.name: one.pose for one in picture.frames}
     layers = [Layer(paper.grid, view.project(_ground(picture, view)), is_hidden=True)]
-    by_color: dict[Color, list[object]] = {}
-    for line in picture.lines:
-        by_color.setdefault(line.color, []).append(line[:2])
-    for color, lines in by_color.items():
-        layers.append(Layer(color, view.project(np.array(lines, float))))
+    lines = picture.lines
+    for packed_color in np.unique(lines.colors).tolist():
+        color = Color(packed_color >> 16, packed_color >> 8 & 255, packed_color & 255)
+        ends = lines.ends[lines.colors == packed_color]
+        layers.append(Layer(color, view.project(ends)))
     links = [
         (one.pose.translation, poses[one.parent].translation)
         for one in picture.frames

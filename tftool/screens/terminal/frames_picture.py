@@ -1,24 +1,21 @@
 """Picture of frames relative to a fixed one, computed by lookups: positions and trails."""
 
-from bisect import bisect_right
-from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from tftool.base.color import Color
 from tftool.base.errors import TransformException
-from tftool.base.stamps import Duration, Stamp, seconds
+from tftool.base.stamps import Stamp, seconds
 from tftool.buffer.buffer import Buffer
 from tftool.buffer.sample import FrameInfo, Snapshot
 from tftool.drawing import theme
-from tftool.drawing.cells import Stroke
-from tftool.drawing.plane import FARTHEST, Box, Drawn, PlaneFrame, PlanePicture
+from tftool.drawing.cells import blended, packed
+from tftool.drawing.plane import FARTHEST, ColoredLines, PlaneFrame, PlanePicture
 from tftool.geometry.rigid import Transform
-
-Point3 = tuple[float, float, float]
-Heights = tuple[float, float]
 
 Lookup = Callable[[str, str], Transform | None]
 """The pose of the second frame in the first, or None where there is none."""
@@ -163,14 +160,11 @@ KEPT = seconds(60.0)
 MOST_FRAMES = 24
 """So many frames have trails."""
 
-LEAST = 0.004
-"""Metres under which a frame stays where it is."""
-
-FADE_EVERY = seconds(1.0)
-"""How often the colours of a trail follow its age; trails of many strokes fade less often."""
-
 FADED = Color(112, 116, 130)
 """Colour of marks as old as `REACH`; on a light ground and on a dark one it is faint."""
+
+STILL = 1e-6
+"""Metres in a period under which a frame stays where it is."""
 
 GAP = seconds(1.0)
 """Two moments farther apart are not joined by a line."""
@@ -189,19 +183,11 @@ class FrameTrails:
     def __init__(self, buffer: Buffer) -> None:
         self._buffer = buffer
         self.fixed = ""
-        self._edition = 0
-        self._ends: dict[str, tuple[Stamp, Point3]] = {}
-        self._until: dict[str, Stamp] = {}
-        self._strokes: deque[Stroke] = deque()
-        self._heights: deque[Heights] = deque()
-        self._stamps: deque[Stamp] = deque()
-        self._box: Box | None = None
+        self._ways: dict[str, FrameWay] = {}
         self._next: Stamp = 0
-        self._faded: Stamp = 0
-        self._shown: list[Stroke] = []
-        self._shown_heights: list[Heights] = []
+        self._shown = ColoredLines()
 
-    def follow(self, fixed: str, frames: Iterable[str], now: Stamp) -> Drawn:
+    def follow(self, fixed: str, frames: Iterable[str], now: Stamp) -> ColoredLines:
         """Look the frames up since the last time, and return all trails up to now.
 
         Args:
@@ -210,128 +196,79 @@ class FrameTrails:
             now: The last moment.
         """
         if fixed != self.fixed or now < self._next - 4 * PERIOD:
-            self._begin(fixed)
+            self.fixed, self._ways, self._next = fixed, {}, 0
         if now >= self._next:
             self._next = now + 2 * PERIOD
             for frame in islice(frames, MOST_FRAMES):
-                self._grow(frame, now)
-            if self._stamps and now - self._stamps[0] > KEPT * 5 // 4:
-                self._forget(now - KEPT)
-            if now - self._faded >= FADE_EVERY * (1 + len(self._strokes) // 1000):
-                self._fade(now)
-            self._shown_heights.extend(islice(self._heights, len(self._shown), None))
-            self._shown.extend(islice(self._strokes, len(self._shown), None))
-        return Drawn(self._shown, 0, self._edition, self._box, self._shown_heights)
+                known = self._ways.get(frame, NOWHERE)
+                start = int(known.stamps[-1]) if len(known.stamps) else 0
+                new = self._way(frame, fixed, max(start, now - REACH), now)
+                self._ways[frame] = known.followed_by(new)
+            self._ways = {name: way.after(now - KEPT) for name, way in self._ways.items()}
+            self._shown = _trails(self._ways, now)
+        return self._shown
 
-    def _fade(self, now: Stamp) -> None:
-        """Recolour every part by its age, as a new drawing."""
-        self._shown = [
-            _of_age(stroke, now - stamp)
-            for stamp, stroke in zip(self._stamps, self._strokes, strict=True)
-        ]
-        self._shown_heights = [*self._heights]
-        self._edition += 1
-        self._faded = now
-
-    def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> Drawn:
+    def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> ColoredLines:
         """Return all trails up to an earlier time, as far back as the buffer reaches."""
-        start = at - REACH
-        found: list[tuple[Stamp, Stroke, Heights]] = []
+        ways = {}
         for frame in islice(frames, MOST_FRAMES):
-            found += self._between(frame, fixed, start, at, None)[0]
-        if found and fixed == self.fixed:
-            start = min(stamp for stamp, _, _ in found) - PERIOD
-        elif fixed == self.fixed:
-            start = at
-        found.sort(key=lambda one: one[0])
-        if fixed == self.fixed:
-            older = bisect_right(self._stamps, start)
-            before = zip(self._stamps, self._strokes, self._heights, strict=True)
-            found = [*islice(before, older), *found]
-        strokes = [_of_age(stroke, at - stamp) for stamp, stroke, _ in found]
-        # Another drawing at every moment: at rest it is drawn once.
-        heights = [one for _, _, one in found]
-        return Drawn(strokes, 0, -1 - at, _around(None, strokes), heights)
+            way = self._way(frame, fixed, at - REACH, at)
+            if fixed == self.fixed:
+                # What the buffer has lost since.
+                first = int(way.stamps[0]) if len(way.stamps) else at
+                way = self._ways.get(frame, NOWHERE).before(first).followed_by(way)
+            ways[frame] = way
+        return _trails(ways, at)
 
-    def _begin(self, fixed: str) -> None:
-        self.fixed, self._edition, self._next = fixed, self._edition + 1, 0
-        self._ends.clear()
-        self._until.clear()
-        self._strokes.clear()
-        self._heights.clear()
-        self._stamps.clear()
-        self._shown, self._shown_heights, self._faded = [], [], 0
-        self._box = None
-
-    def _forget(self, before: Stamp) -> None:
-        """Drop old parts; the rest is a new drawing."""
-        while self._stamps and self._stamps[0] < before:
-            self._stamps.popleft()
-            self._strokes.popleft()
-            self._heights.popleft()
-        self._box = _around(None, self._strokes)
-        self._faded, self._shown, self._shown_heights = 0, [], []
-
-    def _grow(self, frame: str, now: Stamp) -> None:
-        start = max(self._until.get(frame, 0), now - REACH)
-        found, end = self._between(frame, self.fixed, start, now, self._ends.get(frame))
-        if end is None:
-            return
-        self._ends[frame] = end
-        self._until[frame] = end[0] // PERIOD * PERIOD
-        for stamp, stroke, heights in found:
-            self._strokes.append(stroke)
-            self._heights.append(heights)
-            # One frame's lookups may lag behind another's: in the order in which they were drawn.
-            self._stamps.append(max(stamp, self._stamps[-1]) if self._stamps else stamp)
-        self._box = _around(self._box, [stroke for _, stroke, _ in found])
-
-    def _between(
-        self, frame: str, fixed: str, start: Stamp, end: Stamp, before: tuple[Stamp, Point3] | None
-    ) -> tuple[list[tuple[Stamp, Stroke, Heights]], tuple[Stamp, Point3] | None]:
-        """Return the strokes of one frame after `start`, and its last known time and position."""
+    def _way(self, frame: str, fixed: str, start: Stamp, end: Stamp) -> "FrameWay":
+        """Look up where a frame was after `start`, every `PERIOD` until `end`."""
         stamps = np.arange(start // PERIOD + 1, end // PERIOD + 1, dtype=np.int64) * PERIOD
         stamps = stamps[stamps > 0]
         if not len(stamps):
-            return [], before
+            return NOWHERE
         try:
             path = self._buffer.lookup_transforms(fixed, frame, stamps, missing="nan", threads=1)
         except TransformException:
-            return [], before
+            return NOWHERE
         holds = path.valid & (np.abs(path.translations).sum(axis=1) < FARTHEST)
-        color = theme.of_name(frame)
-        found: list[tuple[Stamp, Stroke, Heights]] = []
-        last = before
-        moments, places = stamps[holds].tolist(), path.translations[holds].tolist()
-        latest = last
-        for stamp, (x, y, z) in zip(moments, places, strict=True):
-            latest = stamp, (x, y, z)
-            if last is not None:
-                (x0, y0, z0), joined = last[1], stamp - last[0] <= GAP
-                if abs(x - x0) + abs(y - y0) + abs(z - z0) < LEAST:
-                    # It stays: the next stroke begins where this one stands, and now.
-                    last = stamp, last[1]
-                    continue
-                if joined:
-                    found.append((stamp, (x0, y0, x, y, color, 0), (z0, z)))
-            last = stamp, (x, y, z)
-        if latest is None or last is None:
-            return found, last
-        return found, (latest[0], last[1])
+        return FrameWay(stamps[holds], path.translations[holds])
 
 
-def _of_age(stroke: Stroke, age: Duration) -> Stroke:
-    """Return a part of a trail in the colour of its age."""
-    x0, y0, x1, y1, color, width = stroke
-    share = min(1.0, max(0.0, age / REACH))
-    return x0, y0, x1, y1, theme.blend(color, FADED, 0.9 * share), width
+class FrameWay(NamedTuple):
+    """Where a frame was: stamps, shape (n,), and places in metres, shape (n, 3)."""
+
+    stamps: npt.NDArray[np.int64]
+    places: npt.NDArray[np.float64]
+
+    def followed_by(self, other: "FrameWay") -> "FrameWay":
+        """Return this way and what came after it."""
+        stamps, places = zip(self, other, strict=True)
+        return FrameWay(np.concatenate(stamps), np.concatenate(places))
+
+    def after(self, stamp: Stamp) -> "FrameWay":
+        """Return the part from a moment on."""
+        first = int(np.searchsorted(self.stamps, stamp))
+        return FrameWay(self.stamps[first:], self.places[first:])
+
+    def before(self, stamp: Stamp) -> "FrameWay":
+        """Return the part before a moment."""
+        end = int(np.searchsorted(self.stamps, stamp))
+        return FrameWay(self.stamps[:end], self.places[:end])
 
 
-def _around(box: Box | None, strokes: Iterable[Stroke]) -> Box | None:
-    for x0, y0, x1, y1, _, _ in strokes:
-        if box is None:
-            box = min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1)
-        else:
-            left, bottom, right, top = box
-            box = min(left, x0, x1), min(bottom, y0, y1), max(right, x0, x1), max(top, y0, y1)
-    return box
+NOWHERE = FrameWay(np.zeros(0, np.int64), np.zeros((0, 3)))
+
+
+def _trails(ways: Mapping[str, FrameWay], now: Stamp) -> ColoredLines:
+    """Join places to lines in the colours of their ages, oldest first."""
+    stamps, ends, colors = [NOWHERE.stamps], [np.zeros((0, 2, 3))], [NOWHERE.stamps]
+    for name, (times, places) in ways.items():
+        moves = np.abs(np.diff(places, axis=0)).sum(axis=1) > STILL
+        (joined,) = np.nonzero(moves & (np.diff(times) <= GAP))
+        stamps.append(times[joined + 1])
+        ends.append(np.stack([places[joined], places[joined + 1]], 1))
+        colors.append(np.full(len(joined), packed(theme.of_name(name))))
+    order = np.argsort(np.concatenate(stamps), kind="stable")
+    ages = np.clip((now - np.concatenate(stamps)[order]) / REACH, 0.0, 1.0)
+    inks = blended(np.concatenate(colors)[order], FADED, 0.9 * ages)
+    return ColoredLines(np.concatenate(ends)[order], inks)

@@ -1,38 +1,37 @@
 """3-D pictures of a scene's moments."""
 
-from tftool.base.color import Color
-from tftool.drawing import theme
+import numpy as np
+
+from tftool.drawing.cells import packed
+from tftool.drawing.plane import ColoredLines
 from tftool.drawing.solids import Solids
-from tftool.drawing.space import Line3, SpacePicture
+from tftool.drawing.space import SpacePicture
 from tftool.screens.terminal.scene import SceneMoment
 from tftool.screens.terminal.space_panel import frames_in_space, is_tall
 
 MOST_STROKES = 3000
 """Of a drawing, and of all trails, the newest strokes are drawn."""
 
-SHADES = 32
-"""Steps in which the colours of a trail fade."""
+FEW = 0xE0E0E0
+"""Bits of a colour that are kept as trails fade."""
 
 
 def space_picture(moment: SceneMoment, solids: Solids | None = None) -> SpacePicture:
     """Return a moment's frames in 3-D, with a robot's shapes, trails and the turtles' field."""
     plane = moment.picture
     frames = frames_in_space(moment.snapshot, plane.fixed, moment.ages)
-    lines: list[Line3] = []
+    ends, colors = [plane.trails.ends[-MOST_STROKES:]], [plane.trails.colors[-MOST_STROKES:]]
     if plane.field is not None:
-        corners = [(x, y, 0.0) for x, y in plane.field.corners()]
-        around = zip(corners, [*corners[1:], corners[0]], strict=True)
-        lines += [Line3(start, end, plane.field.color) for start, end in around]
-        for x0, y0, x1, y1, color, _ in list(plane.pen.strokes)[-MOST_STROKES:]:
-            start, end = plane.field.place(x0, y0), plane.field.place(x1, y1)
-            lines.append(Line3((*start, 0.0), (*end, 0.0), theme.readable(color, theme.DARK)))
-    trails = plane.trails
-    first = max(0, len(trails.heights) - MOST_STROKES)
-    parts = zip(trails.strokes[first:], trails.heights[first:], strict=True)
-    for (x0, y0, x1, y1, color, _), (z0, z1) in parts:
-        # Few colours: each is drawn by itself.
-        shade = Color(*(one // SHADES * SHADES for one in color))
-        lines.append(Line3((x0, y0, z0), (x1, y1, z1), shade))
+        corners = plane.field.corners()
+        edges = np.array([(*corners[n - 1], *corners[n]) for n in range(4)])
+        strokes = list(plane.pen.strokes)[-MOST_STROKES:]
+        drawn = np.array([stroke[:4] for stroke in strokes], float).reshape(-1, 4)
+        flat = np.concatenate([edges, plane.field.placed(drawn)]).reshape(-1, 2, 2)
+        ends.insert(0, np.pad(flat, ((0, 0), (0, 0), (0, 1))))
+        inks = [plane.field.color] * 4 + [stroke[4] for stroke in strokes]
+        colors.insert(0, np.array([packed(ink) for ink in inks]))
+    # Few colours: each is drawn by itself.
+    lines = ColoredLines(np.concatenate(ends), np.concatenate(colors) & FEW)
     return SpacePicture(plane.fixed, frames, solids, lines, moment.pair.source, plane.pair)
 
 
