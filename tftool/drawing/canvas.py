@@ -343,7 +343,8 @@ class Canvas:
     def place(self, x: float, y: float) -> Point:
         """Return the column and row of a point of the plane."""
         view = self._view
-        if not abs(x) + abs(y) <= FARTHEST:
+        # The corners of a picture may be farther away than anything in it.
+        if not abs(x) + abs(y) <= 1e3 * FARTHEST:
             return math.inf, math.inf
         column = (x - view.left) / view.per_row * 2.0
         row = self.rows - (y - view.bottom) / view.per_row

@@ -1,8 +1,9 @@
 """One lookup's trace for a terminal or a program."""
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import Any
 
-from rich.console import Group
+from rich.console import Console, ConsoleOptions, Group, RenderableType
 from rich.measure import Measurement
 from rich.padding import Padding
 from rich.table import Table
@@ -14,12 +15,6 @@ from tftool.doctor.explanation import Explanation
 from tftool.doctor.trace import LinkVerdict, TracedLink
 from tftool.doctor.wording import dated, span
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from rich.console import Console, ConsoleOptions, RenderableType
-    from rich.text import Text
-
 SCHEMA = "tftool.explain/1"
 
 _WORDS = {
@@ -30,7 +25,7 @@ _WORDS = {
 }
 
 
-def render(found: Explanation) -> "RenderableType":
+def render(found: Explanation) -> RenderableType:
     """Yield the views of an explanation: lookup, tf2's answer, links, cause, remedies."""
     facts = Table.grid(padding=(0, 2), pad_edge=False)
     facts.add_column(no_wrap=True)
@@ -47,29 +42,42 @@ def render(found: Explanation) -> "RenderableType":
     parts: list[RenderableType] = [_headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
     if found.links:
         parts += [Text(""), Padding(_Links(found), (0, 0, 0, 2))]
-    told = Table.grid(padding=(0, 2), pad_edge=False)
-    told.add_column(no_wrap=True, min_width=5)
-    told.add_column(overflow="fold")
-    for number, why in enumerate(found.why):
-        told.add_row("" if number else "why", Text(visible(why)))
-    for number, remedy in enumerate(found.remedies):
-        told.add_row("" if number else "cure", Text(visible(remedy.text)))
-        if remedy.command:
-            told.add_row("", Text(visible(remedy.command), "bold"))
-    for number, useless in enumerate(found.useless):
-        told.add_row("" if number else "not", Text(visible(useless)))
-    parts += [Text(""), Padding(told, (0, 0, 0, 2))]
+    remedies = [(one.text, one.command) for one in found.remedies]
+    parts += [Text(""), reasons("", found.why, remedies, found.useless)]
     return Group(*parts)
 
 
-def so_far(found: Explanation) -> "list[Text]":
+def reasons(
+    tf2: str,
+    whys: Sequence[str],
+    remedies: Sequence[tuple[str, str]],
+    useless: Sequence[str] = (),
+) -> Padding:
+    """Return tf2's words, why a lookup is refused, what helps and what does not, in a table."""
+    told = Table.grid(padding=(0, 2), pad_edge=False)
+    told.add_column(no_wrap=True, min_width=5)
+    told.add_column(overflow="fold")
+    rows = [("tf2", tf2, "")] if tf2 else []
+    rows += [("why", why, "") for why in whys]
+    rows += [("cure", *remedy) for remedy in remedies]
+    rows += [("not", one, "") for one in useless]
+    before = ""
+    for word, text, command in rows:
+        told.add_row("" if word == before else word, Text(visible(text)))
+        if command:
+            told.add_row("", Text(visible(command), "bold"))
+        before = word
+    return Padding(told, (0, 0, 0, 2))
+
+
+def so_far(found: Explanation) -> list[Text]:
     """Return in lines whether a lookup answers, and why not, while more may follow."""
     line = Text(visible(f"so far: {found.source} in {found.target} "))
     line.append(*(("answers", "green") if found.available else ("is refused", "bold red")))
     return [line, *(Text(visible(f"        {why}")) for why in found.why)]
 
 
-def _headline(found: Explanation) -> "Text":
+def _headline(found: Explanation) -> Text:
     when = "at the latest" if not found.stamp else f"at {_exactly(found.stamp)}"
     line = Text(visible(f"{found.source} in {found.target} {when}: "))
     if found.available:
@@ -101,8 +109,8 @@ class _Links:
         self._found = found
 
     def __rich_console__(
-        self, console: "Console", options: "ConsoleOptions"
-    ) -> "Iterator[RenderableType]":
+        self, console: Console, options: ConsoleOptions
+    ) -> Iterator[RenderableType]:
         rows = self._rows()
         table = Table.grid(padding=(0, 2), pad_edge=False)
         for row in rows:
@@ -116,7 +124,7 @@ class _Links:
             yield Text("  ").join(link)
             yield Padding(says, (0, 0, 0, 2))
 
-    def _rows(self) -> "list[tuple[Text, ...]]":
+    def _rows(self) -> list[tuple[Text, ...]]:
         found = self._found
         base = _base(found)
         at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"

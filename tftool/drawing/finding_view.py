@@ -1,13 +1,14 @@
 """Views of a diagnosis: for terminals, programs, issue trackers, build servers."""
 
 from collections.abc import Sequence
-from re import sub
+from re import findall, sub
 from string import Formatter
 from textwrap import TextWrapper
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from rich import box
+from rich.console import Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
@@ -25,11 +26,6 @@ from tftool.doctor.stamp_stream import Heard, Stream, Track, rate
 from tftool.doctor.wording import filled, span
 from tftool.drawing import report_view as judgements
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-    from rich.table import Table
-    from rich.text import Text
-
 SCHEMA = "tftool.doctor/2"
 
 _CALM = Severity.NOTE
@@ -44,10 +40,8 @@ _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "yellow", Severity.NOTE
 # For people
 
 
-def render(diagnosis: Diagnosis, *, verbose: bool = False) -> "RenderableType":
+def render(diagnosis: Diagnosis, *, verbose: bool = False) -> RenderableType:
     """Return one source's report: the input, findings, areas in order, counts."""
-    from rich.console import Group
-
     parts: list[RenderableType] = [Text(visible(head(diagnosis.model)), "bold")]
     if diagnosis.model.reference:
         parts.append(Text(visible(f"latencies: {diagnosis.model.reference}")))
@@ -69,13 +63,13 @@ def render(diagnosis: Diagnosis, *, verbose: bool = False) -> "RenderableType":
     return Group(*parts)
 
 
-def so_far(diagnosis: Diagnosis) -> "list[Text]":
+def so_far(diagnosis: Diagnosis) -> list[Text]:
     """Return a line for each finding but consequences, worst first, while more may follow."""
     found = [finding for finding in diagnosis.findings if finding.because_of is None]
     return [_first_line(one) for one in sorted(found, key=lambda one: one.severity.rank)]
 
 
-def _first_line(finding: Finding, *, verbose: bool = False) -> "Text":
+def _first_line(finding: Finding, *, verbose: bool = False) -> Text:
     line = Text(finding.severity.value, _STYLES[finding.severity])
     line.append(f"  {finding.id}", "bold")
     if finding.confidence is not Confidence.CERTAIN or verbose:
@@ -83,7 +77,7 @@ def _first_line(finding: Finding, *, verbose: bool = False) -> "Text":
     return line.append(f": {visible(finding.message)}", "default")
 
 
-def _told(finding: Finding, *, verbose: bool) -> "list[RenderableType]":
+def _told(finding: Finding, *, verbose: bool) -> list[RenderableType]:
     line = _first_line(finding, verbose=verbose)
     if finding.known:
         line.append(" (in the baseline)", "dim")
@@ -177,15 +171,12 @@ def summary(diagnosis: Diagnosis) -> str:
         skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
         why = " (--verbose says why)" if skipped else ""
         return f"nothing found; {count(diagnosis.ran, 'check')} ran{skipped}{why}"
-    first = next(f for f in diagnosis.findings if f.because_of is None)
-    worst = min(
-        (f for f in diagnosis.findings if f.because_of is None), key=lambda f: f.severity.rank
-    )
-    if first.severity is not worst.severity:
-        first = worst
+    told = [one for one in diagnosis.findings if one.because_of is None]
+    # The first of the worst ones.
+    worst = min(told, key=lambda one: one.severity.rank)
     calm = "" if worst.severity is not Severity.NOTE else "If all works, leave it so. "
     return (
-        f"{counts}. {calm}`tftool doctor --explain {first.id}` tells more; "
+        f"{counts}. {calm}`tftool doctor --explain {worst.id}` tells more; "
         "`--markdown` prints this for an issue."
     )
 
@@ -218,7 +209,7 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
     }
 
 
-def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
+def compared(rows: Sequence[tuple[str, Diagnosis | str]]) -> Table:
     """Return several sources in a table: findings of each, or why it was unreadable."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("source", overflow="fold")
@@ -243,7 +234,7 @@ def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":
     return table
 
 
-def statistics(model: Model) -> "Table":
+def statistics(model: Model) -> Table:
     """Return every edge and topic: rate, latency, and largest gap."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     table.add_column("transform or topic", overflow="fold")
@@ -278,7 +269,7 @@ def _numbers(stream: Stream, *, timed: bool) -> tuple[str, str, str, str]:
 # About the checks
 
 
-def listing() -> "Table":
+def listing() -> Table:
     """Return every check in a line."""
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     for column in ("id", "area", "severity"):
@@ -494,14 +485,10 @@ def _code(text: str, *, in_table: bool = False) -> str:
 
 
 def _longest_ticks(text: str) -> int:
-    longest = run = 0
-    for letter in text:
-        run = run + 1 if letter == "`" else 0
-        longest = max(longest, run)
-    return longest
+    return max(map(len, findall("`*", text)))
 
 
-def as_junit(rows: "Sequence[tuple[str, Diagnosis | str]]", fails: Severity | None) -> str:
+def as_junit(rows: Sequence[tuple[str, Diagnosis | str]], fails: Severity | None) -> str:
     """Return reports of several sources as a JUnit document.
 
     Args:

@@ -9,7 +9,7 @@ from rich.text import Text
 
 from tftool.base.escaping import visible
 from tftool.doctor.joint_chain import ChainExplanation, ChainLink
-from tftool.drawing.explanation_view import SCHEMA
+from tftool.drawing.explanation_view import SCHEMA, reasons
 
 
 def render(found: ChainExplanation) -> RenderableType:
@@ -20,17 +20,6 @@ def render(found: ChainExplanation) -> RenderableType:
     else:
         headline.append("refused", "bold red")
     parts: list[RenderableType] = [headline]
-    told = Table.grid(padding=(0, 2), pad_edge=False)
-    told.add_column(no_wrap=True, min_width=5)
-    told.add_column(overflow="fold")
-    if found.text:
-        told.add_row("tf2", Text(visible(found.text)))
-    for number, why in enumerate(found.why):
-        told.add_row("" if number else "why", Text(visible(why)))
-    for number, (text, command) in enumerate(found.remedies):
-        told.add_row("" if number else "cure", Text(visible(text)))
-        if command:
-            told.add_row("", Text(visible(command), "bold"))
     if found.links:
         links = Table.grid(padding=(0, 2), pad_edge=False)
         for _ in range(3):
@@ -46,7 +35,7 @@ def render(found: ChainExplanation) -> RenderableType:
                 Text(visible(_position(link)), "" if link.is_known else "bold red"),
             )
         parts += [Text(""), Padding(links, (0, 0, 0, 2))]
-    parts += [Text(""), Padding(told, (0, 0, 0, 2))]
+    parts += [Text(""), reasons(found.text, found.why, found.remedies)]
     return Group(*parts)
 
 

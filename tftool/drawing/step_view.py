@@ -1,9 +1,10 @@
 """Jumps of a localiser or of odometry, for terminals and programs."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
@@ -13,13 +14,10 @@ from tftool.doctor.localisation_steps import LocalisationStep
 from tftool.doctor.model import Model
 from tftool.doctor.wording import span
 
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
 SCHEMA = "tftool.steps/1"
 
 
-def render(model: Model, steps: Sequence[LocalisationStep]) -> "RenderableType":
+def render(model: Model, steps: Sequence[LocalisationStep]) -> RenderableType:
     """Return a table of jumps: time, edge, size, and the drift since the last."""
     if not steps:
         return Text(visible(f"{model.evidence.name}: no steps"))

@@ -6,16 +6,12 @@ Fading as in rviz is in the page's `screens/browser/page/model.js`.
 import zlib
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from rich.style import Style
 
 from tftool.base.color import Color
 from tftool.base.stamps import FRAME_TIMEOUT
-
-if TYPE_CHECKING:
-    from rich.style import Style
-
 
 WALL = Color(255, 92, 87)
 INK = Color(16, 20, 48)
@@ -65,7 +61,7 @@ def hexadecimal(color: Color) -> str:
     return f"#{color.r:02x}{color.g:02x}{color.b:02x}"
 
 
-def ink(color: Color, *, bold: bool = False) -> "Style":
+def ink(color: Color, *, bold: bool = False) -> Style:
     """Return the style of text in a colour."""
     return Style(color=hexadecimal(color), bold=bold or None)
 
