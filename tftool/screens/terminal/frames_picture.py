@@ -235,7 +235,7 @@ class FrameTrails:
 
 
 class FrameWay(NamedTuple):
-    """Where a frame was: stamps, shape (n,), and places in metres, shape (n, 3)."""
+    """Way of a frame: stamps, shape (n,), and places in metres, shape (n, 3)."""
 
     stamps: npt.NDArray[np.int64]
     places: npt.NDArray[np.float64]
