@@ -52,7 +52,9 @@ class Expectations(Node):
     def judged(self) -> tuple[Outcome, ...]:
         """Return the outcome of each; expectations not yet due are marked."""
         pairs = zip(self.expected, self.outcomes, strict=True)
-        return tuple(outcome or _not_reached(expected) for expected, outcome in pairs)
+        return tuple(
+            outcome or expected.outcome("not reached", None, False) for expected, outcome in pairs
+        )
 
     async def run(self) -> None:
         """Judge all expectations, each at its time."""
@@ -71,24 +73,4 @@ class Expectations(Node):
             if settled or at >= when.last:
                 break
             at = min(at + when.every, when.last)
-        self.outcomes[index] = Outcome(
-            expectation=f"{expectation.question}",
-            line=expectation.line,
-            when=f"{when}",
-            expected=f"{expectation.check}",
-            found=judged.found,
-            at=at,
-            ok=judged.ok,
-        )
-
-
-def _not_reached(expected: Expectation) -> Outcome:
-    return Outcome(
-        expectation=str(expected.question),
-        line=expected.line,
-        when=str(expected.when),
-        expected=str(expected.check),
-        found="not reached",
-        at=None,
-        ok=False,
-    )
+        self.outcomes[index] = expectation.outcome(judged.found, at, judged.ok)

@@ -90,6 +90,12 @@ class Expectation:
     def __str__(self) -> str:
         return f"{self.when}: {self.question} {self.check}"
 
+    def outcome(self, found: str, at: Duration | None, ok: bool) -> "Outcome":
+        """Return its outcome in words."""
+        return Outcome(
+            str(self.question), self.line, str(self.when), str(self.check), found, at, ok
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Scenario:
