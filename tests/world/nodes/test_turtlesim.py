@@ -28,8 +28,7 @@ from tftool.messages.turtle_messages import (
 from tftool.world.clock import SimClock, WallClock, run
 from tftool.world.nodes import turtlesim as turtlesim_module
 from tftool.world.nodes.trail import BLANK
-from tftool.world.nodes.turtle import PEN_COLOR, Turtle
-from tftool.world.nodes.turtle_ports import MOST_WAITING
+from tftool.world.nodes.turtle import MOST_WAITING, PEN_COLOR, Turtle
 from tftool.world.nodes.turtlesim import Turtlesim
 from tftool.world.supervisor import live
 from tftool.world.world import World

@@ -15,12 +15,14 @@ from tftool.world.log import Level
 from tftool.world.node import Node
 from tftool.world.node_parameters import Value, serve_parameters
 from tftool.world.nodes.trail import DrawingService, Segment, Trail
-from tftool.world.nodes.turtle import Turtle, require_turtle_name, shown
-from tftool.world.nodes.turtle_ports import (
+from tftool.world.nodes.turtle import (
     TickQueue,
+    Turtle,
     TurtlePorts,
     requested_placement,
     require_byte,
+    require_turtle_name,
+    shown,
 )
 from tftool.world.world import World
 

@@ -25,6 +25,7 @@ from websockets.typing import Subprotocol
 
 from tftool.base.errors import LinkError
 from tftool.base.stamps import Stamp
+from tftool.world.action_parts import Tasks
 from tftool.world.link.foxglove import protocol
 from tftool.world.link.foxglove.payloads import ros_topic
 from tftool.world.link.foxglove.protocol import FoxgloveChannel, ProtocolError, ServerState
@@ -125,7 +126,7 @@ class FoxgloveClient:
         self._subscriptions: dict[int, int] = {}
         self._refusals: Counter[int] = Counter()
         self._count = 0
-        self._tasks: set[asyncio.Task[None]] = set()
+        self._tasks = Tasks()
         self._connection: ClientConnection | None = None
         self._first = threading.Event()
         self._failure = ""
@@ -395,9 +396,7 @@ class FoxgloveClient:
             with contextlib.suppress(ConnectionClosed):
                 await work
 
-        task = self._loop.create_task(done())
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        self._tasks.start(done())
 
 
 def _of_closed(error: ConnectionClosed) -> str:
