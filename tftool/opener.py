@@ -16,7 +16,7 @@ from tftool.base.escaping import visible
 from tftool.base.stamps import Duration, seconds
 from tftool.frames.frames import Frames
 from tftool.frames.moment import At
-from tftool.frames.source_options import RecordingOptions, RobotOptions
+from tftool.frames.source_options import DescriptionOptions, RecordingOptions
 from tftool.recordings.find import Found, Kind, find, names_a_path
 from tftool.recordings.poses.pose_options import (
     ChosenOptions,
@@ -117,7 +117,7 @@ def open_frames(
                 tf_topics=tf_topics,
                 progress=progress,
             )
-    robot = RobotOptions(joints or {}, arguments or {}, Path(urdf) if urdf else None)
+    robot = DescriptionOptions(joints or {}, arguments or {}, Path(urdf) if urdf else None)
     recording = RecordingOptions(no_cache, with_odometry, tuple(tf_topics))
     word = None if place is None else os.fspath(place)
     far = None if word is None else reach_at(word)
@@ -195,7 +195,7 @@ def kind_in_words(found: Found) -> str:
 
 
 def refuse_options_of_files(
-    robot: RobotOptions, recording: RecordingOptions, word: str | None
+    robot: DescriptionOptions, recording: RecordingOptions, word: str | None
 ) -> None:
     """Refuse the options of recordings and descriptions if FROM is neither.
 

@@ -96,6 +96,8 @@ def compare_reading() -> str:
 def compare_processes() -> str:
     """Small recordings, two processes against one."""
     from tftool.commands.fleet import fleet
+    from tftool.commands.fleet.fleet_tasks import Examination
+    from tftool.commands.fleet.workers import workers_of
     from tftool.doctor.evidence import Scope
     from tftool.doctor.model import Settings
 
@@ -106,10 +108,10 @@ def compare_processes() -> str:
             path = Path(folder) / f"run{number}.mcap"
             path.hardlink_to(whole)
             sources.append(str(path))
-        task = fleet.Examination(Settings(), (), (), Scope())
+        task = Examination(Settings(), (), (), Scope())
 
         def work(count: int) -> None:
-            fleet.sweep(sources, None, fleet.workers_of(count, ""), task)
+            fleet.sweep(sources, None, workers_of(count, ""), task)
 
         times = [(_seconds(lambda: work(1)), _seconds(lambda: work(2))) for _ in range(3)]
     one, two = (statistics.median(column) for column in zip(*times, strict=True))

@@ -9,20 +9,20 @@ import pytest
 from tests.certificates import certificates, needs_openssl
 from tests.command_line import Simulated
 from tftool.commands.shared.connection import Connection, Mode, Providers, read
-from tftool.commands.shared.declaration import Kind
+from tftool.commands.shared.declaration import CommandKind
 
 
 @pytest.fixture
 def told():
     """The connection that some options give."""
 
-    return partial(read, "command", Kind())
+    return partial(read, "command", CommandKind())
 
 
 def test_without_options_whatever_fits_is_done(told, monkeypatch):
     monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
 
-    assert told() == Connection("command", Kind())
+    assert told() == Connection("command", CommandKind())
     assert not told().needs_link
 
 

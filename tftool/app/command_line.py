@@ -127,7 +127,9 @@ def made(name: str) -> Any:
     app = typer.Typer(rich_markup_mode=None, add_completion=False)
     settings = {"help_option_names": ["-h", "--help"], **command.kind.settings}
     text = _laid_out(command.__doc__ or "")
-    app.command(name, cls=Command, help=text, context_settings=settings)(typer_function(command))
+    app.command(name, cls=LaidOutCommand, help=text, context_settings=settings)(
+        typer_function(command)
+    )
     return get_command(app)
 
 
@@ -138,7 +140,7 @@ def _laid_out(docstring: str) -> str:
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
-class Command(TyperCommand):
+class LaidOutCommand(TyperCommand):
     """A command that groups its options by subject, and lists session options only on request."""
 
     def __init__(self, name: str | None, **words: Any) -> None:

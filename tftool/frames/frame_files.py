@@ -4,7 +4,7 @@ from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
 from tftool.frames.frames import Frames
 from tftool.frames.notes import beyond_limits, joints_at_rest
-from tftool.frames.source_options import RecordingOptions, RobotOptions
+from tftool.frames.source_options import DescriptionOptions, RecordingOptions
 from tftool.recordings.cache_heads import default_folder
 from tftool.recordings.column_cache import ColumnCache
 from tftool.recordings.contract import Progress
@@ -14,7 +14,7 @@ from tftool.robots.robot_model import Robot, load_urdf
 
 
 def read_frames(
-    found: Found, robot: RobotOptions, recording: RecordingOptions, progress: Progress | None
+    found: Found, robot: DescriptionOptions, recording: RecordingOptions, progress: Progress | None
 ) -> Frames:
     """Read a recording, a robot description or a file of static transforms."""
     if found.kind.is_recording:
@@ -24,7 +24,7 @@ def read_frames(
 
 
 def _read_recording(
-    found: Found, options: RobotOptions, reading: RecordingOptions, progress: Progress | None
+    found: Found, options: DescriptionOptions, reading: RecordingOptions, progress: Progress | None
 ) -> Frames:
     robot = _robot_beside(options)
     folder = None if reading.no_cache else default_folder()
@@ -45,7 +45,7 @@ def _read_recording(
     return Frames("recording", recording.name, recording=recording, found=found, notes=notes)
 
 
-def _robot_beside(options: RobotOptions) -> Robot | None:
+def _robot_beside(options: DescriptionOptions) -> Robot | None:
     """Read a recording's robot description."""
     if options.joints:
         options.refuse("The joints of a recording cannot be set")
@@ -58,7 +58,7 @@ def _robot_beside(options: RobotOptions) -> Robot | None:
     return load_urdf(options.urdf, options.arguments)
 
 
-def _described(found: Found, options: RobotOptions) -> Frames:
+def _described(found: Found, options: DescriptionOptions) -> Frames:
     robot = load_described(found, options)
     buffer = robot.buffer(options.joints)
     notes = (
@@ -71,7 +71,7 @@ def _described(found: Found, options: RobotOptions) -> Frames:
     )
 
 
-def load_described(found: Found, options: RobotOptions) -> Robot:
+def load_described(found: Found, options: DescriptionOptions) -> Robot:
     """Read the description named by FROM.
 
     Raises:
@@ -85,7 +85,7 @@ def load_described(found: Found, options: RobotOptions) -> Robot:
     return load_urdf(found.paths[0], options.arguments)
 
 
-def _read_statics(found: Found, options: RobotOptions) -> Frames:
+def _read_statics(found: Found, options: DescriptionOptions) -> Frames:
     from tftool.robots.static_publishers import load_statics
 
     options.refuse(f"'{visible(found.name)}' is a {found.kind.value}, and no robot")

@@ -8,7 +8,7 @@ from tftool.base.errors import UsageError
 
 
 @dataclass(frozen=True, slots=True)
-class RobotOptions:
+class DescriptionOptions:
     """Options about the robot description in FROM or beside it.
 
     Attributes:

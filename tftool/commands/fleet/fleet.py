@@ -24,7 +24,7 @@ from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
 from tftool.commands.fleet.fleet_tasks import NONE_FOUND, UNREADABLE, FleetTask
 from tftool.commands.fleet.rows import Row, RowFile
-from tftool.commands.fleet.workers import Processes, Workers
+from tftool.commands.fleet.workers import Workers, processes
 from tftool.commands.shared.notices import notice
 from tftool.opener import named
 from tftool.recordings.containers import SUFFIXES
@@ -155,7 +155,7 @@ def _failure(error: Exception) -> str:
 
 def _alone(source: str, task: FleetTask) -> list[Row]:
     """Process a recording alone in a new process, so that a crash affects no other recording."""
-    with Processes(1).open() as pool:
+    with processes(1) as pool:
         try:
             return pool.submit(task.rows, source, source).result()
         except BrokenExecutor:

@@ -1,9 +1,8 @@
 """Tasks run on each of many recordings, with table rows as results."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, ClassVar
 
 from tftool.base.errors import TftoolError, UsageError
 from tftool.base.stamps import as_seconds
@@ -73,34 +72,49 @@ UNREADABLE = "unreadable"
 """The id of the one row of a recording that cannot be read."""
 
 
-class FleetTask(Protocol):
-    """A task for one recording; it is pickled for other processes."""
+class FleetTask:
+    """A task for one recording; it is pickled for other processes.
 
-    @property
-    def columns(self) -> Mapping[str, ColumnKind]:
-        """Return the columns of a row."""
+    Attributes:
+        columns: The columns of a row.
+        judged: Names of the columns that `outcome` reads.
+    """
+
+    __slots__ = ()
+
+    columns: ClassVar[Mapping[str, ColumnKind]]
+    judged: ClassVar[Sequence[str]]
 
     def rows(self, source: str, place: str) -> list[Row]:
         """Return the rows of one recording; an unreadable one gives a row too, and raises nothing.
 
         Args:
             source: Its name.
-            place: Its path.
+            place: Its path or URL.
         """
+        try:
+            with fetched(place) as path:
+                return self.read(source, path)
+        except UsageError:
+            raise
+        except (TftoolError, OSError, MemoryError) as error:
+            return [self.unreadable(source, str(error) or type(error).__name__)]
+
+    def read(self, source: str, path: str) -> list[Row]:
+        """Return the rows of a recording on this machine."""
+        raise NotImplementedError
 
     def unreadable(self, source: str, why: str) -> Row:
         """Return the row of an unreadable recording."""
-
-    @property
-    def judged(self) -> Sequence[str]:
-        """Return the names of the columns that `outcome` reads."""
+        raise NotImplementedError
 
     def outcome(self, rows: Sequence[Row]) -> str:
         """Return the outcome for one recording, a word that `told` counts."""
+        raise NotImplementedError
 
 
 @dataclass(frozen=True, slots=True)
-class Examination:
+class Examination(FleetTask):
     """Task of `doctor`: a row for each finding.
 
     Attributes:
@@ -110,21 +124,16 @@ class Examination:
         scope: Part of a recording to examine.
     """
 
+    columns = FINDINGS
+    judged = ("id", "severity", "because_of")
+
     settings: "Settings"
     select: tuple[str, ...]
     ignore: tuple[str, ...]
     scope: "Scope"
 
-    @property
-    def columns(self) -> Mapping[str, ColumnKind]:
-        """Return the columns of a row."""
-        return FINDINGS
-
-    def rows(self, source: str, place: str) -> list[Row]:
+    def read(self, source: str, path: str) -> list[Row]:
         """Return a row for each finding of one recording."""
-        return _told(self, source, place, partial(self._examined, source))
-
-    def _examined(self, source: str, path: str) -> list[Row]:
         rules, _ = rules_beside(path)
         with open_recording(path) as recording:
             material = evidence_of_recording(recording, self.scope)
@@ -172,11 +181,6 @@ class Examination:
             "count": 1,
         }
 
-    @property
-    def judged(self) -> Sequence[str]:
-        """Return the names of the columns that `outcome` reads."""
-        return ("id", "severity", "because_of")
-
     def outcome(self, rows: Sequence[Row]) -> str:
         """Return the worst severity among findings that are not consequences of others."""
         if rows[0]["id"] in (UNREADABLE, NONE_FOUND):
@@ -186,20 +190,14 @@ class Examination:
 
 
 @dataclass(frozen=True, slots=True)
-class Inventory:
+class Inventory(FleetTask):
     """Task of `info`: one row per recording."""
 
-    @property
-    def columns(self) -> Mapping[str, ColumnKind]:
-        """Return the columns of a row."""
-        return FACTS
+    columns = FACTS
+    judged = ("damage", "unreadable")
 
-    def rows(self, source: str, place: str) -> list[Row]:
-        """Return the rows of one recording."""
-        return _told(self, source, place, partial(self._listed, source))
-
-    @staticmethod
-    def _listed(source: str, path: str) -> list[Row]:
+    def read(self, source: str, path: str) -> list[Row]:
+        """Return the row of one recording."""
         with open_recording(path) as recording:
             held, transforms = recording.source, recording.transforms
             model = Model(Evidence(source, held.kind, transforms, start=held.start, end=held.end))
@@ -225,27 +223,8 @@ class Inventory:
         """Return the row of an unreadable recording."""
         return {"source": source, "unreadable": why}
 
-    @property
-    def judged(self) -> Sequence[str]:
-        """Return the names of the columns that `outcome` reads."""
-        return ("damage", "unreadable")
-
     def outcome(self, rows: Sequence[Row]) -> str:
         """Return whether the recording is readable and complete."""
         if rows[0].get("unreadable") is not None:
             return UNREADABLE
         return "damaged" if rows[0]["damage"] else "whole"
-
-
-def _told(task: FleetTask, source: str, place: str, work: Callable[[str], list[Row]]) -> list[Row]:
-    """Run a task on a local or remote recording; return a row also if it cannot be read."""
-    try:
-        with fetched(place) as path:
-            return work(path)
-    except UsageError:
-        raise
-    except (TftoolError, OSError, MemoryError) as error:
-        return [task.unreadable(source, str(error) or type(error).__name__)]
-
-
-# Who works

@@ -10,8 +10,10 @@ from concurrent.futures import (
     ProcessPoolExecutor,
 )
 from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
+from functools import partial
 from multiprocessing import get_context
-from typing import Any, Protocol
+from typing import Any
 
 from tftool.base.errors import InputError, UsageError
 from tftool.base.escaping import visible
@@ -67,40 +69,30 @@ _ON_CLUSTER = 512
 """Recordings that wait at a cluster at once."""
 
 
-class Workers(Protocol):
-    """Base of the executors.
+@dataclass(frozen=True, slots=True)
+class Workers:
+    """Executors of one kind.
 
     Attributes:
         count: How many recordings are worked on at once.
         window: How many are handed over at once.
-        place: A recording's path for the workers.
+        open: Returns an executor; after a failure, a new one.
+        is_remote: Whether they need whole paths: all workers share the file system.
     """
 
     count: int
     window: int
-
-    def open(self) -> AbstractContextManager[Executor]:
-        """Return an executor; after a failure, a new one."""
+    open: Callable[[], AbstractContextManager[Executor]]
+    is_remote: bool = False
 
     def place(self, source: str) -> str:
         """Return the path or URL under which the workers open a recording."""
-
-
-class OneProcess:
-    """Executor that does all work in this process."""
-
-    count = window = 1
-
-    def open(self) -> AbstractContextManager[Executor]:
-        """Return an executor that does the work at once."""
-        return _Here()
-
-    def place(self, source: str) -> str:
-        """Return the name unchanged."""
-        return source
+        return os.path.abspath(source) if self.is_remote and not is_url(source) else source
 
 
 class _Here(Executor):
+    """Executor that does all work in this process, at once."""
+
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         future: Future[Any] = Future()
         try:
@@ -110,64 +102,26 @@ class _Here(Executor):
         return future
 
 
-class Processes:
-    """Executor with several processes on this machine.
-
-    Args:
-        count: How many.
-    """
-
-    def __init__(self, count: int) -> None:
-        self.count = count
-        self.window = 4 * count
-
-    def open(self) -> AbstractContextManager[Executor]:
-        """Return a pool of processes."""
-        # Spawned, not forked: a fork would carry over threads and locks.
-        return ProcessPoolExecutor(
-            self.count, mp_context=get_context("spawn"), initializer=_end_with_ctrl_c
-        )
-
-    def place(self, source: str) -> str:
-        """Return the name unchanged."""
-        return source
+def processes(count: int) -> ProcessPoolExecutor:
+    """Return a pool of processes on this machine."""
+    # Spawned, not forked: a fork would carry over threads and locks. The terminal sends Ctrl-C to
+    # every process: it ends a worker silently.
+    end_with_ctrl_c = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    return ProcessPoolExecutor(count, get_context("spawn"), end_with_ctrl_c)
 
 
-def _end_with_ctrl_c() -> None:
-    """Let Ctrl-C end a worker silently: the terminal sends it to every process."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-class Cluster:
-    """A cluster of Dask workers.
-
-    Args:
-        address: Address of its scheduler.
-    """
-
-    count = 1
-    window = _ON_CLUSTER
-
-    def __init__(self, address: str) -> None:
-        self.address = address
-
-    def open(self) -> AbstractContextManager[Executor]:
-        """Return an executor of the cluster."""
-        return connected(self.address)
-
-    def place(self, source: str) -> str:
-        """Return the absolute path: all workers share the file system."""
-        return source if is_url(source) else os.path.abspath(source)
-
-
-def workers_of(processes: int, scheduler: str) -> Workers:
-    """Return the executor that the command's options choose.
+def workers_of(count: int, scheduler: str) -> Workers:
+    """Return the workers that a command's options choose.
 
     Raises:
         UsageError: If both are given.
     """
     if not scheduler:
-        return OneProcess() if processes == 1 else Processes(processes)
-    if processes != 1:
+        return (
+            Workers(1, 1, _Here)
+            if count == 1
+            else Workers(count, 4 * count, partial(processes, count))
+        )
+    if count != 1:
         raise UsageError("--scheduler replaces --jobs: leave --jobs out.")
-    return Cluster(scheduler)
+    return Workers(1, _ON_CLUSTER, partial(connected, scheduler), is_remote=True)

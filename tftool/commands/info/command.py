@@ -14,7 +14,7 @@ from tftool.commands.shared.open_from import open_from
 from tftool.commands.shared.printer import line_width, write_json
 from tftool.drawing import recording_view
 from tftool.frames.notes import odometry_notes
-from tftool.frames.source_options import RobotOptions
+from tftool.frames.source_options import DescriptionOptions
 from tftool.opener import named
 from tftool.recordings.find import Kind
 from tftool.recordings.recording import Recording
@@ -141,7 +141,7 @@ def _print(recording: Recording, name: str, *, has_urdf: bool) -> None:
 def _show_robot(connection: Connection, path: Path, name: str, *, for_programs: bool) -> None:
     from tftool.drawing import robot_view as view
 
-    RobotOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
+    DescriptionOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
         "'info' shows joints at rest"
     )
     robot = load_urdf(path, connection.robot.arguments)

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, Self, TypedDict
 
 from tftool.base.errors import UsageError
 from tftool.base.escaping import visible
-from tftool.commands.shared.declaration import Invocation, Kind
+from tftool.commands.shared.declaration import CommandKind, Invocation
 from tftool.commands.shared.notices import notice
-from tftool.frames.source_options import RecordingOptions, RobotOptions
+from tftool.frames.source_options import DescriptionOptions, RecordingOptions
 from tftool.world.link.link_options import REACHES, Options, domain_here, reach_at, read_reach
 from tftool.world.link.reach import Reach
 
@@ -111,12 +111,12 @@ class Connection:
     """
 
     command: str = "tftool"
-    kind: Kind = field(default_factory=Kind)
+    kind: CommandKind = field(default_factory=CommandKind)
     mode: Mode = Mode.AUTO
     domain: int = 0
     reach: Reach = field(default_factory=REACHES[0])
     read_only: bool = False
-    robot: RobotOptions = field(default_factory=RobotOptions)
+    robot: DescriptionOptions = field(default_factory=DescriptionOptions)
     recording: RecordingOptions = field(default_factory=RecordingOptions)
     providers: Providers = field(default_factory=Providers, compare=False, repr=False)
     context: "Context | None" = field(default=None, compare=False, repr=False)
@@ -245,7 +245,7 @@ class Connection:
 
 def read(
     command: str,
-    kind: Kind,
+    kind: CommandKind,
     context: "Context | None" = None,
     *,
     join: bool = False,
@@ -285,7 +285,7 @@ def read(
         domain_here() if domain is None else domain,
         far or read_reach(reach),
         read_only,
-        RobotOptions(
+        DescriptionOptions(
             dict(_joint(word) for word in joint or ()),
             dict(_argument(word) for word in argument or ()),
             urdf,

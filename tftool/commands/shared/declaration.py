@@ -173,8 +173,8 @@ POSE_OPTIONS: dict[str, Any] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
-    """Kind of a command.
+class CommandKind:
+    """CommandKind of a command.
 
     Attributes:
         shares: Whether it joins or hosts a session. Its `run` takes a `Connection` first then.
@@ -224,14 +224,14 @@ class Invocation(NamedTuple):
 class Command:
     """Base of commands: the fields of a derived class are its options, its docstring is the help.
 
-    Class keywords are attributes of `Kind`: `class EchoOptions(Command, looks_only=True)`. An
-    object has the values that were given; `run` in the command's module takes it.
+    Class keywords are attributes of `CommandKind`: `class EchoOptions(Command, looks_only=True)`.
+    An object has the values that were given; `run` in the command's module takes it.
     """
 
-    kind: ClassVar[Kind]
+    kind: ClassVar[CommandKind]
 
     def __init_subclass__(cls, **kind: Any) -> None:
-        cls.kind = Kind(**kind)
+        cls.kind = CommandKind(**kind)
 
     def __init__(self, **given: Any) -> None:
         vars(self).update(given)

@@ -12,7 +12,7 @@ from tftool.commands.shared.notices import notice
 from tftool.commands.shared.open_from import WHOLE, open_from
 from tftool.doctor.evidence import Evidence, Scope, evidence_of_frames
 from tftool.frames.frames import Frames
-from tftool.frames.source_options import RobotOptions
+from tftool.frames.source_options import DescriptionOptions
 from tftool.opener import named, scenario_named
 from tftool.recordings.find import Kind
 from tftool.scenario.doctor_expectations import NO_RULES, DoctorRules, rules_beside
@@ -68,7 +68,7 @@ def evidence_from(
         )
     if is_recording:
         # How long it lasts is known, and the description that was given is evidence of its own.
-        connection, lasting = replace(connection, robot=RobotOptions()), None
+        connection, lasting = replace(connection, robot=DescriptionOptions()), None
     # Of a robot read by its address the headers are heard, too; it writes to no topic.
     heard = HeaderListener() if connection.reach.only_reads else None
     watch = None if heard is None else heard.begin
